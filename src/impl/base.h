@@ -1,0 +1,66 @@
+/* base.h: the system headers, everything that depends on the compiler, and small integer helpers */
+#ifndef SLI_BASE_H
+#define SLI_BASE_H
+
+#include "../public/config.h"
+
+#include <errno.h>
+#include <float.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* AVX tables need per-function targets and correctly aligned vector spills: MSVC has no attribute, MinGW misaligns. */
+#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__) && !defined(_WIN32)
+#define SLI_X86 1
+#include <cpuid.h>
+#include <immintrin.h>
+#endif
+#if defined(__aarch64__) && defined(__ARM_NEON)
+#define SLI_ARM 1
+#include <arm_neon.h>
+#endif
+
+#if defined(__GNUC__)
+#define SLI_INLINE __attribute__((unused)) static inline
+#define SLI_TARGET(list) __attribute__((target(list)))
+#define SLI_RESTRICT __restrict__
+#else
+#define SLI_INLINE static inline
+#define SLI_TARGET(list)
+#define SLI_RESTRICT
+#endif
+
+/* States a precondition; SL_VERIFY builds prove it. */
+#if defined(SL_VERIFY)
+#define SLI_ASSERT(condition) ((condition) ? (void)0 : abort())
+#else
+#define SLI_ASSERT(condition) ((void)0)
+#endif
+
+SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
+    return a < b ? a : b;
+}
+
+SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
+    return a > b ? a : b;
+}
+
+/* a clamped to 0..high */
+SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
+    return a < 0 ? 0 : a > high ? high : a;
+}
+
+SLI_INLINE int sli_is_finite(double a) {
+    return a - a == 0.0;
+}
+
+/* Seconds of processor time since some moment: C99 has no other clock. */
+SLI_INLINE double sli_seconds(void) {
+    return (double)clock() / (double)CLOCKS_PER_SEC;
+}
+
+#endif

@@ -1,0 +1,216 @@
+/* factor.h: the factor object: creation, refactorization, and what can be asked of it */
+#ifndef SLI_FACTOR_H
+#define SLI_FACTOR_H
+
+#include "../public/factor.h"
+#include "csc.h"
+#include "select.h"
+#include "uplooking.h"
+
+static void sli_factor_layout(sl_factor *F, sli_block *b) {
+    const size_t n = (size_t)F->S->n, supers = (size_t)F->S->n_supers;
+    (void)sli_take(b, 1, sizeof(sl_factor));
+    F->D = SLI_TAKE(b, double, n);
+    F->x = SLI_TAKE(b, double, n);
+    F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
+    F->head = SLI_TAKE(b, sl_int, n);
+    F->next = SLI_TAKE(b, sl_int, supers);
+    F->position = SLI_TAKE(b, sl_int, supers);
+    F->list = SLI_TAKE(b, uint64_t, supers);
+    F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    F->L = SLI_TAKE(b, double, F->S->panel_begin[F->S->n_supers]);
+}
+
+/* Whether A can be the matrix that S was made from. */
+static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
+    if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
+        return SL_ERR_PATTERN;
+    }
+    if (S->nnz_input > 0 && (A->i == NULL || A->x == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_fingerprint(A) == S->fingerprint ? SL_OK : SL_ERR_PATTERN;
+}
+
+static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
+    to->isa = from->isa;
+    to->positive = from->positive;
+    to->negative = from->negative;
+    to->null = from->null;
+    to->pivot_min = from->pivot_min;
+    to->pivot_max = from->pivot_max;
+    to->seconds_factor = from->seconds_factor;
+    to->bytes_factor = from->bytes_factor;
+}
+
+SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
+    const double started = sli_seconds();
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    F->is_good = 0;
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_stats_clear_error(&F->stats);
+    status = sli_uplooking(F, A);
+    F->stats.seconds_factor = sli_seconds() - started;
+    F->is_good = status == SL_OK;
+    if (stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+        stats->error_row = F->stats.error_row;
+        stats->error_column = F->stats.error_column;
+        stats->error_value = F->stats.error_value;
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A, const sl_options *opt,
+                                  sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_factor draft;
+    sli_block b = {NULL, 0, 0};
+    sl_status status;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_factor_check(S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&draft, 0, sizeof draft);
+    draft.allocator = a;
+    draft.S = S;
+    draft.null_tolerance = opt == NULL || opt->null_tolerance == 0.0 ? 64.0 * DBL_EPSILON : opt->null_tolerance;
+    draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+    if (draft.kernels == NULL) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_factor_layout(&draft, &b);
+        draft.stats.bytes_factor = b.used;
+        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sl_factor *F = (sl_factor *)(void *)b.base;
+        draft.stats.isa = draft.kernels->isa;
+        *F = draft;
+        if (S->n > 0) {
+            memset(F->x, 0, (size_t)S->n * sizeof(double));
+        }
+        status = sl_factor_refactor(F, A, stats);
+        if (status == SL_OK) {
+            *out = F;
+        } else {
+            sl_factor_free(F);
+        }
+    }
+    return status;
+}
+
+SL_API void sl_factor_free(sl_factor *F) {
+    if (F != NULL) {
+        const sl_allocator a = F->allocator;
+        sli_free(&a, F);
+    }
+}
+
+SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (F != NULL && stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+    }
+}
+
+SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
+    double sum = 0.0;
+    sl_int k;
+    if (F == NULL || log_abs_det == NULL || sign == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    for (k = 0; k < F->S->n; k++) {
+        sum += log(fabs(F->D[k]));
+    }
+    *log_abs_det = sum;
+    *sign = F->stats.negative % 2 == 0 ? 1.0 : -1.0;
+    return SL_OK;
+}
+
+/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them. */
+static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
+    const sl_symbolic *S = F->S;
+    sl_int s, j, r;
+    sl_off count = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int first = S->super_first[s], width = S->steps[s].width, height = width + S->steps[s].below;
+        for (j = 0; j < width; j++) {
+            for (r = j; r < height; r++) {
+                const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];
+                if (l != 0.0) {
+                    if (M != NULL) {
+                        M->i[count] = r < width ? first + r : S->rows[S->rows_begin[s] + r - width];
+                        M->x[count] = l;
+                    }
+                    count++;
+                }
+            }
+            if (M != NULL) {
+                M->p[first + j + 1] = (sl_int)count;
+            }
+        }
+    }
+    return count;
+}
+
+SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_off count;
+    sl_status status;
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    count = sli_factor_entries(F, NULL);
+    if (count > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
+    if (status == SL_OK) {
+        (*out)->p[0] = 0;
+        (void)sli_factor_entries(F, *out);
+    }
+    return status;
+}
+
+SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
+    sl_factor_view_t v = {NULL, NULL, NULL};
+    if (F != NULL) {
+        v.symbolic = F->S;
+        v.L = F->L;
+        v.D = F->D;
+    }
+    return v;
+}
+
+#endif

@@ -1,0 +1,85 @@
+/* isa_avx2.h: the kernels in AVX2 and FMA: an octet is two registers */
+#ifndef SLI_ISA_AVX2_H
+#define SLI_ISA_AVX2_H
+
+#include "kernels.h"
+
+#if defined(SLI_X86)
+
+#define SLV_NAME(f) sli_##f##_avx2
+#define SLV_ISA SL_ISA_AVX2
+#define SLV_FUNCTION SLI_TARGET("avx2,fma")
+#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+
+SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
+    low = _mm_add_pd(low, high);
+    return _mm_cvtsd_f64(_mm_add_sd(low, _mm_unpackhi_pd(low, low)));
+}
+
+#define SLV_DECLARE(a) __m256d a##_0, a##_1;
+#define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
+#define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
+#define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLV_AXPY(a, l, p) { \
+        const __m256d s_ = _mm256_broadcast_sd(p); \
+        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0); \
+        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1); \
+    }
+#define SLV_DOT(a, l, v) a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0), \
+                         a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
+#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)), \
+                                _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
+
+#define SLW_NAME(f) sli_##f##2_avx2
+#define SLW_LANES 2
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#include "lanes.inl.h"
+
+#define SLW_NAME(f) sli_##f##4_avx2
+#define SLW_LANES 4
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_DECLARE(a) __m256d a;
+#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#include "lanes.inl.h"
+
+#define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_LANES 8
+#define SLW_ROWS 4
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_EACH_DOWN SLI_EACH4_DOWN
+#define SLW_DECLARE(a) __m256d a##_0, a##_1;
+#define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLW_FNMA(a, s, b) { \
+        const __m256d s_ = _mm256_broadcast_sd(&(s)); \
+        a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
+        a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
+    }
+#define SLW_DIVIDE(a, s) a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#include "lanes.inl.h"
+
+#include "tile.inl.h"
+
+#include "body.inl.h"
+
+#include "words_end.inl.h"
+
+#endif
+
+#endif

@@ -1,0 +1,74 @@
+/* isa_avx512.h: the kernels in AVX-512: an octet is one register */
+#ifndef SLI_ISA_AVX512_H
+#define SLI_ISA_AVX512_H
+
+#include "isa_avx2.h"
+#include "kernels.h"
+
+#if defined(SLI_X86)
+
+#define SLV_NAME(f) sli_##f##_avx512
+#define SLV_ISA SL_ISA_AVX512
+#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
+#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_DECLARE(a) __m512d a;
+#define SLV_ZERO(a) a = _mm512_setzero_pd();
+#define SLV_LOAD(a, p) a = _mm512_load_pd(p);
+#define SLV_STORE(p, a) _mm512_store_pd((p), a);
+#define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
+#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
+/* the masked extraction keeps gcc's own headers from warning in C++ */
+#define SLV_HALVES(a) \
+    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0), _mm512_maskz_extractf64x4_pd(0xff, a, 1))
+#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
+
+#define SLW_NAME(f) sli_##f##2_avx512
+#define SLW_LANES 2
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#include "lanes.inl.h"
+
+#define SLW_NAME(f) sli_##f##4_avx512
+#define SLW_LANES 4
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_DECLARE(a) __m256d a;
+#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#include "lanes.inl.h"
+
+#define SLW_NAME(f) sli_##f##8_avx512
+#define SLW_LANES 8
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_DECLARE(a) __m512d a;
+#define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(_mm512_set1_pd(s), b, a);
+#define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#include "lanes.inl.h"
+
+#include "tile.inl.h"
+
+#include "body.inl.h"
+
+#include "words_end.inl.h"
+#undef SLV_HALVES
+
+#endif
+
+#endif

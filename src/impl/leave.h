@@ -1,0 +1,19 @@
+/* leave.h: takes every internal macro away again */
+#undef SLI_X86
+#undef SLI_ARM
+#undef SLI_INLINE
+#undef SLI_TARGET
+#undef SLI_RESTRICT
+#undef SLI_ASSERT
+#undef SLI_ALIGN
+#undef SLI_TAKE
+#undef SLI_SORT_SMALL
+#undef SLI_TILE
+#undef SLI_EACH4
+#undef SLI_EACH8
+#undef SLI_EACH4_AGAIN
+#undef SLI_EACH8_AGAIN
+#undef SLI_EACH4_DOWN
+#undef SLI_EACH8_DOWN
+#undef SLI_TOKEN_MAX
+#undef SLI_ORDER_TINY

@@ -1,0 +1,81 @@
+/* order_metis.h: nested dissection of one connected component by METIS_NodeND */
+#ifndef SLI_ORDER_METIS_H
+#define SLI_ORDER_METIS_H
+
+#include "symbolic_types.h"
+
+#if !defined(SL_NO_METIS)
+
+#include <metis.h>
+
+/* The component's graph as METIS wants it: its own numbering, no loops, no edge twice. */
+static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count, const sl_int *local, idx_t *xadj,
+                            idx_t *adjncy, idx_t *mark) {
+    sl_int k;
+    idx_t edges = 0;
+    for (k = 0; k < count; k++) {
+        mark[k] = -1;
+    }
+    for (k = 0; k < count; k++) {
+        const sl_int v = vertices[k];
+        sl_off e;
+        xadj[k] = edges;
+        mark[k] = k;
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            const sl_int u = local[G->to[e]];
+            if (mark[u] != k) {
+                mark[u] = k;
+                adjncy[edges++] = u;
+            }
+        }
+    }
+    xadj[count] = edges;
+}
+
+/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry. */
+static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count, const sl_int *local,
+                                     const sl_int *metis_options, const sl_allocator *a) {
+    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_off edges = 0;
+    sl_status status = SL_OK;
+    sl_int k;
+    int pass, result;
+    for (k = 0; k < count; k++) {
+        edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
+    }
+    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
+        adjncy = SLI_TAKE(&b, idx_t, edges);
+        perm = SLI_TAKE(&b, idx_t, count);
+        iperm = SLI_TAKE(&b, idx_t, count);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_metis_graph(G, vertices, count, local, xadj, adjncy, iperm);
+    METIS_SetDefaultOptions(options);
+    for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
+        options[k] = metis_options[k];
+    }
+    options[METIS_OPTION_NUMBERING] = 0;
+    result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
+    if (result == METIS_OK) {
+        for (k = 0; k < count; k++) { /* xadj is done with: the old numbers of the component go there */
+            xadj[k] = vertices[k];
+        }
+        for (k = 0; k < count; k++) {
+            vertices[k] = (sl_int)xadj[perm[k]];
+        }
+    }
+    sli_free(a, b.base);
+    return result == METIS_OK ? SL_OK : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY : SL_ERR_ORDERING;
+}
+
+#endif
+
+#endif

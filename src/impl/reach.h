@@ -1,0 +1,135 @@
+/* reach.h: the columns that a set of rows touches: the elimination tree's paths from them to the roots */
+#ifndef SLI_REACH_H
+#define SLI_REACH_H
+
+#include "sort.h"
+#include "symbolic_types.h"
+
+/* A reach, compiled for the kernels: its supernodes ascending, each from the first column needed, and the places of
+ * their rows in a vector that holds the reach's columns alone. */
+typedef struct sli_reach {
+    sl_int count;           /* supernodes */
+    sl_int columns;         /* length of the vector */
+    sl_int tallest, widest; /* largest height and width, for the scratch */
+    sl_off n_rows;          /* length of rows */
+    sl_off entries;         /* doubles of L that a sweep reads */
+    const sli_step *steps;  /* count */
+    const sl_int *rows;     /* n_rows, step after step */
+} sli_reach;
+
+/* The reach of everything: what the analysis holds already. */
+static sli_reach sli_reach_all(const sl_symbolic *S) {
+    sli_reach R;
+    R.count = S->n_supers;
+    R.columns = S->n;
+    R.tallest = S->tallest;
+    R.widest = S->widest;
+    R.n_rows = S->rows_begin[S->n_supers];
+    R.entries = S->panel_begin[S->n_supers];
+    R.steps = S->steps;
+    R.rows = S->rows;
+    return R;
+}
+
+/* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a postorder the first
+ * ancestor at or after it is on the next seed's own path, so that paths join without a mark on any column. */
+SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sl_int *k) {
+    const sl_int here = S->super_of[sli_key(seeds[*k])];
+    sl_int s = here;
+    while (++*k < count && s == here) {
+        s = S->super_of[sli_key(seeds[*k])];
+        if (s != here) {
+            return s;
+        }
+    }
+    return S->n_supers;
+}
+
+/* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
+static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_reach *R) {
+    sl_int k = 0, s, next;
+    memset(R, 0, sizeof *R);
+    while (k < count) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            R->count++;
+            R->n_rows += S->rows_begin[s + 1] - S->rows_begin[s];
+        }
+    }
+}
+
+/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded through `up` of the steps
+ * whose parent has not come yet; its top waits for the smallest supernode. */
+static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed, sl_int *waiting) {
+    const sl_int first = S->super_first[s];
+    sli_step *step = &steps[at];
+    sl_int column = seed;
+    while (*waiting != -1 && S->super_parent[S->super_of[steps[*waiting].column]] == s) {
+        sli_step *child = &steps[*waiting];
+        const sl_int c = S->super_of[child->column];
+        column = sli_min(column, S->rows[S->rows_begin[c]]);
+        *waiting = child->up;
+        child->up = at;
+    }
+    step->panel = S->panel_begin[s];
+    step->first_tile = (column - first) / SLI_TILE;
+    step->column = first + SLI_TILE * step->first_tile;
+    step->width = S->super_first[s + 1] - first;
+    step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+    step->up = -1;
+    if (S->super_parent[s] != -1) {
+        step->up = *waiting;
+        *waiting = at;
+    }
+}
+
+/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them. */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at, sl_int *places) {
+    const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
+    const sl_int below = steps[at].below;
+    sl_int i = 0;
+    while (i < below) {
+        sl_int end, shift;
+        at = steps[at].up;
+        end = steps[at].column + sli_step_columns(&steps[at]);
+        shift = steps[at].base - steps[at].column;
+        for (; i < below && rows[i] < end; i++) {
+            places[i] = rows[i] + shift;
+        }
+    }
+}
+
+/* Compiles the reach that sli_reach_measure has counted. O(reach). */
+static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_step *steps, sl_int *rows,
+                           sli_reach *R) {
+    sl_int k = 0, at = 0, waiting = -1, s, next;
+    sl_off placed = 0;
+    while (k < count) {
+        sl_int seed = sli_key(seeds[k]);
+        s = S->super_of[seed];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            sli_reach_enter(S, steps, at++, s, seed, &waiting);
+            seed = INT32_MAX;
+        }
+    }
+    for (at = 0; at < R->count; at++) {
+        const sli_step *step = &steps[at];
+        steps[at].base = R->columns;
+        R->columns += sli_step_columns(step);
+        R->widest = sli_max(R->widest, step->width);
+        R->tallest = sli_max(R->tallest, step->width + step->below);
+        R->entries += sli_panel_size(step->width, step->below) - sli_tile_offset(step->width, step->first_tile) -
+                      (sl_off)SLI_TILE * SLI_TILE * step->first_tile *
+                          (sli_tiles(step->width + step->below) - step->first_tile);
+    }
+    for (at = 0; at < R->count; at++) {
+        sli_reach_places(S, steps, at, rows + placed);
+        placed += steps[at].below;
+    }
+    R->steps = steps;
+    R->rows = rows;
+}
+
+#endif

@@ -1,0 +1,40 @@
+/* solve.h: full solves: the query in which everything is known and everything wanted */
+#ifndef SLI_SOLVE_H
+#define SLI_SOLVE_H
+
+#include "sweep.h"
+
+SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                                 sl_work *W) {
+    sli_query q;
+    sl_status status;
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    q = sli_query_all(F->S);
+    return sli_answer(F, &q, X, ldx, B, ldb, nrhs, W);
+}
+
+/* Room for the blocks of a query. */
+static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
+    const size_t bytes = nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 1;
+    return bytes == 0 ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+}
+
+SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
+    sli_query q;
+    if (W == NULL || F == NULL || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    q = sli_query_all(F->S);
+    return sli_work_reserve(W, &q, nrhs);
+}
+
+#endif

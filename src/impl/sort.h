@@ -1,0 +1,58 @@
+/* sort.h: sorts keyed numbers: insertion for a few, radix for many */
+#ifndef SLI_SORT_H
+#define SLI_SORT_H
+
+#include "base.h"
+
+/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move. */
+SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
+    return (uint64_t)(uint32_t)key << 32 | (uint32_t)value;
+}
+
+SLI_INLINE sl_int sli_key(uint64_t keyed) {
+    return (sl_int)(keyed >> 32);
+}
+
+SLI_INLINE sl_int sli_value(uint64_t keyed) {
+    return (sl_int)(uint32_t)(keyed & 0xffffffffu);
+}
+
+#define SLI_SORT_SMALL 48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
+
+/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more. O(count) a byte. */
+static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
+    sl_int i, k;
+    sl_int largest = 0;
+    int shift;
+    if (count <= SLI_SORT_SMALL) {
+        for (i = 1; i < count; i++) {
+            const uint64_t here = a[i];
+            for (k = i; k > 0 && a[k - 1] >> 32 > here >> 32; k--) {
+                a[k] = a[k - 1];
+            }
+            a[k] = here;
+        }
+        return;
+    }
+    for (i = 0; i < count; i++) {
+        largest = sli_max(largest, sli_key(a[i]));
+    }
+    for (shift = 32; shift < 64 && largest > 0; shift += 8, largest >>= 8) {
+        sl_int start[256], total = 0;
+        memset(start, 0, sizeof start);
+        for (i = 0; i < count; i++) {
+            start[(a[i] >> shift) & 255]++;
+        }
+        for (k = 0; k < 256; k++) {
+            const sl_int here = start[k];
+            start[k] = total;
+            total += here;
+        }
+        for (i = 0; i < count; i++) {
+            scratch[start[(a[i] >> shift) & 255]++] = a[i];
+        }
+        memcpy(a, scratch, (size_t)count * sizeof *a);
+    }
+}
+
+#endif

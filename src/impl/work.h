@@ -1,0 +1,57 @@
+/* work.h: the workspace: one block of a thread's scratch that only grows */
+#ifndef SLI_WORK_H
+#define SLI_WORK_H
+
+#include "../public/solve.h"
+#include "alloc.h"
+
+struct sl_work {
+    sl_allocator allocator;
+    void *block; /* size bytes, 64-byte aligned; contents live for one call */
+    size_t size;
+};
+
+/* At least bytes of scratch; what was in it is lost. */
+static sl_status sli_work_grow(sl_work *W, size_t bytes) {
+    void *block;
+    if (bytes <= W->size) {
+        return SL_OK;
+    }
+    block = sli_alloc(&W->allocator, bytes);
+    if (block == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    sli_free(&W->allocator, W->block);
+    W->block = block;
+    W->size = bytes;
+    return SL_OK;
+}
+
+SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
+    if (*out == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    (*out)->allocator = a;
+    (*out)->block = NULL;
+    (*out)->size = 0;
+    return SL_OK;
+}
+
+SL_API void sl_work_free(sl_work *W) {
+    if (W != NULL) {
+        const sl_allocator a = W->allocator;
+        sli_free(&a, W->block);
+        sli_free(&a, W);
+    }
+}
+
+SL_API size_t sl_work_bytes(const sl_work *W) {
+    return W == NULL ? 0 : W->size;
+}
+
+#endif

@@ -1,0 +1,64 @@
+/* factor.h: the numbers: P A P' = L D L' */
+#ifndef SL_PUBLIC_FACTOR_H
+#define SL_PUBLIC_FACTOR_H
+
+#include "types.h"
+
+/** Factors P A P' = L D L' with unit lower triangular L and diagonal D of any sign, without pivoting.
+ *
+ *  Positive definite, negative definite and quasi-definite matrices always work; a symmetric indefinite one works
+ *  if no pivot comes out null.
+ *
+ *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
+ *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
+ *  opt    [in]   isa, null_tolerance, allocator; may be NULL.
+ *  stats  [out]  the factor group; error_row, error_value; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
+ *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
+ *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_MEMORY.
+ *  Cost     O(sum over columns of entries^2); nnz_panels doubles kept.
+ *  Threads  any number at once on one S.
+ *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
+ *  Example  tests/test_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                                 const sl_options *opt, sl_stats *stats);
+
+/** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
+ *
+ *  F      [in,out]  on error F holds no factor and every solve refuses it, until a refactor succeeds.
+ *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY and SL_ERR_UNSUPPORTED aside.
+ *  Threads          nobody else may use F meanwhile.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
+
+/** Releases a factor; NULL is fine. */
+SL_API void sl_factor_free(sl_factor *F);
+
+/** Fills the factor group of stats again. */
+SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
+
+/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign);
+
+/** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
+ *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt);
+
+/** A look inside; the pointers live as long as F. */
+typedef struct sl_factor_view_t {
+    const sl_symbolic *symbolic;
+    const double *L; /* panels, laid out as sl_symbolic_view_t tells */
+    const double *D; /* n pivots, in pivot order */
+} sl_factor_view_t;
+
+SL_API sl_factor_view_t sl_factor_view(const sl_factor *F);
+
+#endif

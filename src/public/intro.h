@@ -1,0 +1,42 @@
+/* intro.h: what the library does, a quick start, notation, conventions, threads, references */
+#ifndef SL_PUBLIC_INTRO_H
+#define SL_PUBLIC_INTRO_H
+
+/* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then answers many small questions from
+ * that factor: b is nonzero at a few rows, x is wanted at a few others. The elimination tree tells which columns of L
+ * can matter; the answer is the one a full solve gives, at a cost that depends on the question [HDA17].
+ *
+ * Quick start (in one source file; link with -lmetis -lm):
+ *
+ *     #define SPARSE_LOCAL_IMPLEMENTATION
+ *     #include "sparse_local.h"
+ *
+ *     sl_csc A = {n, n, Ap, Ai, Ax};                     lower, upper or both triangles
+ *     sl_symbolic *S;  sl_factor *F;  sl_plan *P;
+ *     sl_symbolic_create(&S, &A, NULL, NULL);            once a pattern
+ *     sl_factor_create(&F, S, &A, NULL, NULL);           once a matrix
+ *     sl_factor_solve(F, x, n, b, n, 1, NULL);           full solve
+ *     sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL);
+ *     sl_plan_solve(P, F, x, nx, b, nb, 1, NULL);        local solve, any number of times
+ *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
+ *
+ * Notation     n rows of A; perm[k] is the row of A that is pivot k, iperm its inverse; parent is the elimination tree,
+ *              -1 at a root; L is unit lower triangular in supernodal panels, D diagonal; a reach is a set of columns
+ *              closed under parent.
+ * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and stats
+ *              may be NULL. Dense arguments are column-major with a leading dimension in elements. Row numbers, also
+ *              those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
+ * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
+ *              solve on one factor, each with its own sl_work.
+ *
+ * References
+ *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry processing, 2017.
+ *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
+ *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
+ *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
+ *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
+ *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
+ */
+
+#endif

@@ -1,0 +1,144 @@
+/* types.h: status codes, the matrix view, options, statistics, and the names of the opaque objects */
+#ifndef SL_PUBLIC_TYPES_H
+#define SL_PUBLIC_TYPES_H
+
+#include "config.h"
+
+/** What a call came to. Everything that can fail returns one; SL_OK is 0. */
+typedef enum sl_status {
+    SL_OK = 0,
+    SL_ERR_ARGUMENT,    /* NULL, negative size, leading dimension too small, index out of range or given twice */
+    SL_ERR_MEMORY,      /* the allocator returned NULL */
+    SL_ERR_PATTERN,     /* the matrix is malformed, or both triangles are stored and differ in pattern */
+    SL_ERR_PIVOT,       /* a null pivot: the matrix is singular, or needs pivoting; stats name the row */
+    SL_ERR_NOT_FINITE,  /* a NaN or an infinity in the values, or one that arose; stats name the row */
+    SL_ERR_TOO_LARGE,   /* a count does not fit its type */
+    SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
+    SL_ERR_IO,          /* a file could not be opened, read, parsed or written; stats name the line */
+    SL_ERR_ORDERING,    /* the ordering library failed */
+    SL_ERR_STATE        /* a failed factor, or objects that do not belong together */
+} sl_status;
+
+/** A name for a status, in words, static storage. Any value is accepted. */
+SL_API const char *sl_status_string(sl_status status);
+
+/** View of a sparse matrix in compressed columns: column j holds rows i[p[j]] .. i[p[j+1]-1]. Never owned or kept.
+ *
+ *  Rows of a column may stand in any order; duplicates are summed; explicit zeros are entries like others.
+ *  A symmetric matrix may store its lower triangle, its upper triangle, or both: the pattern decides. Of a matrix
+ *  that stores both, the pattern must be symmetric and the LOWER triangle's values are the ones read.
+ */
+typedef struct sl_csc {
+    sl_int n_rows;
+    sl_int n_cols;
+    const sl_int *p; /* n_cols + 1 positions, ascending, p[0] = 0 */
+    const sl_int *i; /* p[n_cols] row indices in 0..n_rows-1 */
+    const double *x; /* p[n_cols] values; NULL: pattern only (enough for sl_symbolic_create) */
+} sl_csc;
+
+/** Which entries of a symmetric matrix are stored. */
+typedef enum sl_triangle {
+    SL_TRIANGLE_NONE = 0, /* entries on the diagonal only, or none */
+    SL_TRIANGLE_LOWER,
+    SL_TRIANGLE_UPPER,
+    SL_TRIANGLE_BOTH
+} sl_triangle;
+
+/** How the stored entries are meant. */
+typedef enum sl_reading {
+    SL_AS_SYMMETRIC = 0, /* as the factorization reads them: one triangle stands for both */
+    SL_AS_STORED         /* a general matrix: every entry for itself */
+} sl_reading;
+
+typedef enum sl_ordering {
+    SL_ORDERING_DEFAULT = 0, /* METIS where compiled in, else natural */
+    SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
+    SL_ORDERING_GIVEN,       /* options.perm */
+    SL_ORDERING_NATURAL      /* 0, 1, 2, ... */
+} sl_ordering;
+
+/** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
+typedef enum sl_relaxation {
+    SL_RELAXATION_DEFAULT = 0, /* merge along the whole assembly tree while the zeros stay few */
+    SL_RELAXATION_NONE         /* fundamental supernodes: no zero is stored */
+} sl_relaxation;
+
+/** Instruction set of the kernels. */
+typedef enum sl_isa {
+    SL_ISA_AUTO = 0, /* the best that this processor and operating system run */
+    SL_ISA_SCALAR,
+    SL_ISA_AVX2, /* AVX2 and FMA */
+    SL_ISA_AVX512,
+    SL_ISA_NEON
+} sl_isa;
+
+/** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
+typedef struct sl_allocator {
+    void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
+    void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
+    void *context;
+} sl_allocator;
+
+/** Wishes, the same struct for every call. All zero (or a NULL pointer) = defaults. */
+typedef struct sl_options {
+    sl_ordering ordering;
+    const sl_int *perm;          /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+    sl_relaxation relaxation;
+    sl_isa isa;
+    double null_tolerance;  /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
+                               it); 0: 64 epsilon; negative: only an exact zero is null */
+    sl_allocator allocator;
+} sl_options;
+
+/** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
+ *  that one struct may travel through all of them. Row and column numbers are the caller's own. */
+typedef struct sl_stats {
+    /* the error; -1 where it does not apply */
+    sl_int error_row;
+    sl_int error_column;
+    sl_off error_line;  /* of a file, 1-based */
+    double error_value; /* the pivot or entry that was refused; 0 where none */
+
+    /* sl_symbolic_create */
+    sl_int n;
+    sl_triangle triangle;
+    sl_off nnz_a;         /* entries of A that are read (one triangle with diagonal, duplicates counted) */
+    sl_off nnz_l;         /* entries of L with its unit diagonal, without relaxation */
+    sl_off nnz_panels;    /* doubles stored for L, padding and relaxation included */
+    double flops;         /* sum over columns of (entries)^2, without relaxation */
+    sl_int supernodes;
+    sl_int supernodes_fundamental; /* before relaxation */
+    sl_int tree_height;   /* columns on the longest path of the elimination tree */
+    sl_int components;    /* roots of the elimination tree */
+    double seconds_order; /* processor seconds in the ordering */
+    double seconds_analyse; /* processor seconds in everything else of the analysis */
+    size_t bytes_symbolic;
+
+    /* sl_factor_create, sl_factor_refactor */
+    sl_isa isa;
+    sl_int positive; /* pivots by sign: the inertia of A */
+    sl_int negative;
+    sl_int null;            /* pivots refused (0 or 1) */
+    double pivot_min;       /* smallest and largest |d| */
+    double pivot_max;
+    double seconds_factor;
+    size_t bytes_factor;
+
+    /* sl_plan_create, sl_local_solve */
+    sl_int b_supernodes; /* visited by the forward sweep */
+    sl_int b_columns;
+    sl_off b_entries; /* doubles of L that the forward sweep reads */
+    sl_int x_supernodes; /* the same for the backward sweep */
+    sl_int x_columns;
+    sl_off x_entries;
+    size_t bytes_plan;
+} sl_stats;
+
+typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
+typedef struct sl_symbolic sl_symbolic; /* analysis of one pattern; immutable */
+typedef struct sl_factor sl_factor;     /* numbers over a symbolic: L and D */
+typedef struct sl_plan sl_plan;         /* reach of a b-set and of an x-set; immutable */
+typedef struct sl_work sl_work;         /* scratch of one thread */
+
+#endif

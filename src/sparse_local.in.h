@@ -1,0 +1,61 @@
+/* sparse_local.in.h: the manifest: the only ordered list of parts, layer by layer; compiles as it is */
+/* ---- what a user reads ---- */
+#ifndef SPARSE_LOCAL_H
+#define SPARSE_LOCAL_H
+#include "public/intro.h"
+#include "public/config.h"
+#ifdef __cplusplus
+extern "C" {
+#endif
+#include "public/types.h"
+#include "public/csc.h"
+#include "public/analyse.h"
+#include "public/factor.h"
+#include "public/solve.h"
+#include "public/plan.h"
+#ifdef __cplusplus
+}
+#endif
+#endif /* SPARSE_LOCAL_H */
+
+/* ---- bodies, in one source file ---- */
+#if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && !defined(SPARSE_LOCAL_IMPLEMENTED)
+#define SPARSE_LOCAL_IMPLEMENTED
+/* L0 ground */
+#include "impl/base.h"
+#include "impl/status.h"
+#include "impl/alloc.h"
+#include "impl/sort.h"
+#include "impl/cpu.h"
+/* L1 kernels: raw arrays only */
+#include "impl/kernels.h"
+#include "impl/isa_scalar.h"
+#include "impl/isa_avx2.h"
+#include "impl/isa_avx512.h"
+#include "impl/isa_neon.h"
+#include "impl/select.h"
+/* L2 storage */
+#include "impl/csc.h"
+#include "impl/permute.h"
+#include "impl/io.h"
+/* L3 patterns: never see a value array */
+#include "impl/symbolic_types.h"
+#include "impl/graph.h"
+#include "impl/order_metis.h"
+#include "impl/order.h"
+#include "impl/etree.h"
+#include "impl/counts.h"
+#include "impl/supernodes.h"
+#include "impl/structure.h"
+#include "impl/symbolic.h"
+#include "impl/reach.h"
+/* L4 numbers */
+#include "impl/uplooking.h"
+#include "impl/factor.h"
+#include "impl/work.h"
+#include "impl/sweep.h"
+#include "impl/solve.h"
+#include "impl/plan.h"
+/* last: takes every internal macro away again */
+#include "impl/leave.h"
+#endif
