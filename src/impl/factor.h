@@ -4,6 +4,7 @@
 
 #include "../public/factor.h"
 #include "csc.h"
+#include "graph.h"
 #include "select.h"
 #include "uplooking.h"
 

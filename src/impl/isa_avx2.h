@@ -36,11 +36,14 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
 #define SLW_STORE(p, a) _mm_storeu_pd((p), a);
 #define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
 #include "lanes.inl.h"
 
@@ -49,11 +52,14 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m256d a;
+#define SLW_ZERO(a) a = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
 #define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
 #include "lanes.inl.h"
 
@@ -62,8 +68,10 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLW_ROWS 4
 #define SLW_EACH SLI_EACH4
 #define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_EACH_DOWN SLI_EACH4_DOWN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) __m256d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
 #define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLW_FNMA(a, s, b) { \
@@ -71,6 +79,7 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
         a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
         a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
     }
+#define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
 #define SLW_DIVIDE(a, s) a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 #include "lanes.inl.h"
 

@@ -28,11 +28,14 @@
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
 #define SLW_STORE(p, a) _mm_storeu_pd((p), a);
 #define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
 #include "lanes.inl.h"
 
@@ -41,11 +44,14 @@
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m256d a;
+#define SLW_ZERO(a) a = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
 #define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
 #include "lanes.inl.h"
 
@@ -54,11 +60,14 @@
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m512d a;
+#define SLW_ZERO(a) a = _mm512_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
 #define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
 #define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(_mm512_set1_pd(s), b, a);
+#define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
 #include "lanes.inl.h"
 

@@ -37,8 +37,10 @@
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) float64x2_t a##_0;
+#define SLW_ZERO(a) a##_0 = vdupq_n_f64(0.0);
 #define SLW_LOAD(a, p)  \
     a##_0 = vld1q_f64((p) + 0);
 #define SLW_STORE(p, a)  \
@@ -47,6 +49,7 @@
         const float64x2_t s_ = vdupq_n_f64(s); \
         a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
     }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0);
 #define SLW_DIVIDE(a, s) { \
         const float64x2_t s_ = vdupq_n_f64(s); \
         a##_0 = vdivq_f64(a##_0, s_); \
@@ -58,8 +61,10 @@
 #define SLW_ROWS 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_EACH_DOWN SLI_EACH8_DOWN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
 #define SLW_LOAD(a, p)  \
     a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
 #define SLW_STORE(p, a)  \
@@ -69,6 +74,7 @@
         a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
         a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
     }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
 #define SLW_DIVIDE(a, s) { \
         const float64x2_t s_ = vdupq_n_f64(s); \
         a##_0 = vdivq_f64(a##_0, s_); \
@@ -81,8 +87,10 @@
 #define SLW_ROWS 4
 #define SLW_EACH SLI_EACH4
 #define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_EACH_DOWN SLI_EACH4_DOWN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
+#define SLW_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
 #define SLW_LOAD(a, p)  \
     a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
 #define SLW_STORE(p, a)  \
@@ -94,6 +102,7 @@
         a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
         a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
     }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
 #define SLW_DIVIDE(a, s) { \
         const float64x2_t s_ = vdupq_n_f64(s); \
         a##_0 = vdivq_f64(a##_0, s_); \

@@ -43,8 +43,10 @@
 #define SLW_ROWS 4
 #define SLW_EACH SLI_EACH4
 #define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_EACH_DOWN SLI_EACH4_DOWN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) double a[SLW_LANES];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
 #define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLW_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLW_FNMA(a, s, b) { \
@@ -52,6 +54,12 @@
         int i_; \
         for (i_ = 0; i_ < SLW_LANES; i_++) { \
             a[i_] -= s_ * b[i_]; \
+        } \
+    }
+#define SLW_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] += b[i_]; \
         } \
     }
 #define SLW_DIVIDE(a, s) { \
@@ -67,8 +75,10 @@
 #define SLW_ROWS 4
 #define SLW_EACH SLI_EACH4
 #define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_EACH_DOWN SLI_EACH4_DOWN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) double a[SLW_LANES];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
 #define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLW_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLW_FNMA(a, s, b) { \
@@ -76,6 +86,12 @@
         int i_; \
         for (i_ = 0; i_ < SLW_LANES; i_++) { \
             a[i_] -= s_ * b[i_]; \
+        } \
+    }
+#define SLW_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] += b[i_]; \
         } \
     }
 #define SLW_DIVIDE(a, s) { \
@@ -91,8 +107,10 @@
 #define SLW_ROWS 4
 #define SLW_EACH SLI_EACH4
 #define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_EACH_DOWN SLI_EACH4_DOWN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) double a[SLW_LANES];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
 #define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLW_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLW_FNMA(a, s, b) { \
@@ -100,6 +118,12 @@
         int i_; \
         for (i_ = 0; i_ < SLW_LANES; i_++) { \
             a[i_] -= s_ * b[i_]; \
+        } \
+    }
+#define SLW_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] += b[i_]; \
         } \
     }
 #define SLW_DIVIDE(a, s) { \

@@ -74,13 +74,15 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
     return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes == 1 ? (size_t)SLI_TILE * (size_t)width : 0);
 }
 
-/* Rows that a lanes kernel keeps in registers at once: op(0, k) op(1, k) .., and from the last one down. */
+/* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves from the last down. */
 #define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
 #define SLI_EACH4_AGAIN(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8_AGAIN(op, k) SLI_EACH4_AGAIN(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
-#define SLI_EACH4_DOWN(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
-#define SLI_EACH8_DOWN(op, k) op(7, k) op(6, k) op(5, k) op(4, k) SLI_EACH4_DOWN(op, k)
+#define SLI_HIGH4(op, k) op(3, k) op(2, k)
+#define SLI_HIGH8(op, k) op(7, k) op(6, k) op(5, k) op(4, k)
+#define SLI_LOW4(op, k) op(1, k) op(0, k)
+#define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
 
 typedef struct sli_kernels {
     sl_isa isa;

@@ -1,13 +1,14 @@
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_EACH_DOWN the
- * same from the last row; a0, a1, .. are their accumulators, b is one row more. The two lists have second names, as a
- * macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
 #define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
 /* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
 #define SLI_DOWN(r, k)                                                                                                 \
     if ((r) > (k)) {                                                                                                   \
@@ -56,10 +57,12 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
         for (i = 0; i < s->below; i++) {
             double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            const double *from = buf + (ptrdiff_t)(w + i) * SLW_LANES;
-            for (j = 0; j < SLW_LANES; j++) {
-                to[j] += from[j];
-            }
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
         }
         rows += s->below;
     }
@@ -75,6 +78,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         ptrdiff_t row;
         sl_int i, j;
         SLW_DECLARE(b)
+        SLW_DECLARE(c)
         rows_end -= s->below;
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
@@ -98,14 +102,18 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
                 l = tile + SLI_TILE * row + lane;
-                SLW_EACH_DOWN(SLI_ROW, 0)
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
             l = tile + SLI_TILE * (ptrdiff_t)final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_EACH_DOWN(SLI_GATHER, l)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
                 SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
@@ -119,6 +127,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLI_STORE
 #undef SLI_APPLY
 #undef SLI_GATHER
+#undef SLI_GATHER2
 #undef SLI_DOWN
 #undef SLI_UP
 #undef SLI_COLUMN
@@ -128,9 +137,12 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_ROWS
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
-#undef SLW_EACH_DOWN
+#undef SLW_HIGH
+#undef SLW_LOW
 #undef SLW_DECLARE
+#undef SLW_ZERO
 #undef SLW_LOAD
 #undef SLW_STORE
+#undef SLW_ADD
 #undef SLW_FNMA
 #undef SLW_DIVIDE

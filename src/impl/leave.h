@@ -3,7 +3,7 @@
 #undef SLI_ARM
 #undef SLI_INLINE
 #undef SLI_TARGET
-#undef SLI_RESTRICT
+#undef SLI_UNROLL
 #undef SLI_ASSERT
 #undef SLI_ALIGN
 #undef SLI_TAKE
@@ -13,7 +13,9 @@
 #undef SLI_EACH8
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
-#undef SLI_EACH4_DOWN
-#undef SLI_EACH8_DOWN
+#undef SLI_HIGH4
+#undef SLI_HIGH8
+#undef SLI_LOW4
+#undef SLI_LOW8
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY

@@ -56,34 +56,51 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
     return one.overflow || many.overflow ? 0 : one.used > many.used ? one.used : many.used;
 }
 
+/* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of columns: moving rows in
+ * and out is a fifth of a full solve, and a counted inner loop would double that. */
+SLI_INLINE void sli_interleave(double *v, sl_int lanes, const sl_int *place, sl_int count, const double *M, size_t ld,
+                               sl_int columns) {
+    sl_int k, r;
+    for (k = 0; k < count; k++) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+            v[(ptrdiff_t)place[k] * lanes + r] = M[(size_t)k + (size_t)r * ld];
+        }
+    }
+}
+
+/* The way back. */
+SLI_INLINE void sli_separate(double *M, size_t ld, const double *v, sl_int lanes, const sl_int *place, sl_int count,
+                             sl_int columns) {
+    sl_int k, r;
+    for (k = 0; k < count; k++) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+            M[(size_t)k + (size_t)r * ld] = v[(ptrdiff_t)place[k] * lanes + r];
+        }
+    }
+}
+
 /* b into the forward vector, interleaved; unknown rows and idle lanes are 0. */
 static void sli_pack(const sli_query *q, double *y, const double *B, size_t ldb, sl_int lanes, sl_int nrhs) {
-    sl_int k, r;
     if (q->nb < q->forward.columns || nrhs < lanes) {
         memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
     }
-    if (lanes == 1) {
-        for (k = 0; k < q->nb; k++) {
-            y[q->b_place[k]] = B[k];
-        }
-        return;
-    }
-    for (k = 0; k < q->nb; k++) {
-        double *to = y + (ptrdiff_t)q->b_place[k] * lanes;
-        for (r = 0; r < nrhs; r++) {
-            to[r] = B[(size_t)k + (size_t)r * ldb];
-        }
+    switch (nrhs) {
+    case 8: sli_interleave(y, 8, q->b_place, q->nb, B, ldb, 8); break;
+    case 3: sli_interleave(y, 4, q->b_place, q->nb, B, ldb, 3); break;
+    case 1: sli_interleave(y, 1, q->b_place, q->nb, B, ldb, 1); break;
+    default: sli_interleave(y, lanes, q->b_place, q->nb, B, ldb, nrhs);
     }
 }
 
 /* The wanted rows out of the backward vector. */
 static void sli_unpack(const sli_query *q, double *X, size_t ldx, const double *x, sl_int lanes, sl_int nrhs) {
-    sl_int k, r;
-    for (k = 0; k < q->nx; k++) {
-        const double *from = x + (ptrdiff_t)q->x_place[k] * lanes;
-        for (r = 0; r < nrhs; r++) {
-            X[(size_t)k + (size_t)r * ldx] = from[r];
-        }
+    switch (nrhs) {
+    case 8: sli_separate(X, ldx, x, 8, q->x_place, q->nx, 8); break;
+    case 3: sli_separate(X, ldx, x, 4, q->x_place, q->nx, 3); break;
+    case 1: sli_separate(X, ldx, x, 1, q->x_place, q->nx, 1); break;
+    default: sli_separate(X, ldx, x, lanes, q->x_place, q->nx, nrhs);
     }
 }
 

@@ -29,7 +29,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
  *  stats  [out]  error_line; may be NULL.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error_line; SL_ERR_UNSUPPORTED: complex, array,
  *           skew-symmetric or hermitian; SL_ERR_NOT_FINITE is not raised here; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(file size).
+ *  Cost     O(file size + n_rows + n_cols).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
                                                sl_stats *stats);
