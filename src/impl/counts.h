@@ -4,18 +4,18 @@
 
 #include "symbolic_types.h"
 
-/* counts[j] := entries of column j of L, diagonal included; the order is a postorder of parent. scratch: 4n.
+/* counts[j] := entries of column j of L, diagonal included; the order is a postorder of parent. columns
+ * has the numbers before that order, old_of[j] being j's; scratch: 4n.
  *
  * Row i of L is the subtree of the elimination tree that hangs between i and the smallest columns of row i of A. Column
  * j counts one for each row subtree that it lies in: +1 at every leaf of a row subtree, -1 at the lowest common
  * ancestor of two leaves in a row, -1 at i's parent side for the diagonal, summed up the tree. In a postorder j is a
  * leaf of row i's subtree if no earlier neighbour of i lies among j's descendants. [GNP94]
  */
-static void sli_counts(const sli_graph *G, const sl_int *perm, const sl_int *iperm, const sl_int *parent,
-                       sl_int *counts, sl_int *scratch) {
-    const sl_int n = G->n;
+static void sli_counts(sl_int n, const sli_half *columns, const sl_int *old_of, const sl_int *new_of,
+                       const sl_int *parent, sl_int *counts, sl_int *scratch) {
     sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n, *set = scratch + 3 * (size_t)n;
-    sl_int i, j;
+    sl_int i, j, p;
     for (j = 0; j < n; j++) {
         first[j] = j; /* the first descendant; seen: the largest first of a leaf in row i; leaf: that leaf */
         seen[j] = -1;
@@ -29,13 +29,12 @@ static void sli_counts(const sli_graph *G, const sl_int *perm, const sl_int *ipe
         }
     }
     for (j = 0; j < n; j++) {
-        const sl_int v = perm[j];
-        sl_off e;
+        const sl_int end = columns->begin[old_of[j] + 1];
         if (parent[j] != -1) {
             counts[parent[j]]--; /* row j ends here */
         }
-        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-            i = iperm[G->to[e]];
+        for (p = columns->begin[old_of[j]]; p < end; p++) {
+            i = new_of[columns->to[p]];
             if (i <= j || first[j] <= seen[i]) {
                 continue;
             }

@@ -6,15 +6,13 @@
 
 /* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n of scratch, the
  * paths to the roots found so far, compressed. [Liu90] */
-static void sli_etree(const sli_graph *G, const sl_int *perm, const sl_int *iperm, sl_int *parent, sl_int *ancestor) {
-    sl_int k;
-    for (k = 0; k < G->n; k++) {
-        const sl_int v = perm[k];
-        sl_off e;
+static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *ancestor) {
+    sl_int k, p;
+    for (k = 0; k < n; k++) {
         parent[k] = -1;
         ancestor[k] = -1;
-        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-            sl_int i = iperm[G->to[e]];
+        for (p = rows->begin[k]; p < rows->begin[k + 1]; p++) {
+            sl_int i = rows->to[p];
             while (i != -1 && i < k) {
                 const sl_int next = ancestor[i];
                 ancestor[i] = k;
@@ -60,19 +58,20 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
     }
 }
 
-/* Renumbers along order (order[k] = old number of the new k): perm, its inverse, and the tree. scratch: 2n. */
-static void sli_relabel(const sl_int *order, sl_int n, sl_int *perm, sl_int *iperm, sl_int *parent, sl_int *scratch) {
+/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of, and the tree.
+ * scratch: 2n. */
+static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of, sl_int *parent, sl_int *scratch) {
     sl_int *fresh = scratch, *number = scratch + n, k;
     for (k = 0; k < n; k++) {
-        fresh[k] = perm[order[k]];
+        fresh[k] = old_of[order[k]];
         number[order[k]] = k;
     }
     if (n > 0) {
-        memcpy(perm, fresh, (size_t)n * sizeof(sl_int));
+        memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
     }
     for (k = 0; k < n; k++) {
         const sl_int old = parent[order[k]];
-        iperm[perm[k]] = k;
+        new_of[old_of[k]] = k;
         fresh[k] = old == -1 ? -1 : number[old];
     }
     if (n > 0) {

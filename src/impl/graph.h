@@ -1,23 +1,27 @@
-/* graph.h: the graph of a symmetric matrix, from whichever triangle is stored */
+/* graph.h: the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves */
 #ifndef SLI_GRAPH_H
 #define SLI_GRAPH_H
 
 #include "csc.h"
 #include "symbolic_types.h"
 
-/* begin of a graph with room for it; the number of entries read is returned. */
-static sl_off sli_graph_count(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
+/* The full pattern without its diagonal; an entry given twice is an edge given twice. */
+typedef struct sli_graph {
+    sl_int n;
+    sl_off *begin; /* n + 1 */
+    sl_int *to;    /* begin[n] neighbours */
+} sli_graph;
+
+/* G has room for n + 1 positions and twice A's entries. */
+static void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
     sl_int j, p;
-    sl_off read = 0, total = 0;
+    sl_off total = 0;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
-    for (j = 0; j < A->n_cols; j++) {
+    for (j = 0; j < G->n; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int i = A->i[p];
-            if (sli_is_read(triangle, i, j)) {
-                read++;
-                G->begin[i]++;
-                G->begin[j] += i != j;
-            }
+            const int is_edge = A->i[p] != j && sli_is_read(triangle, A->i[p], j);
+            G->begin[A->i[p]] += is_edge;
+            G->begin[j] += is_edge;
         }
     }
     for (j = 0; j <= G->n; j++) {
@@ -25,29 +29,61 @@ static sl_off sli_graph_count(sli_graph *G, const sl_csc *A, sl_triangle triangl
         G->begin[j] = total;
         total += here;
     }
-    return read;
-}
-
-/* The edges; every begin moves to its end on the way and back afterwards. */
-static void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
-    sl_int j, p;
-    for (j = 0; j < A->n_cols; j++) {
+    for (j = 0; j < G->n; j++) { /* every begin moves to its end, and back afterwards */
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             const sl_int i = A->i[p];
-            if (sli_is_read(triangle, i, j)) {
-                sl_off at = G->begin[j]++;
-                G->to[at] = i;
-                G->from[at] = p;
-                if (i != j) {
-                    at = G->begin[i]++;
-                    G->to[at] = j;
-                    G->from[at] = p;
-                }
+            if (i != j && sli_is_read(triangle, i, j)) {
+                G->to[G->begin[j]++] = i;
+                G->to[G->begin[i]++] = j;
             }
         }
     }
     memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
     G->begin[0] = 0;
+}
+
+/* Counts to starting positions. */
+static void sli_half_starts(sli_half *h, sl_int n) {
+    sl_int k, total = 0;
+    for (k = 0; k <= n; k++) {
+        const sl_int here = h->begin[k];
+        h->begin[k] = total;
+        total += here;
+    }
+}
+
+/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k: the rows from k on).
+ * What follows walks them in elimination order, each pass only the half that it needs. */
+static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm, sli_half *rows,
+                            sli_half *columns) {
+    const sl_int n = A->n_cols;
+    sl_int j, p;
+    memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
+    memset(columns->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
+    for (j = 0; j < n; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                rows->begin[sli_max(iperm[A->i[p]], iperm[j])]++;
+                columns->begin[sli_min(iperm[A->i[p]], iperm[j])]++;
+            }
+        }
+    }
+    sli_half_starts(rows, n);
+    sli_half_starts(columns, n);
+    for (j = 0; j < n; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]), i = sli_min(iperm[A->i[p]], iperm[j]);
+                const sl_int at = rows->begin[k]++;
+                rows->to[at] = i;
+                rows->from[at] = p;
+                columns->to[columns->begin[i]++] = k;
+            }
+        }
+    }
+    memmove(rows->begin + 1, rows->begin, (size_t)n * sizeof(sl_int));
+    memmove(columns->begin + 1, columns->begin, (size_t)n * sizeof(sl_int));
+    rows->begin[0] = columns->begin[0] = 0;
 }
 
 /* A number that two patterns share only by a 2^-64 accident. */

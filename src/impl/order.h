@@ -32,9 +32,8 @@ static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl
 #define SLI_ORDER_TINY 4 /* a component this small has nothing to dissect */
 
 /* One breadth-first search a component, the queue being perm itself; each component is then dissected in its place. */
-static sl_status sli_order_dissection(const sli_graph *G, const sl_options *opt, sl_int *perm, sl_int *local,
-                                      const sl_allocator *a) {
-    const sl_int *metis_options = opt != NULL ? opt->metis_options : NULL;
+static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm, sl_int *local,
+                                 const sl_allocator *a) {
     sl_int root, head, tail = 0, start;
     sl_status status = SL_OK;
     for (root = 0; root < G->n; root++) {
@@ -63,27 +62,49 @@ static sl_status sli_order_dissection(const sli_graph *G, const sl_options *opt,
     }
     return status;
 }
+
+static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm,
+                                      sl_int *local, const sl_allocator *a) {
+    sli_graph G;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&G, 0, sizeof G);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        G.n = A->n_cols;
+        G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
+        G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(A));
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_graph_fill(&G, A, triangle);
+        status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, local, a);
+        sli_free(a, b.base);
+    }
+    return status;
+}
 #endif
 
-/* perm: n, the order. scratch: n. */
-static sl_status sli_order(const sli_graph *G, const sl_options *opt, sl_int *perm, sl_int *scratch,
+/* perm: n, the order of a checked symmetric pattern. scratch: n. */
+static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm, sl_int *scratch,
                            const sl_allocator *a, sl_stats *stats) {
     sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
 #if defined(SL_NO_METIS)
     (void)a;
+    (void)triangle;
     if (ordering == SL_ORDERING_DEFAULT) {
         ordering = SL_ORDERING_NATURAL;
     }
 #else
     if (ordering == SL_ORDERING_DEFAULT || ordering == SL_ORDERING_METIS) {
-        return sli_order_dissection(G, opt, perm, scratch, a);
+        return sli_order_dissection(A, triangle, opt, perm, scratch, a);
     }
 #endif
     if (ordering == SL_ORDERING_GIVEN) {
-        return sli_order_given(opt->perm, G->n, perm, scratch, stats);
+        return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
     }
     if (ordering == SL_ORDERING_NATURAL) {
-        sli_order_natural(G->n, perm);
+        sli_order_natural(A->n_cols, perm);
         return SL_OK;
     }
     return ordering == SL_ORDERING_METIS ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT;

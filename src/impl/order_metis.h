@@ -2,13 +2,14 @@
 #ifndef SLI_ORDER_METIS_H
 #define SLI_ORDER_METIS_H
 
-#include "symbolic_types.h"
+#include "alloc.h"
+#include "graph.h"
 
 #if !defined(SL_NO_METIS)
 
 #include <metis.h>
 
-/* The component's graph as METIS wants it: its own numbering, no loops, no edge twice. */
+/* The component's graph as METIS wants it: its own numbering, no edge twice. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count, const sl_int *local, idx_t *xadj,
                             idx_t *adjncy, idx_t *mark) {
     sl_int k;
@@ -20,7 +21,6 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
         const sl_int v = vertices[k];
         sl_off e;
         xadj[k] = edges;
-        mark[k] = k;
         for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
             const sl_int u = local[G->to[e]];
             if (mark[u] != k) {

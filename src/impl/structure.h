@@ -4,60 +4,54 @@
 
 #include "symbolic_types.h"
 
-/* Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode: k is appended to each
- * of them, and as k ascends so do the lists. end: n_supers, where each list has got to; mark: n_supers. */
-static void sli_fill_rows(sl_symbolic *S, const sli_graph *G, sl_off *end, sl_int *mark) {
-    sl_int k, s;
+/* Entries of A that a supernode's columns hold, summed up to the starts of its part of the map. */
+static void sli_count_map(sl_symbolic *S, const sli_half *columns, const sl_int *old_of) {
+    sl_int s, k = 0;
+    sl_off total = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        S->map_begin[s] = total;
+        for (; k < S->super_first[s + 1]; k++) {
+            total += columns->begin[old_of[k] + 1] - columns->begin[old_of[k]];
+        }
+    }
+    S->map_begin[S->n_supers] = total;
+}
+
+/* The rows of every supernode, and the place in L of every entry of A, in one walk over the rows.
+ *
+ * Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode: k is appended to each
+ * of them, and as k ascends so do the lists; where it was appended is the local row of k's entries. end: n_supers, how
+ * far each list has got; mark: n_supers.
+ */
+static void sli_fill_structure(sl_symbolic *S, const sli_half *rows, const sl_int *old_of, const sl_int *new_of,
+                               sl_off *end, sl_int *mark) {
+    sl_int k, p, s;
     for (s = 0; s < S->n_supers; s++) {
         end[s] = S->rows_begin[s];
         mark[s] = -1;
     }
     for (k = 0; k < S->n; k++) {
-        const sl_int v = S->perm[k], own = S->super_of[k];
-        sl_off e;
-        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-            const sl_int i = S->iperm[G->to[e]];
-            if (i >= k) {
-                continue;
-            }
-            for (s = S->super_of[i]; s != own && mark[s] != k; s = S->super_parent[s]) {
+        const sl_int own = S->super_of[k];
+        for (p = rows->begin[old_of[k]]; p < rows->begin[old_of[k] + 1]; p++) {
+            const sl_int i = new_of[rows->to[p]], home = S->super_of[i];
+            const sl_int first = S->super_first[home], width = S->super_first[home + 1] - first;
+            sl_int local;
+            sl_off at;
+            for (s = home; s != own && mark[s] != k; s = S->super_parent[s]) {
                 mark[s] = k;
                 S->rows[end[s]++] = k;
             }
+            local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
+            at = S->map_begin[home]++; /* every start moves to its end, and back afterwards */
+            S->map_from[at] = rows->from[p];
+            S->map_to[at] = S->panel_begin[home] + sli_panel_at(width, local, i - first);
         }
     }
     for (s = 0; s < S->n_supers; s++) {
         SLI_ASSERT(end[s] == S->rows_begin[s + 1]);
     }
-}
-
-/* Every entry of A to its place in the panels, supernode by supernode. local: n of scratch. */
-static void sli_fill_map(sl_symbolic *S, const sli_graph *G, sl_int *local) {
-    sl_int s, j;
-    sl_off at = 0;
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
-        sl_off r;
-        S->map_begin[s] = at;
-        for (r = S->rows_begin[s]; r < S->rows_begin[s + 1]; r++) {
-            local[S->rows[r]] = width + (sl_int)(r - S->rows_begin[s]);
-        }
-        for (j = 0; j < width; j++) {
-            local[first + j] = j;
-        }
-        for (j = 0; j < width; j++) {
-            const sl_int v = S->perm[first + j];
-            sl_off e;
-            for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-                const sl_int k = S->iperm[G->to[e]];
-                if (k >= first + j) {
-                    S->map_from[at] = G->from[e];
-                    S->map_to[at++] = S->panel_begin[s] + sli_panel_at(width, local[k], j);
-                }
-            }
-        }
-    }
-    S->map_begin[S->n_supers] = at;
+    memmove(S->map_begin + 1, S->map_begin, (size_t)S->n_supers * sizeof(sl_off));
+    S->map_begin[0] = 0;
 }
 
 /* The step of every supernode: the reach of everything, in which a column's place is the column. */

@@ -8,23 +8,30 @@
 #include "structure.h"
 #include "supernodes.h"
 
-/* What the analysis needs only while it runs. */
+/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order that was asked for
+ * (rows, columns), and in the postorder of the supernodes that comes of it (everything else). */
 typedef struct sli_analysis {
-    sli_graph graph;
+    sl_int n;
+    sli_half rows, columns;
     sli_groups groups;
-    sl_int *perm, *iperm, *parent, *counts, *super_of; /* n each */
-    sl_int *scratch;                                   /* 5n */
-    uint64_t *list;                                    /* 2n */
+    sl_int *perm;                             /* n: the order asked for */
+    sl_int *old_of, *new_of;                  /* n: from the last numbering to the one before, and back */
+    sl_int *parent, *counts, *super_of;       /* n each */
+    sl_int *scratch;                          /* 5n */
+    uint64_t *list;                           /* 2n */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
     const size_t n = (size_t)rows;
-    w->graph.n = rows;
-    w->graph.begin = SLI_TAKE(b, sl_off, n + 1);
-    w->graph.to = SLI_TAKE(b, sl_int, 2 * (size_t)nnz);
-    w->graph.from = SLI_TAKE(b, sl_int, 2 * (size_t)nnz);
+    w->n = rows;
+    w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
+    w->rows.to = SLI_TAKE(b, sl_int, nnz);
+    w->rows.from = SLI_TAKE(b, sl_int, nnz);
+    w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
+    w->columns.to = SLI_TAKE(b, sl_int, nnz);
     w->perm = SLI_TAKE(b, sl_int, n);
-    w->iperm = SLI_TAKE(b, sl_int, n);
+    w->old_of = SLI_TAKE(b, sl_int, n);
+    w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n);
     w->counts = SLI_TAKE(b, sl_int, n);
     w->super_of = SLI_TAKE(b, sl_int, n);
@@ -59,16 +66,14 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
 
 /* Tree, counts and supernodes in their final numbering. */
 static void sli_analyse_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
-    const sl_int n = w->graph.n;
+    const sl_int n = w->n;
     sl_int *order = w->scratch, *more = w->scratch + n;
     sl_int k;
-    for (k = 0; k < n; k++) {
-        w->iperm[w->perm[k]] = k;
-    }
-    sli_etree(&w->graph, w->perm, w->iperm, w->parent, order);
+    sli_order_natural(n, w->old_of);
+    sli_etree(n, &w->rows, w->parent, order);
     sli_postorder(w->parent, n, order, more, more + n);
-    sli_relabel(order, n, w->perm, w->iperm, w->parent, more);
-    sli_counts(&w->graph, w->perm, w->iperm, w->parent, w->counts, w->scratch);
+    sli_relabel(order, n, w->old_of, w->new_of, w->parent, more);
+    sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->groups);
     stats->supernodes_fundamental = w->groups.count;
     if (opt == NULL || opt->relaxation != SL_RELAXATION_NONE) {
@@ -82,7 +87,7 @@ static void sli_analyse_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     if (n > 0) {
         memcpy(w->counts, w->scratch, (size_t)n * sizeof(sl_int));
     }
-    sli_relabel(order, n, w->perm, w->iperm, w->parent, w->scratch);
+    sli_relabel(order, n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
 /* The figures that a user asks about. depth: n of scratch. */
@@ -104,9 +109,11 @@ static void sli_analyse_stats(const sl_symbolic *S, sl_int *depth, sl_stats *sta
 /* Copies the tree out of the workspace and fills everything that hangs on it. */
 static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
-    sl_int s;
-    memcpy(S->perm, w->perm, bytes);
-    memcpy(S->iperm, w->iperm, bytes);
+    sl_int s, k;
+    for (k = 0; k < S->n; k++) {
+        S->perm[k] = w->perm[w->old_of[k]];
+        S->iperm[S->perm[k]] = k;
+    }
     memcpy(S->parent, w->parent, bytes);
     memcpy(S->counts, w->counts, bytes);
     memcpy(S->super_of, w->super_of, bytes);
@@ -119,31 +126,33 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
         S->panel_begin[s + 1] = S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
     }
     /* list has 4n words of 4 bytes: the ends of the rows in one half, the marks in the other */
-    sli_fill_rows(S, &w->graph, (sl_off *)(void *)w->list, (sl_int *)(void *)(w->list + S->n));
-    sli_fill_map(S, &w->graph, w->scratch);
+    sli_count_map(S, &w->columns, w->old_of);
+    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list, (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sli_analysis *w,
                                    const sl_allocator *a, sl_stats *stats) {
-    double started = sli_seconds();
+    double started;
     sl_symbolic draft;
     sli_block b = {NULL, 0, 0};
     sl_off rows = 0;
     sl_int s;
     int pass;
     sl_status status;
-    stats->nnz_a = sli_graph_count(&w->graph, A, stats->triangle);
-    sli_graph_fill(&w->graph, A, stats->triangle);
-    stats->seconds_analyse += sli_seconds() - started;
     started = sli_seconds();
-    status = sli_order(&w->graph, opt, w->perm, w->scratch, a, stats);
+    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, a, stats);
     stats->seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
     }
     started = sli_seconds();
+    for (s = 0; s < w->n; s++) {
+        w->scratch[w->perm[s]] = s;
+    }
+    sli_halves_fill(A, stats->triangle, w->scratch, &w->rows, &w->columns);
+    stats->nnz_a = w->rows.begin[w->n];
     sli_analyse_tree(w, opt, stats);
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;

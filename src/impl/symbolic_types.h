@@ -29,12 +29,11 @@ struct sl_symbolic {
     sl_off *map_to;          /* the same: positions in L; several may share one (duplicates) */
 };
 
-/* The elimination graph's source: the full symmetric pattern of A, diagonal entries as loops, duplicates kept. */
-typedef struct sli_graph {
-    sl_int n;
-    sl_off *begin; /* n + 1 */
-    sl_int *to;    /* begin[n] neighbours */
-    sl_int *from;  /* begin[n]: the entry of A that made the edge */
-} sli_graph;
+/* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */
+typedef struct sli_half {
+    sl_int *begin; /* n + 1 */
+    sl_int *to;    /* begin[n] */
+    sl_int *from;  /* begin[n]: the entry of A; NULL where nobody asks */
+} sli_half;
 
 #endif

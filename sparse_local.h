@@ -1,0 +1,7099 @@
+/* sparse_local.h 0.1.0, generated: edit src/, run make header
+ * FNV-1a of all that follows this comment, license aside: 5c5f51374e81049c
+ *
+ * Contents
+ *         (what a user reads)
+ *     60  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    104  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    150  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    294  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    402  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    461  public/factor.h            the numbers: P A P' = L D L'
+ *    525  public/solve.h             full solves, and the workspace that every solve writes to
+ *    566  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *         (bodies, in one source file)
+ *         (L0 ground)
+ *    638  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    704  impl/status.h              status codes in words, and the error fields of stats
+ *    748  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    843  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    901  impl/cpu.h                 which instruction sets this processor and operating system run
+ *         (L1 kernels: raw arrays only)
+ *    938  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1031  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1100  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1613  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1661  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1834  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1852  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2624  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3384  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4185  impl/select.h              the kernel table for an instruction set
+ *         (L2 storage)
+ *   4217  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4607  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   4677  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *         (L3 patterns: never see a value array)
+ *   5005  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5042  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5145  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5225  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5336  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5418  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5486  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   5638  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   5714  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   5984  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *         (L4 numbers)
+ *   6119  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6268  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   6481  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   6537  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   6719  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   6759  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *         (last: takes every internal macro away again)
+ *   7052  impl/leave.h               takes every internal macro away again
+ */
+/* ---- what a user reads ---- */
+#ifndef SPARSE_LOCAL_H
+#define SPARSE_LOCAL_H
+/* begin src/public/intro.h */
+/* intro.h: what the library does, a quick start, notation, conventions, threads, references */
+#ifndef SL_PUBLIC_INTRO_H
+#define SL_PUBLIC_INTRO_H
+
+/* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then answers many small questions from
+ * that factor: b is nonzero at a few rows, x is wanted at a few others. The elimination tree tells which columns of L
+ * can matter; the answer is the one a full solve gives, at a cost that depends on the question [HDA17].
+ *
+ * Quick start (in one source file; link with -lmetis -lm):
+ *
+ *     #define SPARSE_LOCAL_IMPLEMENTATION
+ *     #include "sparse_local.h"
+ *
+ *     sl_csc A = {n, n, Ap, Ai, Ax};                     lower, upper or both triangles
+ *     sl_symbolic *S;  sl_factor *F;  sl_plan *P;
+ *     sl_symbolic_create(&S, &A, NULL, NULL);            once a pattern
+ *     sl_factor_create(&F, S, &A, NULL, NULL);           once a matrix
+ *     sl_factor_solve(F, x, n, b, n, 1, NULL);           full solve
+ *     sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL);
+ *     sl_plan_solve(P, F, x, nx, b, nb, 1, NULL);        local solve, any number of times
+ *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
+ *
+ * Notation     n rows of A; perm[k] is the row of A that is pivot k, iperm its inverse; parent is the elimination tree,
+ *              -1 at a root; L is unit lower triangular in supernodal panels, D diagonal; a reach is a set of columns
+ *              closed under parent.
+ * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and stats
+ *              may be NULL. Dense arguments are column-major with a leading dimension in elements. Row numbers, also
+ *              those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
+ * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
+ *              solve on one factor, each with its own sl_work.
+ *
+ * References
+ *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry processing, 2017.
+ *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
+ *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
+ *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
+ *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
+ *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
+ */
+
+#endif
+/* end src/public/intro.h */
+/* begin src/public/config.h */
+/* config.h: what a user may set before including the header, the version, and the integer types */
+#ifndef SL_PUBLIC_CONFIG_H
+#define SL_PUBLIC_CONFIG_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Macros read by this header:
+ *
+ *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include: the bodies go there.
+ *  SL_STATIC                     everything static: private copy of the library in one source file.
+ *  SL_NO_METIS                   build without METIS: natural and given orderings only.
+ *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
+ */
+#define SL_VERSION_MAJOR 0
+#define SL_VERSION_MINOR 1
+#define SL_VERSION_PATCH 0
+
+#if defined(SL_STATIC)
+#if defined(__GNUC__)
+#define SL_API __attribute__((unused)) static
+#else
+#define SL_API static
+#endif
+#else
+#define SL_API extern
+#endif
+
+#if defined(__GNUC__)
+#define SL_WARN_UNUSED __attribute__((warn_unused_result))
+#else
+#define SL_WARN_UNUSED
+#endif
+
+/** Rows, columns and positions in a matrix A: the arrays of Eigen, SciPy and CHOLMOD (int) are used in place. */
+typedef int32_t sl_int;
+
+/** Positions in the factor L, which outgrows 32 bits long before A does. */
+typedef int64_t sl_off;
+
+#endif
+/* end src/public/config.h */
+#ifdef __cplusplus
+extern "C" {
+#endif
+/* begin src/public/types.h */
+/* types.h: status codes, the matrix view, options, statistics, and the names of the opaque objects */
+#ifndef SL_PUBLIC_TYPES_H
+#define SL_PUBLIC_TYPES_H
+
+/** What a call came to. Everything that can fail returns one; SL_OK is 0. */
+typedef enum sl_status {
+    SL_OK = 0,
+    SL_ERR_ARGUMENT,    /* NULL, negative size, leading dimension too small, index out of range or given twice */
+    SL_ERR_MEMORY,      /* the allocator returned NULL */
+    SL_ERR_PATTERN,     /* the matrix is malformed, or both triangles are stored and differ in pattern */
+    SL_ERR_PIVOT,       /* a null pivot: the matrix is singular, or needs pivoting; stats name the row */
+    SL_ERR_NOT_FINITE,  /* a NaN or an infinity in the values, or one that arose; stats name the row */
+    SL_ERR_TOO_LARGE,   /* a count does not fit its type */
+    SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
+    SL_ERR_IO,          /* a file could not be opened, read, parsed or written; stats name the line */
+    SL_ERR_ORDERING,    /* the ordering library failed */
+    SL_ERR_STATE        /* a failed factor, or objects that do not belong together */
+} sl_status;
+
+/** A name for a status, in words, static storage. Any value is accepted. */
+SL_API const char *sl_status_string(sl_status status);
+
+/** View of a sparse matrix in compressed columns: column j holds rows i[p[j]] .. i[p[j+1]-1]. Never owned or kept.
+ *
+ *  Rows of a column may stand in any order; duplicates are summed; explicit zeros are entries like others.
+ *  A symmetric matrix may store its lower triangle, its upper triangle, or both: the pattern decides. Of a matrix
+ *  that stores both, the pattern must be symmetric and the LOWER triangle's values are the ones read.
+ */
+typedef struct sl_csc {
+    sl_int n_rows;
+    sl_int n_cols;
+    const sl_int *p; /* n_cols + 1 positions, ascending, p[0] = 0 */
+    const sl_int *i; /* p[n_cols] row indices in 0..n_rows-1 */
+    const double *x; /* p[n_cols] values; NULL: pattern only (enough for sl_symbolic_create) */
+} sl_csc;
+
+/** Which entries of a symmetric matrix are stored. */
+typedef enum sl_triangle {
+    SL_TRIANGLE_NONE = 0, /* entries on the diagonal only, or none */
+    SL_TRIANGLE_LOWER,
+    SL_TRIANGLE_UPPER,
+    SL_TRIANGLE_BOTH
+} sl_triangle;
+
+/** How the stored entries are meant. */
+typedef enum sl_reading {
+    SL_AS_SYMMETRIC = 0, /* as the factorization reads them: one triangle stands for both */
+    SL_AS_STORED         /* a general matrix: every entry for itself */
+} sl_reading;
+
+typedef enum sl_ordering {
+    SL_ORDERING_DEFAULT = 0, /* METIS where compiled in, else natural */
+    SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
+    SL_ORDERING_GIVEN,       /* options.perm */
+    SL_ORDERING_NATURAL      /* 0, 1, 2, ... */
+} sl_ordering;
+
+/** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
+typedef enum sl_relaxation {
+    SL_RELAXATION_DEFAULT = 0, /* merge along the whole assembly tree while the zeros stay few */
+    SL_RELAXATION_NONE         /* fundamental supernodes: no zero is stored */
+} sl_relaxation;
+
+/** Instruction set of the kernels. */
+typedef enum sl_isa {
+    SL_ISA_AUTO = 0, /* the best that this processor and operating system run */
+    SL_ISA_SCALAR,
+    SL_ISA_AVX2, /* AVX2 and FMA */
+    SL_ISA_AVX512,
+    SL_ISA_NEON
+} sl_isa;
+
+/** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
+typedef struct sl_allocator {
+    void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
+    void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
+    void *context;
+} sl_allocator;
+
+/** Wishes, the same struct for every call. All zero (or a NULL pointer) = defaults. */
+typedef struct sl_options {
+    sl_ordering ordering;
+    const sl_int *perm;          /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+    sl_relaxation relaxation;
+    sl_isa isa;
+    double null_tolerance;  /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
+                               it); 0: 64 epsilon; negative: only an exact zero is null */
+    sl_allocator allocator;
+} sl_options;
+
+/** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
+ *  that one struct may travel through all of them. Row and column numbers are the caller's own. */
+typedef struct sl_stats {
+    /* the error; -1 where it does not apply */
+    sl_int error_row;
+    sl_int error_column;
+    sl_off error_line;  /* of a file, 1-based */
+    double error_value; /* the pivot or entry that was refused; 0 where none */
+
+    /* sl_symbolic_create */
+    sl_int n;
+    sl_triangle triangle;
+    sl_off nnz_a;         /* entries of A that are read (one triangle with diagonal, duplicates counted) */
+    sl_off nnz_l;         /* entries of L with its unit diagonal, without relaxation */
+    sl_off nnz_panels;    /* doubles stored for L, padding and relaxation included */
+    double flops;         /* sum over columns of (entries)^2, without relaxation */
+    sl_int supernodes;
+    sl_int supernodes_fundamental; /* before relaxation */
+    sl_int tree_height;   /* columns on the longest path of the elimination tree */
+    sl_int components;    /* roots of the elimination tree */
+    double seconds_order; /* processor seconds in the ordering */
+    double seconds_analyse; /* processor seconds in everything else of the analysis */
+    size_t bytes_symbolic;
+
+    /* sl_factor_create, sl_factor_refactor */
+    sl_isa isa;
+    sl_int positive; /* pivots by sign: the inertia of A */
+    sl_int negative;
+    sl_int null;            /* pivots refused (0 or 1) */
+    double pivot_min;       /* smallest and largest |d| */
+    double pivot_max;
+    double seconds_factor;
+    size_t bytes_factor;
+
+    /* sl_plan_create, sl_local_solve */
+    sl_int b_supernodes; /* visited by the forward sweep */
+    sl_int b_columns;
+    sl_off b_entries; /* doubles of L that the forward sweep reads */
+    sl_int x_supernodes; /* the same for the backward sweep */
+    sl_int x_columns;
+    sl_off x_entries;
+    size_t bytes_plan;
+} sl_stats;
+
+typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
+typedef struct sl_symbolic sl_symbolic; /* analysis of one pattern; immutable */
+typedef struct sl_factor sl_factor;     /* numbers over a symbolic: L and D */
+typedef struct sl_plan sl_plan;         /* reach of a b-set and of an x-set; immutable */
+typedef struct sl_work sl_work;         /* scratch of one thread */
+
+#endif
+/* end src/public/types.h */
+/* begin src/public/csc.h */
+/* csc.h: matrices the library owns, checks, products, residuals, Matrix Market files */
+#ifndef SL_PUBLIC_CSC_H
+#define SL_PUBLIC_CSC_H
+
+/** Builds a matrix from triplets; entries with the same row and column are summed, rows come out ascending.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  count  [in]   number of triplets.
+ *  i, j   [in]   count row indices in 0..n_rows-1 and column indices in 0..n_cols-1, any order.
+ *  x      [in]   count values; NULL: a pattern without values.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error_row, error_column of an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets; SL_ERR_MEMORY.
+ *  Cost     O(count + n_rows + n_cols).
+ *  Threads  any number on distinct outputs.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_off count,
+                                                        const sl_int *i, const sl_int *j, const double *x,
+                                                        const sl_options *opt, sl_stats *stats);
+
+/** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
+ *
+ *  A symmetric file gives the lower triangle (entries above the diagonal are mirrored into it), a general file the
+ *  entries as they stand, duplicates summed; a pattern file gives a matrix with x = NULL.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  stats  [out]  error_line; may be NULL.
+ *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error_line; SL_ERR_UNSUPPORTED: complex, array,
+ *           skew-symmetric or hermitian; SL_ERR_NOT_FINITE is not raised here; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(file size + n_rows + n_cols).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
+                                               sl_stats *stats);
+
+/** The same from memory: length bytes of text, no terminating zero needed. */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                                                const sl_options *opt, sl_stats *stats);
+
+/** The transpose of a stored matrix (SL_AS_STORED); rows come out ascending, duplicates stay.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n_rows + n_cols + nnz).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt);
+
+/** The symmetric permutation C = P A P' of a square matrix: C(k, l) = A(perm[k], perm[l]).
+ *
+ *  A matrix that stores one triangle gives the lower triangle of C; one that stores both gives both.
+ *
+ *  perm   [in]   n entries, a permutation of 0..n-1.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm,
+                                                  const sl_options *opt);
+
+/** The arrays of an owned matrix; valid as long as M lives. A NULL M gives a 0 x 0 view. */
+SL_API sl_csc sl_matrix_view(const sl_matrix *M);
+
+/** Releases a matrix; NULL is fine. */
+SL_API void sl_matrix_free(sl_matrix *M);
+
+/** Checks a view: sizes, positions ascending from 0, indices in range.
+ *
+ *  stats  [out]  error_column and, for an index out of range, error_row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN.  Cost  O(n_cols + nnz).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
+
+/** Finds which triangle a square matrix stores, and that a matrix storing both has a symmetric pattern.
+ *
+ *  out    [out]  the triangle.
+ *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                                sl_stats *stats);
+
+/** Y = A X.
+ *
+ *  reading  [in]   SL_AS_SYMMETRIC: A square, read as the factorization does; SL_AS_STORED: any shape.
+ *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X.
+ *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted (sl_csc_check).  Cost  O(nnz nrhs).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
+                                                const double *X, size_t ldx, sl_int nrhs);
+
+/** R = B - A X for a symmetric A, and the backward error of each column.
+ *
+ *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; must not overlap X or B.
+ *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
+ *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
+ *                         0 where r = 0, NaN where r has one; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
+                                                const double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs);
+
+/** Writes a Matrix Market file that reads back to the same bits (%.17g).
+ *
+ *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of one triangle.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_IO.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
+
+#endif
+/* end src/public/csc.h */
+/* begin src/public/analyse.h */
+/* analyse.h: the analysis of a pattern: ordering, elimination tree, supernodes, storage of L */
+#ifndef SL_PUBLIC_ANALYSE_H
+#define SL_PUBLIC_ANALYSE_H
+
+/** Analyses the pattern of a symmetric matrix once, for any number of factorizations with that pattern.
+ *
+ *  Orders the rows, builds the elimination tree, its postorder, column counts and supernodes, the rows of every
+ *  supernode, and the map that carries each entry of A to its place in L.
+ *
+ *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
+ *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
+ *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
+ *  stats  [out]  the symbolic group; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position);
+ *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
+ *  Threads  METIS_NodeND draws from rand() of the C library: with SL_ORDERING_METIS, calls in several threads at once
+ *           are safe only if rand() is, and may then order differently from run to run.
+ *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
+ *  Example  tests/test_symbolic.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                                                   sl_stats *stats);
+
+/** Releases an analysis; NULL is fine. Factors and plans over it must be gone or never used again. */
+SL_API void sl_symbolic_free(sl_symbolic *S);
+
+/** Fills the symbolic group of stats again. */
+SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
+
+/** A look inside: arrays that live as long as the analysis.
+ *
+ *  Supernode s owns columns super_first[s] .. super_first[s+1]-1 of L, a dense block: its own rows, then the rows
+ *  rows[rows_begin[s]] .. rows[rows_begin[s+1]-1] below them, ascending. Supernodes are in postorder.
+ *  The numbers of supernode s stand in a panel of row tiles, [tile][column][8], from position panel_begin[s] of
+ *  sl_factor_view's L: tile t holds local rows 8t..8t+7 of the columns 0..min(width, 8(t+1))-1; the unit diagonal and
+ *  what is above it are stored as 0.
+ */
+typedef struct sl_symbolic_view_t {
+    sl_int n;
+    sl_int n_supers;
+    const sl_int *perm;         /* n: perm[k] = row of A that is pivot k */
+    const sl_int *iperm;        /* n: its inverse */
+    const sl_int *parent;       /* n: elimination tree of P A P', -1 at a root */
+    const sl_int *counts;       /* n: entries of column k of L, diagonal included, without relaxation */
+    const sl_int *super_first;  /* n_supers + 1 */
+    const sl_int *super_of;     /* n: supernode of column k */
+    const sl_int *super_parent; /* n_supers: -1 at a root */
+    const sl_off *rows_begin;   /* n_supers + 1 */
+    const sl_int *rows;         /* rows_begin[n_supers] */
+    const sl_off *panel_begin;  /* n_supers + 1 */
+} sl_symbolic_view_t;
+
+SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
+
+#endif
+/* end src/public/analyse.h */
+/* begin src/public/factor.h */
+/* factor.h: the numbers: P A P' = L D L' */
+#ifndef SL_PUBLIC_FACTOR_H
+#define SL_PUBLIC_FACTOR_H
+
+/** Factors P A P' = L D L' with unit lower triangular L and diagonal D of any sign, without pivoting.
+ *
+ *  Positive definite, negative definite and quasi-definite matrices always work; a symmetric indefinite one works
+ *  if no pivot comes out null.
+ *
+ *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
+ *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
+ *  opt    [in]   isa, null_tolerance, allocator; may be NULL.
+ *  stats  [out]  the factor group; error_row, error_value; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
+ *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
+ *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_MEMORY.
+ *  Cost     O(sum over columns of entries^2); nnz_panels doubles kept.
+ *  Threads  any number at once on one S.
+ *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
+ *  Example  tests/test_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                                 const sl_options *opt, sl_stats *stats);
+
+/** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
+ *
+ *  F      [in,out]  on error F holds no factor and every solve refuses it, until a refactor succeeds.
+ *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY and SL_ERR_UNSUPPORTED aside.
+ *  Threads          nobody else may use F meanwhile.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
+
+/** Releases a factor; NULL is fine. */
+SL_API void sl_factor_free(sl_factor *F);
+
+/** Fills the factor group of stats again. */
+SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
+
+/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign);
+
+/** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
+ *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt);
+
+/** A look inside; the pointers live as long as F. */
+typedef struct sl_factor_view_t {
+    const sl_symbolic *symbolic;
+    const double *L; /* panels, laid out as sl_symbolic_view_t tells */
+    const double *D; /* n pivots, in pivot order */
+} sl_factor_view_t;
+
+SL_API sl_factor_view_t sl_factor_view(const sl_factor *F);
+
+#endif
+/* end src/public/factor.h */
+/* begin src/public/solve.h */
+/* solve.h: full solves, and the workspace that every solve writes to */
+#ifndef SL_PUBLIC_SOLVE_H
+#define SL_PUBLIC_SOLVE_H
+
+/** Makes an empty workspace. It grows when a solve needs more, and keeps what it has: one a thread.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *opt);
+
+/** Releases a workspace; NULL is fine. */
+SL_API void sl_work_free(sl_work *W);
+
+/** Bytes that a workspace holds now. */
+SL_API size_t sl_work_bytes(const sl_work *W);
+
+/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing. */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs);
+
+/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing. */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
+
+/** Solves A X = B.
+ *
+ *  F      [in]   factor of A, n x n.
+ *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
+ *                (then ldx = ldb). On error untouched.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
+ *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, each as fast as about one or two alone.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY: W had to grow and could not.
+ *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
+ *  Threads  any number at once on one F, each with its own W.
+ *  Example  tests/test_solve.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb,
+                                                sl_int nrhs, sl_work *W);
+
+#endif
+/* end src/public/solve.h */
+/* begin src/public/plan.h */
+/* plan.h: local solves: b known on a few rows, x wanted on a few others */
+#ifndef SL_PUBLIC_PLAN_H
+#define SL_PUBLIC_PLAN_H
+
+/** Prepares solves of A x = b that know b only on bset and want x only on xset.
+ *
+ *  With P A P' = L D L' the forward sweep needs the elimination tree's paths from bset to the roots, the backward
+ *  sweep those from xset: each is found by itself, in time proportional to its own size.
+ *
+ *  out    [out]  the plan, or NULL on error; release with sl_plan_free.
+ *  S      [in]   analysis of A, n columns; borrowed, must outlive the plan.
+ *  bset   [in]   nb rows of A in 0..n-1, any order, none twice; NULL (with nb ignored): all n. b is 0 elsewhere.
+ *  xset   [in]   nx rows of A in 0..n-1, any order, none twice; NULL (with nx ignored): all n.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
+ *  Cost     O(nb + nx + rows of the supernodes reached), nothing O(n); the same number of 4-byte integers kept.
+ *  Threads  reads S; the plan is immutable and may be shared.
+ *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
+ *  Example  tests/test_plan.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
+                                               const sl_int *xset, sl_int nx, const sl_options *opt, sl_stats *stats);
+
+/** Releases a plan; NULL is fine. */
+SL_API void sl_plan_free(sl_plan *P);
+
+/** Fills the plan group of stats again. */
+SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
+
+/** Solves A x = b on the plan's sets: exactly what the full solve gives there.
+ *
+ *  For the same instruction set and nrhs the result equals sl_factor_solve's bit for bit (the sign of a zero aside).
+ *
+ *  F      [in]   a factor over the plan's analysis.
+ *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of xset; may be B itself
+ *                (then ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
+ *  nrhs   [in]   number of right-hand sides, 0 or more.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_MEMORY.
+ *  Cost     2 (b_entries + x_entries) flops a right-hand side; nothing O(n); no allocation once W has grown.
+ *  Threads  any number at once on one P and one F, each with its own W.
+ *  Example  tests/test_plan.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                                              const double *B, size_t ldb, sl_int nrhs, sl_work *W);
+
+/** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
+ *
+ *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY.
+ *  Cost     the sum of both; no allocation once W has grown.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Example  tests/test_plan.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset,
+                                               sl_int nx, const double *B, size_t ldb, const sl_int *bset, sl_int nb,
+                                               sl_int nrhs, sl_work *W, sl_stats *stats);
+
+#endif
+/* end src/public/plan.h */
+#ifdef __cplusplus
+}
+#endif
+#endif /* SPARSE_LOCAL_H */
+
+/* ---- bodies, in one source file ---- */
+#if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && !defined(SPARSE_LOCAL_IMPLEMENTED)
+#define SPARSE_LOCAL_IMPLEMENTED
+/* L0 ground */
+/* begin src/impl/base.h */
+/* base.h: the system headers, everything that depends on the compiler, and small integer helpers */
+#ifndef SLI_BASE_H
+#define SLI_BASE_H
+
+#include <errno.h>
+#include <float.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* AVX tables need per-function targets and correctly aligned vector spills: MSVC has no attribute, MinGW misaligns. */
+#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__) && !defined(_WIN32)
+#define SLI_X86 1
+#include <cpuid.h>
+#include <immintrin.h>
+#endif
+#if defined(__aarch64__) && defined(__ARM_NEON)
+#define SLI_ARM 1
+#include <arm_neon.h>
+#endif
+
+#if defined(__GNUC__)
+#define SLI_INLINE __attribute__((unused)) static inline
+#define SLI_TARGET(list) __attribute__((target(list)))
+#define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
+#else
+#define SLI_INLINE static inline
+#define SLI_TARGET(list)
+#define SLI_UNROLL
+#endif
+
+/* States a precondition; SL_VERIFY builds prove it. */
+#if defined(SL_VERIFY)
+#define SLI_ASSERT(condition) ((condition) ? (void)0 : abort())
+#else
+#define SLI_ASSERT(condition) ((void)0)
+#endif
+
+SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
+    return a < b ? a : b;
+}
+
+SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
+    return a > b ? a : b;
+}
+
+/* a clamped to 0..high */
+SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
+    return a < 0 ? 0 : a > high ? high : a;
+}
+
+SLI_INLINE int sli_is_finite(double a) {
+    return a - a == 0.0;
+}
+
+/* Seconds of processor time since some moment: C99 has no other clock. */
+SLI_INLINE double sli_seconds(void) {
+    return (double)clock() / (double)CLOCKS_PER_SEC;
+}
+
+#endif
+/* end src/impl/base.h */
+/* begin src/impl/status.h */
+/* status.h: status codes in words, and the error fields of stats */
+#ifndef SLI_STATUS_H
+#define SLI_STATUS_H
+
+SL_API const char *sl_status_string(sl_status status) {
+    switch (status) {
+    case SL_OK: return "ok";
+    case SL_ERR_ARGUMENT: return "invalid argument";
+    case SL_ERR_MEMORY: return "out of memory";
+    case SL_ERR_PATTERN: return "malformed or unsymmetric pattern";
+    case SL_ERR_PIVOT: return "null pivot: singular matrix, or one that needs pivoting";
+    case SL_ERR_NOT_FINITE: return "not a finite number";
+    case SL_ERR_TOO_LARGE: return "too large for the integer type";
+    case SL_ERR_UNSUPPORTED: return "not supported";
+    case SL_ERR_IO: return "file cannot be read, parsed or written";
+    case SL_ERR_ORDERING: return "ordering failed";
+    case SL_ERR_STATE: return "failed factor, or objects that do not belong together";
+    }
+    return "unknown status";
+}
+
+/* Every call that takes stats starts by forgetting the last error. */
+SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
+    if (stats != NULL) {
+        stats->error_row = -1;
+        stats->error_column = -1;
+        stats->error_line = -1;
+        stats->error_value = 0.0;
+    }
+}
+
+/* Names the entry at fault and passes the status on. */
+SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column, double value) {
+    if (stats != NULL) {
+        stats->error_row = row;
+        stats->error_column = column;
+        stats->error_value = value;
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/status.h */
+/* begin src/impl/alloc.h */
+/* alloc.h: memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go */
+#ifndef SLI_ALLOC_H
+#define SLI_ALLOC_H
+
+#define SLI_ALIGN ((size_t)64) /* a cache line, and the widest register */
+
+SLI_INLINE void *sli_malloc_default(void *context, size_t bytes) {
+    (void)context;
+    return malloc(bytes);
+}
+
+SLI_INLINE void sli_free_default(void *context, void *block) {
+    (void)context;
+    free(block);
+}
+
+/* The caller's allocator, or malloc and free. */
+SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
+    sl_allocator a;
+    if (opt != NULL && opt->allocator.allocate != NULL && opt->allocator.release != NULL) {
+        return opt->allocator;
+    }
+    a.allocate = sli_malloc_default;
+    a.release = sli_free_default;
+    a.context = NULL;
+    return a;
+}
+
+/* bytes > 0 of aligned memory, or NULL. The pointer that the allocator gave stands just before the block. */
+SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
+    unsigned char *raw, *block;
+    if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
+        return NULL;
+    }
+    raw = (unsigned char *)a->allocate(a->context, bytes + SLI_ALIGN + sizeof(void *));
+    if (raw == NULL) {
+        return NULL;
+    }
+    block = raw + sizeof(void *);
+    block += (SLI_ALIGN - (size_t)((uintptr_t)block % SLI_ALIGN)) % SLI_ALIGN;
+    memcpy(block - sizeof(void *), &raw, sizeof(void *));
+    return block;
+}
+
+SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
+    void *raw;
+    if (block != NULL) {
+        memcpy(&raw, (unsigned char *)block - sizeof(void *), sizeof(void *));
+        a->release(a->context, raw);
+    }
+}
+
+/* A block to be cut into arrays. A layout function runs twice over it: with base NULL it only counts, with the block
+ * allocated it hands out the pointers, so that sizes are written once. */
+typedef struct sli_block {
+    unsigned char *base;
+    size_t used;
+    int overflow;
+} sli_block;
+
+/* The next array of count elements of size bytes; NULL while counting. */
+SLI_INLINE void *sli_take(sli_block *b, size_t count, size_t size) {
+    size_t at = b->used, bytes;
+    if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
+        b->overflow = 1;
+        return NULL;
+    }
+    bytes = (count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    if (bytes > SIZE_MAX - b->used) {
+        b->overflow = 1;
+        return NULL;
+    }
+    b->used += bytes;
+    return b->base == NULL ? NULL : b->base + at;
+}
+
+/* Allocates what was counted and rewinds for the second run; at least one byte, so that NULL means failure. */
+SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
+    if (b->overflow) {
+        return SL_ERR_TOO_LARGE;
+    }
+    b->base = (unsigned char *)sli_alloc(a, b->used > 0 ? b->used : 1);
+    if (b->base == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    b->used = 0;
+    return SL_OK;
+}
+
+/* Arrays of the two index types and of doubles, cut from a block. */
+#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (size_t)(count), sizeof(type)))
+
+#endif
+/* end src/impl/alloc.h */
+/* begin src/impl/sort.h */
+/* sort.h: sorts keyed numbers: insertion for a few, radix for many */
+#ifndef SLI_SORT_H
+#define SLI_SORT_H
+
+/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move. */
+SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
+    return (uint64_t)(uint32_t)key << 32 | (uint32_t)value;
+}
+
+SLI_INLINE sl_int sli_key(uint64_t keyed) {
+    return (sl_int)(keyed >> 32);
+}
+
+SLI_INLINE sl_int sli_value(uint64_t keyed) {
+    return (sl_int)(uint32_t)(keyed & 0xffffffffu);
+}
+
+#define SLI_SORT_SMALL 48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
+
+/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more. O(count) a byte. */
+static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
+    sl_int i, k;
+    sl_int largest = 0;
+    int shift;
+    if (count <= SLI_SORT_SMALL) {
+        for (i = 1; i < count; i++) {
+            const uint64_t here = a[i];
+            for (k = i; k > 0 && a[k - 1] >> 32 > here >> 32; k--) {
+                a[k] = a[k - 1];
+            }
+            a[k] = here;
+        }
+        return;
+    }
+    for (i = 0; i < count; i++) {
+        largest = sli_max(largest, sli_key(a[i]));
+    }
+    for (shift = 32; shift < 64 && largest > 0; shift += 8, largest >>= 8) {
+        sl_int start[256], total = 0;
+        memset(start, 0, sizeof start);
+        for (i = 0; i < count; i++) {
+            start[(a[i] >> shift) & 255]++;
+        }
+        for (k = 0; k < 256; k++) {
+            const sl_int here = start[k];
+            start[k] = total;
+            total += here;
+        }
+        for (i = 0; i < count; i++) {
+            scratch[start[(a[i] >> shift) & 255]++] = a[i];
+        }
+        memcpy(a, scratch, (size_t)count * sizeof *a);
+    }
+}
+
+#endif
+/* end src/impl/sort.h */
+/* begin src/impl/cpu.h */
+/* cpu.h: which instruction sets this processor and operating system run */
+#ifndef SLI_CPU_H
+#define SLI_CPU_H
+
+#if defined(SLI_X86)
+/* The register states that the operating system saves: XCR0. */
+SLI_INLINE unsigned sli_xcr0(void) {
+    unsigned low, high;
+    __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    return low;
+}
+#endif
+
+/* The best instruction set here. CPUID traps under a hypervisor (microseconds), so this runs once a factor. */
+static sl_isa sli_cpu_best(void) {
+#if defined(SLI_X86)
+    unsigned a, b, c, d, xcr0;
+    const unsigned osxsave_avx_fma = (1u << 27) | (1u << 28) | (1u << 12);
+    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & osxsave_avx_fma) != osxsave_avx_fma) {
+        return SL_ISA_SCALAR;
+    }
+    xcr0 = sli_xcr0();
+    if ((xcr0 & 0x6u) != 0x6u || !__get_cpuid_count(7, 0, &a, &b, &c, &d) || !(b & (1u << 5))) {
+        return SL_ISA_SCALAR;
+    }
+    return (xcr0 & 0xe6u) == 0xe6u && (b & (1u << 16)) ? SL_ISA_AVX512 : SL_ISA_AVX2;
+#elif defined(SLI_ARM)
+    return SL_ISA_NEON;
+#else
+    return SL_ISA_SCALAR;
+#endif
+}
+
+#endif
+/* end src/impl/cpu.h */
+/* L1 kernels: raw arrays only */
+/* begin src/impl/kernels.h */
+/* kernels.h: the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills */
+#ifndef SLI_KERNELS_H
+#define SLI_KERNELS_H
+
+/* Panels. Supernode s, w columns and u rows below them, is stored as row tiles of 8, [tile][column][8], whatever the
+ * ISA: local row r of column j stands in tile r/8, lane r%8. Tiles of the diagonal block keep only their first
+ * 8 (tile + 1) columns; the unit diagonal, what is above it, and the padding of the last tile are 0.
+ */
+#define SLI_TILE 8
+
+/* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w columns wide. */
+SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
+    sl_off whole = w / SLI_TILE, tile = t;
+    return tile <= whole ? 32 * tile * (tile + 1) : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
+}
+
+/* Tiles that hold a number of rows. */
+SLI_INLINE sl_int sli_tiles(sl_int rows) {
+    return rows / SLI_TILE + (rows % SLI_TILE != 0);
+}
+
+/* Doubles of a panel of w columns and u rows below them. */
+SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
+    return sli_tile_offset(w, sli_tiles(w + u));
+}
+
+/* Where local row r of column j stands in a panel of w columns. */
+SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
+    return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;
+}
+
+/* One supernode of a reach. A sweep's vector x holds only the columns of its reach, closely packed; a whole analysis
+ * is the reach in which base is the column itself. A supernode is entered at a whole tile, so that a local sweep does
+ * the same operations in the same order as the full one, which computes with zeros where the local one has nothing. */
+typedef struct sli_step {
+    sl_off panel;      /* position of the panel in L */
+    sl_int column;     /* first column needed: 8 first_tile columns into the supernode */
+    sl_int base;       /* where that column stands in x */
+    sl_int width;      /* columns of the supernode */
+    sl_int below;      /* rows below them; their places in x come with the sweep, step after step */
+    sl_int first_tile; /* tiles and columns before it are not needed */
+    sl_int up;         /* the step of the parent supernode, -1 at a root */
+} sli_step;
+
+/* Columns of x that a step owns. */
+SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
+    return s->width - SLI_TILE * s->first_tile;
+}
+
+/* Right-hand sides are interleaved: row i of x is x[i lanes] .. x[i lanes + lanes - 1], lanes = 1, 2, 4 or 8. */
+enum { SLI_LANES_1, SLI_LANES_2, SLI_LANES_4, SLI_LANES_8, SLI_LANES_COUNT };
+
+/* x := L^-1 x over the steps, ascending. rows: places of the rows below, in step order.
+ * scratch: sli_scratch_size doubles for the tallest step, 64-byte aligned. */
+typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows, const double *L, double *x,
+                                   double *scratch);
+
+/* x := L'^-1 D^-1 x over the steps, descending. rows_end: one past the last place of the last step. */
+typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end, const double *L,
+                                    const double *D, double *x, double *scratch);
+
+/* Row q of a panel, up-looking: on entry the panel holds A there and x minus the updates so far; turns the row into L,
+ * passes its updates on to the rows above q in x, clears x on the supernode's columns. D: the supernode's pivots.
+ * *pivot loses the row's share l' D l of the pivot; *magnitude gains its absolute value. */
+typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows, const double *D,
+                               double *x_super, double *x, double *scratch, double *pivot, double *magnitude);
+
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for a
+ * single lane the 8 partial sums of every column. */
+SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
+    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes == 1 ? (size_t)SLI_TILE * (size_t)width : 0);
+}
+
+/* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves from the last down. */
+#define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
+#define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
+#define SLI_EACH4_AGAIN(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
+#define SLI_EACH8_AGAIN(op, k) SLI_EACH4_AGAIN(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
+#define SLI_HIGH4(op, k) op(3, k) op(2, k)
+#define SLI_HIGH8(op, k) op(7, k) op(6, k) op(5, k) op(4, k)
+#define SLI_LOW4(op, k) op(1, k) op(0, k)
+#define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
+
+typedef struct sli_kernels {
+    sl_isa isa;
+    sli_forward_kernel forward[SLI_LANES_COUNT];
+    sli_backward_kernel backward[SLI_LANES_COUNT];
+    sli_row_kernel row;
+} sli_kernels;
+
+#endif
+/* end src/impl/kernels.h */
+/* begin src/impl/isa_scalar.h */
+/* isa_scalar.h: the kernels in plain C: an octet is an array */
+#ifndef SLI_ISA_SCALAR_H
+#define SLI_ISA_SCALAR_H
+
+#define SLV_NAME(f) sli_##f##_scalar
+#define SLV_ISA SL_ISA_SCALAR
+#define SLV_FUNCTION
+#define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
+#define SLV_DECLARE(a) double a[SLI_TILE];
+#define SLV_ZERO(a) { \
+        int i_; \
+        for (i_ = 0; i_ < SLI_TILE; i_++) { \
+            a[i_] = 0.0; \
+        } \
+    }
+#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLI_TILE; i_++) { \
+            a[i_] += b[i_]; \
+        } \
+    }
+#define SLV_AXPY(a, l, p) { \
+        const double s_ = *(p); \
+        int i_; \
+        for (i_ = 0; i_ < SLI_TILE; i_++) { \
+            a[i_] -= (l)[i_] * s_; \
+        } \
+    }
+#define SLV_DOT(a, l, v) { \
+        int i_; \
+        for (i_ = 0; i_ < SLI_TILE; i_++) { \
+            a[i_] -= (l)[i_] * v[i_]; \
+        } \
+    }
+#define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
+
+#define SLW_NAME(f) sli_##f##2_scalar
+#define SLW_LANES 2
+#define SLW_ROWS 4
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#define SLW_DECLARE(a) double a[SLW_LANES];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
+#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLW_FNMA(a, s, b) { \
+        const double s_ = (s); \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] -= s_ * b[i_]; \
+        } \
+    }
+#define SLW_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] += b[i_]; \
+        } \
+    }
+#define SLW_DIVIDE(a, s) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] /= (s); \
+        } \
+    }
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##4_scalar
+#define SLW_LANES 4
+#define SLW_ROWS 4
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#define SLW_DECLARE(a) double a[SLW_LANES];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
+#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLW_FNMA(a, s, b) { \
+        const double s_ = (s); \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] -= s_ * b[i_]; \
+        } \
+    }
+#define SLW_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] += b[i_]; \
+        } \
+    }
+#define SLW_DIVIDE(a, s) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] /= (s); \
+        } \
+    }
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##8_scalar
+#define SLW_LANES 8
+#define SLW_ROWS 4
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#define SLW_DECLARE(a) double a[SLW_LANES];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
+#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLW_FNMA(a, s, b) { \
+        const double s_ = (s); \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] -= s_ * b[i_]; \
+        } \
+    }
+#define SLW_ADD(a, b) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] += b[i_]; \
+        } \
+    }
+#define SLW_DIVIDE(a, s) { \
+        int i_; \
+        for (i_ = 0; i_ < SLW_LANES; i_++) { \
+            a[i_] /= (s); \
+        } \
+    }
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+/* begin src/impl/tile.inl.h */
+/* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
+
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
+
+/* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
+    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
+    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
+    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+    SLI_X(6, 5) SLI_X(7, 5)
+    SLI_X(7, 6)
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+    r[7] = r7;
+}
+
+/* r := L'^-1 r */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
+    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
+    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
+    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
+    SLI_XT(1, 2) SLI_XT(0, 2)
+    SLI_XT(0, 1)
+    r[0] = r0;
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+}
+
+#undef SLI_X
+#undef SLI_XT
+/* end src/impl/tile.inl.h */
+
+/* begin src/impl/body.inl.h */
+/* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
+
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
+ * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
+ * alone, so that a sweep that starts later, over zeros, gives the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
+                                                      sl_int rows, double *buf) {
+    const sl_int first = SLI_TILE * t0;
+    sl_int t, j, k;
+    for (t = t0; SLI_TILE * t < rows; t++) {
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        SLV_DECLARE(a0)
+        SLV_DECLARE(a1)
+        SLV_DECLARE(a2)
+        SLV_DECLARE(a3)
+        SLV_LOAD(a0, buf + row)
+        SLV_ZERO(a1)
+        SLV_ZERO(a2)
+        SLV_ZERO(a3)
+        for (j = first; j + 4 <= final; j += 4) { /* y(rows) -= L(rows, j) y(j) */
+            const double *l = tile + SLI_TILE * j;
+            SLV_AXPY(a0, l, buf + j)
+            SLV_AXPY(a1, l + 8, buf + j + 1)
+            SLV_AXPY(a2, l + 16, buf + j + 2)
+            SLV_AXPY(a3, l + 24, buf + j + 3)
+        }
+        for (; j < final; j++) {
+            SLV_AXPY(a0, tile + SLI_TILE * j, buf + j)
+        }
+        SLV_ADD(a0, a1)
+        SLV_ADD(a2, a3)
+        SLV_ADD(a0, a2)
+        SLV_STORE(buf + row, a0)
+        if (inner == SLI_TILE) {
+            SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
+        } else {
+            for (k = 0; k < inner; k++) { /* columns inside the tile, one after the other */
+                SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
+                SLV_STORE(buf + row, a0)
+            }
+        }
+        tile += SLI_TILE * sli_min(width, row + SLI_TILE);
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        double *xs = x + s->base;
+        sl_int i;
+        memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+        for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            x[rows[i]] += buf[w + i];
+        }
+        rows += s->below;
+    }
+}
+
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
+ * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
+                                                       const double *z, double *buf, double *sums) {
+    const sl_int first = SLI_TILE * t0;
+    const double *tile = end;
+    sl_int t, j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(a)
+    SLV_ZERO(a)
+    for (j = first; j < width; j++) {
+        SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (t = sli_tiles(height) - 1; t >= t0; t--) {
+        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
+        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
+        if (inner > 0) {
+            double r[SLI_TILE];
+            const double *l = tile + SLI_TILE * row;
+            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
+            for (k = 0; k < inner; k++) {
+                SLV_LOAD(a, sums + SLI_TILE * (row + k))
+                if (inner < SLI_TILE) {
+                    SLV_DOT(a, l + SLI_TILE * k, v)
+                }
+                r[k] = z[row + k] + SLV_SUM(a);
+            }
+            if (inner == SLI_TILE) {
+                SLV_NAME(tile_backward)(l, r);
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
+                    }
+                }
+            }
+            for (k = 0; k < inner; k++) {
+                buf[row + k] = r[k];
+            }
+        }
+        SLV_LOAD(v, buf + row)
+        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+            SLV_LOAD(a, sums + SLI_TILE * j)
+            SLV_DOT(a, tile + SLI_TILE * j, v)
+            SLV_STORE(sums + SLI_TILE * j, a)
+        }
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        double *xs = x + s->base - first;
+        const double *d = D + s->column - first;
+        sl_int i;
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            xs[i] /= d[i];
+            buf[i] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[w + i] = x[rows_end[i]];
+        }
+        for (i = height; i < padded; i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
+                                 buf + padded);
+        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
+                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+    const sl_int columns = sli_min(q, w);
+    double *lq = panel + sli_panel_at(w, q, 0);
+    double d = *pivot, size = *magnitude;
+    sl_int i;
+    for (i = 0; i < columns; i++) { /* y = row of A minus what the descendants sent */
+        buf[i] = lq[SLI_TILE * i] + xs[i];
+        xs[i] = 0.0;
+    }
+    for (; i < SLI_TILE * sli_tiles(q); i++) {
+        buf[i] = 0.0;
+    }
+    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
+    for (i = w; i < q; i++) {
+        x[rows[i - w]] += buf[i];
+    }
+    for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
+        const double l = buf[i] / D[i];
+        lq[SLI_TILE * i] = l;
+        d = SLV_FNMA1(l, buf[i], d);
+        size += fabs(l * buf[i]);
+    }
+    *pivot = d;
+    *magnitude = size;
+}
+
+static const sli_kernels SLV_NAME(kernels) = {
+    SLV_ISA,
+    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
+    SLV_NAME(row)};
+/* end src/impl/body.inl.h */
+
+/* begin src/impl/words_end.inl.h */
+/* words_end.inl.h: takes the octet words back, for the next instruction set */
+#undef SLV_NAME
+#undef SLV_ISA
+#undef SLV_FUNCTION
+#undef SLV_DECLARE
+#undef SLV_ZERO
+#undef SLV_LOAD
+#undef SLV_STORE
+#undef SLV_ADD
+#undef SLV_AXPY
+#undef SLV_DOT
+#undef SLV_SUM
+#undef SLV_FNMA1
+/* end src/impl/words_end.inl.h */
+
+#endif
+/* end src/impl/isa_scalar.h */
+/* begin src/impl/isa_avx2.h */
+/* isa_avx2.h: the kernels in AVX2 and FMA: an octet is two registers */
+#ifndef SLI_ISA_AVX2_H
+#define SLI_ISA_AVX2_H
+
+#if defined(SLI_X86)
+
+#define SLV_NAME(f) sli_##f##_avx2
+#define SLV_ISA SL_ISA_AVX2
+#define SLV_FUNCTION SLI_TARGET("avx2,fma")
+#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+
+SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
+    low = _mm_add_pd(low, high);
+    return _mm_cvtsd_f64(_mm_add_sd(low, _mm_unpackhi_pd(low, low)));
+}
+
+#define SLV_DECLARE(a) __m256d a##_0, a##_1;
+#define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
+#define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
+#define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLV_AXPY(a, l, p) { \
+        const __m256d s_ = _mm256_broadcast_sd(p); \
+        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0); \
+        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1); \
+    }
+#define SLV_DOT(a, l, v) a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0), \
+                         a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
+#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)), \
+                                _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
+
+#define SLW_NAME(f) sli_##f##2_avx2
+#define SLW_LANES 2
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##4_avx2
+#define SLW_LANES 4
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) __m256d a;
+#define SLW_ZERO(a) a = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_LANES 8
+#define SLW_ROWS 4
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#define SLW_DECLARE(a) __m256d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLW_FNMA(a, s, b) { \
+        const __m256d s_ = _mm256_broadcast_sd(&(s)); \
+        a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
+        a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
+    }
+#define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+/* begin src/impl/tile.inl.h */
+/* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
+
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
+
+/* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
+    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
+    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
+    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+    SLI_X(6, 5) SLI_X(7, 5)
+    SLI_X(7, 6)
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+    r[7] = r7;
+}
+
+/* r := L'^-1 r */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
+    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
+    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
+    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
+    SLI_XT(1, 2) SLI_XT(0, 2)
+    SLI_XT(0, 1)
+    r[0] = r0;
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+}
+
+#undef SLI_X
+#undef SLI_XT
+/* end src/impl/tile.inl.h */
+
+/* begin src/impl/body.inl.h */
+/* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
+
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
+ * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
+ * alone, so that a sweep that starts later, over zeros, gives the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
+                                                      sl_int rows, double *buf) {
+    const sl_int first = SLI_TILE * t0;
+    sl_int t, j, k;
+    for (t = t0; SLI_TILE * t < rows; t++) {
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        SLV_DECLARE(a0)
+        SLV_DECLARE(a1)
+        SLV_DECLARE(a2)
+        SLV_DECLARE(a3)
+        SLV_LOAD(a0, buf + row)
+        SLV_ZERO(a1)
+        SLV_ZERO(a2)
+        SLV_ZERO(a3)
+        for (j = first; j + 4 <= final; j += 4) { /* y(rows) -= L(rows, j) y(j) */
+            const double *l = tile + SLI_TILE * j;
+            SLV_AXPY(a0, l, buf + j)
+            SLV_AXPY(a1, l + 8, buf + j + 1)
+            SLV_AXPY(a2, l + 16, buf + j + 2)
+            SLV_AXPY(a3, l + 24, buf + j + 3)
+        }
+        for (; j < final; j++) {
+            SLV_AXPY(a0, tile + SLI_TILE * j, buf + j)
+        }
+        SLV_ADD(a0, a1)
+        SLV_ADD(a2, a3)
+        SLV_ADD(a0, a2)
+        SLV_STORE(buf + row, a0)
+        if (inner == SLI_TILE) {
+            SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
+        } else {
+            for (k = 0; k < inner; k++) { /* columns inside the tile, one after the other */
+                SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
+                SLV_STORE(buf + row, a0)
+            }
+        }
+        tile += SLI_TILE * sli_min(width, row + SLI_TILE);
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        double *xs = x + s->base;
+        sl_int i;
+        memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+        for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            x[rows[i]] += buf[w + i];
+        }
+        rows += s->below;
+    }
+}
+
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
+ * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
+                                                       const double *z, double *buf, double *sums) {
+    const sl_int first = SLI_TILE * t0;
+    const double *tile = end;
+    sl_int t, j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(a)
+    SLV_ZERO(a)
+    for (j = first; j < width; j++) {
+        SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (t = sli_tiles(height) - 1; t >= t0; t--) {
+        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
+        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
+        if (inner > 0) {
+            double r[SLI_TILE];
+            const double *l = tile + SLI_TILE * row;
+            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
+            for (k = 0; k < inner; k++) {
+                SLV_LOAD(a, sums + SLI_TILE * (row + k))
+                if (inner < SLI_TILE) {
+                    SLV_DOT(a, l + SLI_TILE * k, v)
+                }
+                r[k] = z[row + k] + SLV_SUM(a);
+            }
+            if (inner == SLI_TILE) {
+                SLV_NAME(tile_backward)(l, r);
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
+                    }
+                }
+            }
+            for (k = 0; k < inner; k++) {
+                buf[row + k] = r[k];
+            }
+        }
+        SLV_LOAD(v, buf + row)
+        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+            SLV_LOAD(a, sums + SLI_TILE * j)
+            SLV_DOT(a, tile + SLI_TILE * j, v)
+            SLV_STORE(sums + SLI_TILE * j, a)
+        }
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        double *xs = x + s->base - first;
+        const double *d = D + s->column - first;
+        sl_int i;
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            xs[i] /= d[i];
+            buf[i] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[w + i] = x[rows_end[i]];
+        }
+        for (i = height; i < padded; i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
+                                 buf + padded);
+        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
+                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+    const sl_int columns = sli_min(q, w);
+    double *lq = panel + sli_panel_at(w, q, 0);
+    double d = *pivot, size = *magnitude;
+    sl_int i;
+    for (i = 0; i < columns; i++) { /* y = row of A minus what the descendants sent */
+        buf[i] = lq[SLI_TILE * i] + xs[i];
+        xs[i] = 0.0;
+    }
+    for (; i < SLI_TILE * sli_tiles(q); i++) {
+        buf[i] = 0.0;
+    }
+    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
+    for (i = w; i < q; i++) {
+        x[rows[i - w]] += buf[i];
+    }
+    for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
+        const double l = buf[i] / D[i];
+        lq[SLI_TILE * i] = l;
+        d = SLV_FNMA1(l, buf[i], d);
+        size += fabs(l * buf[i]);
+    }
+    *pivot = d;
+    *magnitude = size;
+}
+
+static const sli_kernels SLV_NAME(kernels) = {
+    SLV_ISA,
+    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
+    SLV_NAME(row)};
+/* end src/impl/body.inl.h */
+
+/* begin src/impl/words_end.inl.h */
+/* words_end.inl.h: takes the octet words back, for the next instruction set */
+#undef SLV_NAME
+#undef SLV_ISA
+#undef SLV_FUNCTION
+#undef SLV_DECLARE
+#undef SLV_ZERO
+#undef SLV_LOAD
+#undef SLV_STORE
+#undef SLV_ADD
+#undef SLV_AXPY
+#undef SLV_DOT
+#undef SLV_SUM
+#undef SLV_FNMA1
+/* end src/impl/words_end.inl.h */
+
+#endif
+
+#endif
+/* end src/impl/isa_avx2.h */
+/* begin src/impl/isa_avx512.h */
+/* isa_avx512.h: the kernels in AVX-512: an octet is one register */
+#ifndef SLI_ISA_AVX512_H
+#define SLI_ISA_AVX512_H
+
+#if defined(SLI_X86)
+
+#define SLV_NAME(f) sli_##f##_avx512
+#define SLV_ISA SL_ISA_AVX512
+#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
+#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_DECLARE(a) __m512d a;
+#define SLV_ZERO(a) a = _mm512_setzero_pd();
+#define SLV_LOAD(a, p) a = _mm512_load_pd(p);
+#define SLV_STORE(p, a) _mm512_store_pd((p), a);
+#define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
+#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
+/* the masked extraction keeps gcc's own headers from warning in C++ */
+#define SLV_HALVES(a) \
+    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0), _mm512_maskz_extractf64x4_pd(0xff, a, 1))
+#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
+
+#define SLW_NAME(f) sli_##f##2_avx512
+#define SLW_LANES 2
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##4_avx512
+#define SLW_LANES 4
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) __m256d a;
+#define SLW_ZERO(a) a = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##8_avx512
+#define SLW_LANES 8
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) __m512d a;
+#define SLW_ZERO(a) a = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(_mm512_set1_pd(s), b, a);
+#define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+/* begin src/impl/tile.inl.h */
+/* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
+
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
+
+/* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
+    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
+    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
+    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+    SLI_X(6, 5) SLI_X(7, 5)
+    SLI_X(7, 6)
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+    r[7] = r7;
+}
+
+/* r := L'^-1 r */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
+    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
+    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
+    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
+    SLI_XT(1, 2) SLI_XT(0, 2)
+    SLI_XT(0, 1)
+    r[0] = r0;
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+}
+
+#undef SLI_X
+#undef SLI_XT
+/* end src/impl/tile.inl.h */
+
+/* begin src/impl/body.inl.h */
+/* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
+
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
+ * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
+ * alone, so that a sweep that starts later, over zeros, gives the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
+                                                      sl_int rows, double *buf) {
+    const sl_int first = SLI_TILE * t0;
+    sl_int t, j, k;
+    for (t = t0; SLI_TILE * t < rows; t++) {
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        SLV_DECLARE(a0)
+        SLV_DECLARE(a1)
+        SLV_DECLARE(a2)
+        SLV_DECLARE(a3)
+        SLV_LOAD(a0, buf + row)
+        SLV_ZERO(a1)
+        SLV_ZERO(a2)
+        SLV_ZERO(a3)
+        for (j = first; j + 4 <= final; j += 4) { /* y(rows) -= L(rows, j) y(j) */
+            const double *l = tile + SLI_TILE * j;
+            SLV_AXPY(a0, l, buf + j)
+            SLV_AXPY(a1, l + 8, buf + j + 1)
+            SLV_AXPY(a2, l + 16, buf + j + 2)
+            SLV_AXPY(a3, l + 24, buf + j + 3)
+        }
+        for (; j < final; j++) {
+            SLV_AXPY(a0, tile + SLI_TILE * j, buf + j)
+        }
+        SLV_ADD(a0, a1)
+        SLV_ADD(a2, a3)
+        SLV_ADD(a0, a2)
+        SLV_STORE(buf + row, a0)
+        if (inner == SLI_TILE) {
+            SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
+        } else {
+            for (k = 0; k < inner; k++) { /* columns inside the tile, one after the other */
+                SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
+                SLV_STORE(buf + row, a0)
+            }
+        }
+        tile += SLI_TILE * sli_min(width, row + SLI_TILE);
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        double *xs = x + s->base;
+        sl_int i;
+        memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+        for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            x[rows[i]] += buf[w + i];
+        }
+        rows += s->below;
+    }
+}
+
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
+ * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
+                                                       const double *z, double *buf, double *sums) {
+    const sl_int first = SLI_TILE * t0;
+    const double *tile = end;
+    sl_int t, j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(a)
+    SLV_ZERO(a)
+    for (j = first; j < width; j++) {
+        SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (t = sli_tiles(height) - 1; t >= t0; t--) {
+        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
+        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
+        if (inner > 0) {
+            double r[SLI_TILE];
+            const double *l = tile + SLI_TILE * row;
+            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
+            for (k = 0; k < inner; k++) {
+                SLV_LOAD(a, sums + SLI_TILE * (row + k))
+                if (inner < SLI_TILE) {
+                    SLV_DOT(a, l + SLI_TILE * k, v)
+                }
+                r[k] = z[row + k] + SLV_SUM(a);
+            }
+            if (inner == SLI_TILE) {
+                SLV_NAME(tile_backward)(l, r);
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
+                    }
+                }
+            }
+            for (k = 0; k < inner; k++) {
+                buf[row + k] = r[k];
+            }
+        }
+        SLV_LOAD(v, buf + row)
+        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+            SLV_LOAD(a, sums + SLI_TILE * j)
+            SLV_DOT(a, tile + SLI_TILE * j, v)
+            SLV_STORE(sums + SLI_TILE * j, a)
+        }
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        double *xs = x + s->base - first;
+        const double *d = D + s->column - first;
+        sl_int i;
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            xs[i] /= d[i];
+            buf[i] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[w + i] = x[rows_end[i]];
+        }
+        for (i = height; i < padded; i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
+                                 buf + padded);
+        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
+                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+    const sl_int columns = sli_min(q, w);
+    double *lq = panel + sli_panel_at(w, q, 0);
+    double d = *pivot, size = *magnitude;
+    sl_int i;
+    for (i = 0; i < columns; i++) { /* y = row of A minus what the descendants sent */
+        buf[i] = lq[SLI_TILE * i] + xs[i];
+        xs[i] = 0.0;
+    }
+    for (; i < SLI_TILE * sli_tiles(q); i++) {
+        buf[i] = 0.0;
+    }
+    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
+    for (i = w; i < q; i++) {
+        x[rows[i - w]] += buf[i];
+    }
+    for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
+        const double l = buf[i] / D[i];
+        lq[SLI_TILE * i] = l;
+        d = SLV_FNMA1(l, buf[i], d);
+        size += fabs(l * buf[i]);
+    }
+    *pivot = d;
+    *magnitude = size;
+}
+
+static const sli_kernels SLV_NAME(kernels) = {
+    SLV_ISA,
+    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
+    SLV_NAME(row)};
+/* end src/impl/body.inl.h */
+
+/* begin src/impl/words_end.inl.h */
+/* words_end.inl.h: takes the octet words back, for the next instruction set */
+#undef SLV_NAME
+#undef SLV_ISA
+#undef SLV_FUNCTION
+#undef SLV_DECLARE
+#undef SLV_ZERO
+#undef SLV_LOAD
+#undef SLV_STORE
+#undef SLV_ADD
+#undef SLV_AXPY
+#undef SLV_DOT
+#undef SLV_SUM
+#undef SLV_FNMA1
+/* end src/impl/words_end.inl.h */
+#undef SLV_HALVES
+
+#endif
+
+#endif
+/* end src/impl/isa_avx512.h */
+/* begin src/impl/isa_neon.h */
+/* isa_neon.h: the kernels in NEON: an octet is four registers */
+#ifndef SLI_ISA_NEON_H
+#define SLI_ISA_NEON_H
+
+#if defined(SLI_ARM)
+
+#define SLV_NAME(f) sli_##f##_neon
+#define SLV_ISA SL_ISA_NEON
+#define SLV_FUNCTION
+#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
+#define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
+#define SLV_LOAD(a, p)  \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
+#define SLV_STORE(p, a)  \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), vst1q_f64((p) + 6, a##_3);
+#define SLV_ADD(a, b)  \
+    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLV_AXPY(a, l, p) { \
+        const float64x2_t s_ = vld1q_dup_f64(p); \
+        a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_); \
+        a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_); \
+        a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_); \
+        a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_); \
+    }
+#define SLV_DOT(a, l, v)  \
+    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0), \
+    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1), \
+    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
+    a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
+#define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
+
+#define SLW_NAME(f) sli_##f##2_neon
+#define SLW_LANES 2
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) float64x2_t a##_0;
+#define SLW_ZERO(a) a##_0 = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p)  \
+    a##_0 = vld1q_f64((p) + 0);
+#define SLW_STORE(p, a)  \
+    vst1q_f64((p) + 0, a##_0);
+#define SLW_FNMA(a, s, b) { \
+        const float64x2_t s_ = vdupq_n_f64(s); \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+    }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0);
+#define SLW_DIVIDE(a, s) { \
+        const float64x2_t s_ = vdupq_n_f64(s); \
+        a##_0 = vdivq_f64(a##_0, s_); \
+    }
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##4_neon
+#define SLW_LANES 4
+#define SLW_ROWS 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p)  \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
+#define SLW_STORE(p, a)  \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
+#define SLW_FNMA(a, s, b) { \
+        const float64x2_t s_ = vdupq_n_f64(s); \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+        a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+    }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) { \
+        const float64x2_t s_ = vdupq_n_f64(s); \
+        a##_0 = vdivq_f64(a##_0, s_); \
+        a##_1 = vdivq_f64(a##_1, s_); \
+    }
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+#define SLW_NAME(f) sli_##f##8_neon
+#define SLW_LANES 8
+#define SLW_ROWS 4
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
+#define SLW_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p)  \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
+#define SLW_STORE(p, a)  \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), vst1q_f64((p) + 6, a##_3);
+#define SLW_FNMA(a, s, b) { \
+        const float64x2_t s_ = vdupq_n_f64(s); \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+        a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+        a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
+        a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
+    }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLW_DIVIDE(a, s) { \
+        const float64x2_t s_ = vdupq_n_f64(s); \
+        a##_0 = vdivq_f64(a##_0, s_); \
+        a##_1 = vdivq_f64(a##_1, s_); \
+        a##_2 = vdivq_f64(a##_2, s_); \
+        a##_3 = vdivq_f64(a##_3, s_); \
+    }
+/* begin src/impl/lanes.inl.h */
+/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
+
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
+ * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
+ * SLW_EACH once more, as a macro does not expand inside itself. */
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
+#define SLI_DOWN(r, k)                                                                                                 \
+    if ((r) > (k)) {                                                                                                   \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+    }
+#define SLI_UP(j, k)                                                                                                   \
+    if ((j) < (k) && (j) < inner) {                                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+    }
+#define SLI_COLUMN(k, unused)                                                                                          \
+    if ((k) < inner) {                                                                                                 \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
+        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
+        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
+               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            SLW_EACH(SLI_DECLARE, 0)
+            SLW_DECLARE(b)
+            SLW_EACH(SLI_LOAD, p)
+            for (j = first; j < final; j++, l += SLI_TILE) {
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_EACH(SLI_APPLY, l)
+            }
+            SLW_EACH(SLI_COLUMN, 0)
+            SLW_EACH(SLI_STORE, p)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+            SLW_DECLARE(sum)
+            SLW_DECLARE(update)
+            SLW_LOAD(sum, to)
+            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
+            SLW_ADD(sum, update)
+            SLW_STORE(to, sum)
+        }
+        rows += s->below;
+    }
+}
+
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
+        ptrdiff_t row;
+        sl_int i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
+            SLW_DIVIDE(b, d[i])
+            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+        }
+        for (i = 0; i < s->below; i++) {
+            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
+            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
+        }
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            double *p = buf + row * SLW_LANES;
+            const double *l;
+            SLW_EACH(SLI_DECLARE, 0)
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            SLW_EACH(SLI_LOAD, p)
+            if (inner > 0) {
+                l = tile + SLI_TILE * row + lane;
+                SLW_HIGH(SLI_ROW, 0)
+                SLW_LOW(SLI_ROW, 0)
+                SLW_EACH(SLI_STORE, p)
+            }
+            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            for (j = final - 1; j >= first; j--) {
+                l -= SLI_TILE;
+                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLW_ZERO(c)
+                SLW_HIGH(SLI_GATHER, l)
+                SLW_LOW(SLI_GATHER2, l)
+                SLW_ADD(b, c)
+                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+            }
+        }
+        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
+               (size_t)(w - first) * SLW_LANES * sizeof(double));
+    }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLW_NAME
+#undef SLW_LANES
+#undef SLW_ROWS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_ADD
+#undef SLW_FNMA
+#undef SLW_DIVIDE
+/* end src/impl/lanes.inl.h */
+
+/* begin src/impl/tile.inl.h */
+/* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
+
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
+
+/* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
+    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
+    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
+    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+    SLI_X(6, 5) SLI_X(7, 5)
+    SLI_X(7, 6)
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+    r[7] = r7;
+}
+
+/* r := L'^-1 r */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
+    double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
+    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
+    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
+    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
+    SLI_XT(1, 2) SLI_XT(0, 2)
+    SLI_XT(0, 1)
+    r[0] = r0;
+    r[1] = r1;
+    r[2] = r2;
+    r[3] = r3;
+    r[4] = r4;
+    r[5] = r5;
+    r[6] = r6;
+}
+
+#undef SLI_X
+#undef SLI_XT
+/* end src/impl/tile.inl.h */
+
+/* begin src/impl/body.inl.h */
+/* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
+
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
+ * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
+ * alone, so that a sweep that starts later, over zeros, gives the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
+                                                      sl_int rows, double *buf) {
+    const sl_int first = SLI_TILE * t0;
+    sl_int t, j, k;
+    for (t = t0; SLI_TILE * t < rows; t++) {
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        SLV_DECLARE(a0)
+        SLV_DECLARE(a1)
+        SLV_DECLARE(a2)
+        SLV_DECLARE(a3)
+        SLV_LOAD(a0, buf + row)
+        SLV_ZERO(a1)
+        SLV_ZERO(a2)
+        SLV_ZERO(a3)
+        for (j = first; j + 4 <= final; j += 4) { /* y(rows) -= L(rows, j) y(j) */
+            const double *l = tile + SLI_TILE * j;
+            SLV_AXPY(a0, l, buf + j)
+            SLV_AXPY(a1, l + 8, buf + j + 1)
+            SLV_AXPY(a2, l + 16, buf + j + 2)
+            SLV_AXPY(a3, l + 24, buf + j + 3)
+        }
+        for (; j < final; j++) {
+            SLV_AXPY(a0, tile + SLI_TILE * j, buf + j)
+        }
+        SLV_ADD(a0, a1)
+        SLV_ADD(a2, a3)
+        SLV_ADD(a0, a2)
+        SLV_STORE(buf + row, a0)
+        if (inner == SLI_TILE) {
+            SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
+        } else {
+            for (k = 0; k < inner; k++) { /* columns inside the tile, one after the other */
+                SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
+                SLV_STORE(buf + row, a0)
+            }
+        }
+        tile += SLI_TILE * sli_min(width, row + SLI_TILE);
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
+                                           double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        double *xs = x + s->base;
+        sl_int i;
+        memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+        for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            x[rows[i]] += buf[w + i];
+        }
+        rows += s->below;
+    }
+}
+
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
+ * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
+                                                       const double *z, double *buf, double *sums) {
+    const sl_int first = SLI_TILE * t0;
+    const double *tile = end;
+    sl_int t, j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(a)
+    SLV_ZERO(a)
+    for (j = first; j < width; j++) {
+        SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (t = sli_tiles(height) - 1; t >= t0; t--) {
+        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
+        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
+        if (inner > 0) {
+            double r[SLI_TILE];
+            const double *l = tile + SLI_TILE * row;
+            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
+            for (k = 0; k < inner; k++) {
+                SLV_LOAD(a, sums + SLI_TILE * (row + k))
+                if (inner < SLI_TILE) {
+                    SLV_DOT(a, l + SLI_TILE * k, v)
+                }
+                r[k] = z[row + k] + SLV_SUM(a);
+            }
+            if (inner == SLI_TILE) {
+                SLV_NAME(tile_backward)(l, r);
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
+                    }
+                }
+            }
+            for (k = 0; k < inner; k++) {
+                buf[row + k] = r[k];
+            }
+        }
+        SLV_LOAD(v, buf + row)
+        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+            SLV_LOAD(a, sums + SLI_TILE * j)
+            SLV_DOT(a, tile + SLI_TILE * j, v)
+            SLV_STORE(sums + SLI_TILE * j, a)
+        }
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
+                                            const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        double *xs = x + s->base - first;
+        const double *d = D + s->column - first;
+        sl_int i;
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            xs[i] /= d[i];
+            buf[i] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[w + i] = x[rows_end[i]];
+        }
+        for (i = height; i < padded; i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
+                                 buf + padded);
+        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
+                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+    const sl_int columns = sli_min(q, w);
+    double *lq = panel + sli_panel_at(w, q, 0);
+    double d = *pivot, size = *magnitude;
+    sl_int i;
+    for (i = 0; i < columns; i++) { /* y = row of A minus what the descendants sent */
+        buf[i] = lq[SLI_TILE * i] + xs[i];
+        xs[i] = 0.0;
+    }
+    for (; i < SLI_TILE * sli_tiles(q); i++) {
+        buf[i] = 0.0;
+    }
+    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
+    for (i = w; i < q; i++) {
+        x[rows[i - w]] += buf[i];
+    }
+    for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
+        const double l = buf[i] / D[i];
+        lq[SLI_TILE * i] = l;
+        d = SLV_FNMA1(l, buf[i], d);
+        size += fabs(l * buf[i]);
+    }
+    *pivot = d;
+    *magnitude = size;
+}
+
+static const sli_kernels SLV_NAME(kernels) = {
+    SLV_ISA,
+    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
+    SLV_NAME(row)};
+/* end src/impl/body.inl.h */
+
+/* begin src/impl/words_end.inl.h */
+/* words_end.inl.h: takes the octet words back, for the next instruction set */
+#undef SLV_NAME
+#undef SLV_ISA
+#undef SLV_FUNCTION
+#undef SLV_DECLARE
+#undef SLV_ZERO
+#undef SLV_LOAD
+#undef SLV_STORE
+#undef SLV_ADD
+#undef SLV_AXPY
+#undef SLV_DOT
+#undef SLV_SUM
+#undef SLV_FNMA1
+/* end src/impl/words_end.inl.h */
+
+#endif
+
+#endif
+/* end src/impl/isa_neon.h */
+/* begin src/impl/select.h */
+/* select.h: the kernel table for an instruction set */
+#ifndef SLI_SELECT_H
+#define SLI_SELECT_H
+
+/* The table of an ISA, the best one for SL_ISA_AUTO; NULL where it is not compiled in or this processor lacks it. */
+static const sli_kernels *sli_kernels_select(sl_isa isa) {
+    const sl_isa best = sli_cpu_best();
+    if (isa == SL_ISA_AUTO) {
+        isa = best;
+    }
+    if (isa == SL_ISA_SCALAR) {
+        return &sli_kernels_scalar;
+    }
+#if defined(SLI_X86)
+    if (isa == SL_ISA_AVX512 && best == SL_ISA_AVX512) {
+        return &sli_kernels_avx512;
+    }
+    if (isa == SL_ISA_AVX2 && best != SL_ISA_SCALAR) {
+        return &sli_kernels_avx2;
+    }
+#elif defined(SLI_ARM)
+    if (isa == SL_ISA_NEON) {
+        return &sli_kernels_neon;
+    }
+#endif
+    return NULL;
+}
+
+#endif
+/* end src/impl/select.h */
+/* L2 storage */
+/* begin src/impl/csc.h */
+/* csc.h: compressed columns: checks, owned matrices, triplets, transpose, products, residuals */
+#ifndef SLI_CSC_H
+#define SLI_CSC_H
+
+struct sl_matrix {
+    sl_allocator allocator;
+    sl_int n_rows, n_cols;
+    sl_int *p; /* n_cols + 1 */
+    sl_int *i; /* p[n_cols], perhaps a little longer where duplicates were summed */
+    double *x; /* as i, or NULL: a pattern */
+};
+
+SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
+    return A->n_cols > 0 ? A->p[A->n_cols] : 0;
+}
+
+SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
+    sl_int j, p;
+    sli_stats_clear_error(stats);
+    if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (A->n_cols == 0) {
+        return SL_OK;
+    }
+    if (A->p[0] != 0) {
+        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        if (A->p[j + 1] < A->p[j]) {
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+        }
+    }
+    if (sli_nnz(A) > 0 && A->i == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* Which triangles have entries; the pattern is not compared. */
+static sl_triangle sli_triangle_scan(const sl_csc *A) {
+    sl_int j, p;
+    int lower = 0, upper = 0;
+    for (j = 0; j < A->n_cols && !(lower && upper); j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            lower |= A->i[p] > j;
+            upper |= A->i[p] < j;
+        }
+    }
+    return lower && upper ? SL_TRIANGLE_BOTH : lower ? SL_TRIANGLE_LOWER : upper ? SL_TRIANGLE_UPPER : SL_TRIANGLE_NONE;
+}
+
+/* Whether an entry is one of those that stand for the symmetric matrix: of both triangles only the lower is read. */
+SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
+    return triangle != SL_TRIANGLE_BOTH || row >= column;
+}
+
+/* Arrays of a matrix with room for nnz entries. */
+static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_values) {
+    (void)sli_take(b, 1, sizeof(sl_matrix));
+    M->p = SLI_TAKE(b, sl_int, (size_t)M->n_cols + 1);
+    M->i = SLI_TAKE(b, sl_int, nnz);
+    M->x = has_values ? SLI_TAKE(b, double, nnz) : NULL;
+}
+
+static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz, int has_values,
+                                const sl_allocator *a) {
+    sl_matrix draft;
+    sli_block b = {NULL, 0, 0};
+    sl_status status;
+    draft.allocator = *a;
+    draft.n_rows = n_rows;
+    draft.n_cols = n_cols;
+    sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
+    status = sli_block_alloc(&b, a);
+    if (status == SL_OK) {
+        sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
+        *out = (sl_matrix *)(void *)b.base;
+        **out = draft;
+    }
+    return status;
+}
+
+SL_API void sl_matrix_free(sl_matrix *M) {
+    if (M != NULL) {
+        const sl_allocator a = M->allocator;
+        sli_free(&a, M);
+    }
+}
+
+SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
+    sl_csc A = {0, 0, NULL, NULL, NULL};
+    if (M != NULL) {
+        A.n_rows = M->n_rows;
+        A.n_cols = M->n_cols;
+        A.p = M->p;
+        A.i = M->i;
+        A.x = M->x;
+    }
+    return A;
+}
+
+/* start[k] := number of keys before k, start[n] := all; then start[key]++ places entries one after the other. */
+static void sli_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
+    sl_int k, total = 0;
+    memset(start, 0, ((size_t)n + 1) * sizeof(sl_int));
+    for (k = 0; k < count; k++) {
+        start[keys[k]]++;
+    }
+    for (k = 0; k <= n; k++) {
+        const sl_int here = start[k];
+        start[k] = total;
+        total += here;
+    }
+}
+
+/* Sums neighbours with equal rows in every column of M; rows ascend. */
+static void sli_matrix_sum_duplicates(sl_matrix *M) {
+    sl_int j, p, kept = 0, start = 0;
+    for (j = 0; j < M->n_cols; j++) {
+        const sl_int first = kept, end = M->p[j + 1];
+        for (p = start; p < end; p++) {
+            if (kept > first && M->i[kept - 1] == M->i[p]) {
+                if (M->x != NULL) {
+                    M->x[kept - 1] += M->x[p];
+                }
+            } else {
+                M->i[kept] = M->i[p];
+                if (M->x != NULL) {
+                    M->x[kept] = M->x[p];
+                }
+                kept++;
+            }
+        }
+        start = end;
+        M->p[j + 1] = kept;
+    }
+}
+
+/* Triplets in range into columns: sorted by row, then stably by column, so that rows ascend and duplicates keep their
+ * order; both sorts are by counting. */
+static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count, const sl_int *i,
+                                   const sl_int *j, const double *x, const sl_allocator *a) {
+    sl_matrix *M = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_int *start = NULL, *order = NULL, k;
+    int pass;
+    sl_status status = sli_matrix_new(&M, n_rows, n_cols, count, x != NULL, a);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        start = SLI_TAKE(&b, sl_int, (size_t)sli_max(n_rows, n_cols) + 1);
+        order = SLI_TAKE(&b, sl_int, count);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        sl_matrix_free(M);
+        return status;
+    }
+    sli_starts(start, n_rows, i, count);
+    for (k = 0; k < count; k++) {
+        order[start[i[k]]++] = k;
+    }
+    sli_starts(start, n_cols, j, count);
+    memcpy(M->p, start, ((size_t)n_cols + 1) * sizeof(sl_int));
+    for (k = 0; k < count; k++) {
+        const sl_int from = order[k], to = start[j[from]]++;
+        M->i[to] = i[from];
+        if (x != NULL) {
+            M->x[to] = x[from];
+        }
+    }
+    sli_free(a, b.base);
+    sli_matrix_sum_duplicates(M);
+    *out = M;
+    return SL_OK;
+}
+
+SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_off count, const sl_int *i,
+                                         const sl_int *j, const double *x, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_off k;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (count > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    for (k = 0; k < count; k++) {
+        if (i[k] < 0 || i[k] >= n_rows || j[k] < 0 || j[k] >= n_cols) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], 0.0);
+        }
+    }
+    return sli_from_triplets(out, n_rows, n_cols, (sl_int)count, i, j, x, &a);
+}
+
+SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_status status;
+    sl_int j, p, k;
+    sl_matrix *T;
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sl_csc_check(A, NULL);
+    if (status != SL_OK) {
+        return status;
+    }
+    status = sli_matrix_new(&T, A->n_cols, A->n_rows, sli_nnz(A), A->x != NULL, &a);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_starts(T->p, A->n_rows, A->i, sli_nnz(A));
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            const sl_int to = T->p[A->i[p]]++;
+            T->i[to] = j;
+            if (A->x != NULL) {
+                T->x[to] = A->x[p];
+            }
+        }
+    }
+    for (k = A->n_rows; k > 0; k--) { /* placing moved every start to its end */
+        T->p[k] = T->p[k - 1];
+    }
+    T->p[0] = 0;
+    *out = T;
+    return SL_OK;
+}
+
+/* With every column of A marked in turn, each entry of the same column of A' must be marked. */
+static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark, sl_stats *stats) {
+    sl_int j, p;
+    memset(mark, 0, (size_t)A->n_cols * sizeof(sl_int));
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            mark[A->i[p]] = j + 1;
+        }
+        for (p = T->p[j]; p < T->p[j + 1]; p++) {
+            if (mark[T->i[p]] != j + 1) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* The triangle of a checked square matrix. */
+static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_csc pattern = *A, T;
+    sl_matrix *transpose;
+    sl_int *mark;
+    sl_status status = SL_OK;
+    *out = sli_triangle_scan(A);
+    if (*out == SL_TRIANGLE_BOTH) {
+        pattern.x = NULL;
+        status = sl_matrix_transpose(&transpose, &pattern, opt);
+        if (status != SL_OK) {
+            return status;
+        }
+        T = sl_matrix_view(transpose);
+        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
+        status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
+        sli_free(&a, mark);
+        sl_matrix_free(transpose);
+    }
+    return status;
+}
+
+SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt, sl_stats *stats) {
+    sl_status status = sl_csc_check(A, stats);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (out == NULL || A->n_rows != A->n_cols) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_csc_triangle(A, out, opt, stats);
+}
+
+SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy, const double *X, size_t ldx,
+                                 sl_int nrhs) {
+    sl_triangle triangle;
+    sl_int r, j, p;
+    if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (nrhs == 0 || A->n_rows == 0) {
+        return SL_OK;
+    }
+    if (Y == NULL || (nrhs > 1 && (ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols)) ||
+        (A->n_cols > 0 && X == NULL) || (sli_nnz(A) > 0 && A->x == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
+    for (r = 0; r < nrhs; r++) {
+        const double *x = X + (size_t)r * ldx;
+        double *y = Y + (size_t)r * ldy;
+        memset(y, 0, (size_t)A->n_rows * sizeof(double));
+        for (j = 0; j < A->n_cols; j++) {
+            for (p = A->p[j]; p < A->p[j + 1]; p++) {
+                const sl_int i = A->i[p];
+                if (sli_is_read(triangle, i, j)) {
+                    y[i] += A->x[p] * x[j];
+                    if (triangle != SL_TRIANGLE_NONE && i != j) {
+                        y[j] += A->x[p] * x[i];
+                    }
+                }
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* The largest row sum of |A|, A symmetric; sums: n numbers of scratch. A NaN stays one. */
+static double sli_csc_norm(const sl_csc *A, double *sums) {
+    const sl_triangle triangle = sli_triangle_scan(A);
+    double norm = 0.0;
+    sl_int j, p;
+    memset(sums, 0, (size_t)A->n_cols * sizeof(double));
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                sums[j] += fabs(A->x[p]);
+                sums[A->i[p]] += A->i[p] != j ? fabs(A->x[p]) : 0.0;
+            }
+        }
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        norm = sums[j] <= norm ? norm : sums[j];
+    }
+    return norm;
+}
+
+/* The largest magnitude among n numbers; fmax would hide a NaN, this keeps it. */
+static double sli_largest(const double *x, sl_int n) {
+    double largest = 0.0;
+    sl_int i;
+    for (i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
+        largest = size <= largest || largest != largest ? largest : size;
+    }
+    return largest;
+}
+
+SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error, const double *X,
+                                 size_t ldx, const double *B, size_t ldb, sl_int nrhs) {
+    double norm = 0.0;
+    sl_int r, i, n;
+    sl_status status;
+    if (A == NULL || A->n_rows != A->n_cols || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    n = A->n_cols;
+    if (nrhs > 0 && n > 0 && (B == NULL || R == NULL || (nrhs > 1 && ldb < (size_t)n) || (sli_nnz(A) > 0 && A->x == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (nrhs > 0 && n > 0 && backward_error != NULL) {
+        norm = sli_csc_norm(A, R);
+    }
+    status = sl_csc_multiply(A, SL_AS_SYMMETRIC, R, ldr, X, ldx, nrhs);
+    for (r = 0; r < nrhs && status == SL_OK; r++) {
+        const double *x = n > 0 ? X + (size_t)r * ldx : NULL, *b = n > 0 ? B + (size_t)r * ldb : NULL;
+        double *res = n > 0 ? R + (size_t)r * ldr : NULL, largest;
+        for (i = 0; i < n; i++) {
+            res[i] = b[i] - res[i];
+        }
+        if (backward_error != NULL) {
+            largest = sli_largest(res, n);
+            backward_error[r] = largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+        }
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/csc.h */
+/* begin src/impl/permute.h */
+/* permute.h: permutations: validity, inverse, and P A P' of a stored matrix */
+#ifndef SLI_PERMUTE_H
+#define SLI_PERMUTE_H
+
+/* iperm := the inverse of perm. Returns the first position that makes perm no permutation, or -1. */
+static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
+    sl_int k;
+    for (k = 0; k < n; k++) {
+        iperm[k] = -1;
+    }
+    for (k = 0; k < n; k++) {
+        if (perm[k] < 0 || perm[k] >= n || iperm[perm[k]] >= 0) {
+            return k;
+        }
+        iperm[perm[k]] = k;
+    }
+    return -1;
+}
+
+/* The permuted entries of A as triplets; one triangle goes to the lower one. */
+static void sli_permute_entries(const sl_csc *A, const sl_int *iperm, sl_int *row, sl_int *column) {
+    const int both = sli_triangle_scan(A) == SL_TRIANGLE_BOTH;
+    sl_int j, p;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            const sl_int k = iperm[A->i[p]], l = iperm[j];
+            row[p] = both ? k : sli_max(k, l);
+            column[p] = both ? l : sli_min(k, l);
+        }
+    }
+}
+
+SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    sli_block b = {NULL, 0, 0};
+    sl_int *iperm = NULL, *row = NULL, *column = NULL;
+    sl_status status;
+    int pass;
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sl_csc_check(A, NULL);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        iperm = SLI_TAKE(&b, sl_int, A->n_cols);
+        row = SLI_TAKE(&b, sl_int, sli_nnz(A));
+        column = SLI_TAKE(&b, sl_int, sli_nnz(A));
+        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        if (sli_perm_invert(perm, A->n_cols, iperm) >= 0) {
+            status = SL_ERR_ARGUMENT;
+        } else {
+            sli_permute_entries(A, iperm, row, column);
+            status = sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
+        }
+        sli_free(&a, b.base);
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/permute.h */
+/* begin src/impl/io.h */
+/* io.h: Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric */
+#ifndef SLI_IO_H
+#define SLI_IO_H
+
+#define SLI_TOKEN_MAX 63 /* no number that a program prints is longer */
+
+/* A place in the text, always at the start of a line that is not read yet. */
+typedef struct sli_reader {
+    const char *at, *end;
+    sl_off line; /* lines taken so far */
+} sli_reader;
+
+/* Takes the next line that is neither blank nor a comment; *stop is its end. 0 at the end of the text. */
+static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
+    while (r->at < r->end) {
+        const char *s = r->at, *e = s;
+        while (e < r->end && *e != '\n') {
+            e++;
+        }
+        r->at = e < r->end ? e + 1 : e;
+        r->line++;
+        while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
+            s++;
+        }
+        if (s < e && (comments || *s != '%')) {
+            *start = s;
+            *stop = e;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Copies the next word of a line; 0 if there is none or it is too long. */
+static int sli_token(const char **at, const char *stop, char *token) {
+    const char *s = *at;
+    int length = 0;
+    while (s < stop && (*s == ' ' || *s == '\t' || *s == '\r')) {
+        s++;
+    }
+    while (s < stop && *s != ' ' && *s != '\t' && *s != '\r') {
+        if (length == SLI_TOKEN_MAX || *s == '\0') {
+            return 0;
+        }
+        token[length++] = *s++;
+    }
+    token[length] = '\0';
+    *at = s;
+    return length > 0;
+}
+
+/* The next word as a whole number in low..high. */
+static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off high, sl_off *out) {
+    char token[SLI_TOKEN_MAX + 1];
+    sl_off value = 0;
+    int k = 0;
+    if (!sli_token(at, stop, token)) {
+        return 0;
+    }
+    k += token[0] == '+';
+    if (token[k] == '\0') {
+        return 0;
+    }
+    for (; token[k] != '\0'; k++) {
+        if (token[k] < '0' || token[k] > '9' || value > (INT64_MAX - 9) / 10) {
+            return 0;
+        }
+        value = 10 * value + (token[k] - '0');
+    }
+    *out = value;
+    return value >= low && value <= high;
+}
+
+/* The next word as a number; the C library wants the decimal point of the current locale. */
+static int sli_token_double(const char **at, const char *stop, double *out) {
+    char token[SLI_TOKEN_MAX + 1], *point, *rest;
+    if (!sli_token(at, stop, token)) {
+        return 0;
+    }
+    point = strchr(token, '.');
+    if (point != NULL) {
+        *point = *localeconv()->decimal_point;
+    }
+    *out = strtod(token, &rest);
+    return rest != token && *rest == '\0';
+}
+
+/* Whether the next word is the given one, capitals or not. */
+static int sli_token_is(const char *token, const char *word) {
+    for (; *token != '\0' && *word != '\0'; token++, word++) {
+        const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
+        if (c != *word) {
+            return 0;
+        }
+    }
+    return *token == *word;
+}
+
+/* "%%MatrixMarket matrix coordinate <field> <symmetry>" */
+static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
+    char token[5][SLI_TOKEN_MAX + 1];
+    const char *s, *e;
+    int k;
+    if (!sli_next_line(r, &s, &e, 1)) {
+        return SL_ERR_IO;
+    }
+    for (k = 0; k < 5; k++) {
+        if (!sli_token(&s, e, token[k])) {
+            return SL_ERR_IO;
+        }
+    }
+    if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix")) {
+        return SL_ERR_IO;
+    }
+    *has_values = sli_token_is(token[3], "real") || sli_token_is(token[3], "integer");
+    *symmetric = sli_token_is(token[4], "symmetric");
+    return sli_token_is(token[2], "coordinate") && (*has_values || sli_token_is(token[3], "pattern")) &&
+                   (*symmetric || sli_token_is(token[4], "general"))
+               ? SL_OK
+               : SL_ERR_UNSUPPORTED;
+}
+
+/* Whether nothing but blanks is left of a line. */
+static int sli_line_ends(const char *s, const char *e) {
+    while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
+        s++;
+    }
+    return s == e;
+}
+
+/* count lines "row column [value]", 1-based; entries of a symmetric file go to the lower triangle. */
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int symmetric, sl_int *i, sl_int *j, double *x) {
+    const char *s, *e;
+    sl_off k, row, column;
+    for (k = 0; k < size[2]; k++) {
+        if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
+            !sli_token_int(&s, e, 1, size[1], &column) || (x != NULL && !sli_token_double(&s, e, &x[k])) ||
+            !sli_line_ends(s, e)) {
+            return SL_ERR_IO;
+        }
+        i[k] = (sl_int)(symmetric && row < column ? column : row) - 1;
+        j[k] = (sl_int)(symmetric && row < column ? row : column) - 1;
+    }
+    return sli_next_line(r, &s, &e, 0) ? SL_ERR_IO : SL_OK;
+}
+
+static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
+    const char *s, *e;
+    sl_off size[3] = {0, 0, 0};
+    sli_block b = {NULL, 0, 0};
+    sl_int *i = NULL, *j = NULL;
+    double *x = NULL;
+    int has_values, symmetric, k;
+    sl_status status = sli_read_banner(r, &has_values, &symmetric);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!sli_next_line(r, &s, &e, 0)) {
+        return SL_ERR_IO;
+    }
+    for (k = 0; k < 3; k++) {
+        if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
+            return SL_ERR_IO;
+        }
+        if (size[k] > INT32_MAX - 1) {
+            return SL_ERR_TOO_LARGE;
+        }
+    }
+    /* an entry takes four bytes at least: a count that the file cannot hold is refused before memory is asked for */
+    if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) || size[2] > (r->end - r->at) / 4 + 1) {
+        return SL_ERR_IO;
+    }
+    for (k = 0; k < 2 && status == SL_OK; k++) {
+        i = SLI_TAKE(&b, sl_int, size[2]);
+        j = SLI_TAKE(&b, sl_int, size[2]);
+        x = has_values ? SLI_TAKE(&b, double, size[2]) : NULL;
+        status = k == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        status = sli_read_entries(r, size, symmetric, i, j, x);
+        if (status == SL_OK) {
+            status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], i, j, x, a);
+        }
+        sli_free(a, b.base);
+    }
+    return status;
+}
+
+SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length, const sl_options *opt,
+                                 sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    const int saved = errno; /* strtod may set it */
+    sli_reader r;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (text == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.at = text;
+    r.end = text + length;
+    r.line = 0;
+    status = sli_parse(out, &r, &a);
+    if (status != SL_OK && stats != NULL) {
+        stats->error_line = r.line;
+    }
+    errno = saved;
+    return status;
+}
+
+/* The whole file in memory; *text is allocated also on error, if at all. */
+static sl_status sli_load(FILE *file, char **text, size_t *length, const sl_allocator *a) {
+    size_t room = (size_t)1 << 16, got;
+    *length = 0;
+    *text = (char *)sli_alloc(a, room);
+    while (*text != NULL) {
+        got = fread(*text + *length, 1, room - *length, file);
+        *length += got;
+        if (*length < room) {
+            return ferror(file) ? SL_ERR_IO : SL_OK;
+        } else {
+            char *larger = room > SIZE_MAX / 2 ? NULL : (char *)sli_alloc(a, 2 * room);
+            if (larger != NULL) {
+                memcpy(larger, *text, *length);
+            }
+            sli_free(a, *text);
+            *text = larger;
+            room *= 2;
+        }
+    }
+    return SL_ERR_MEMORY;
+}
+
+SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    const int saved = errno;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (path == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    file = fopen(path, "rb");
+    if (file == NULL) {
+        errno = saved;
+        return SL_ERR_IO;
+    }
+    status = sli_load(file, &text, &length, &a);
+    fclose(file);
+    if (status == SL_OK) {
+        status = sl_matrix_parse(out, text, length, opt, stats);
+    }
+    sli_free(&a, text);
+    errno = saved;
+    return status;
+}
+
+/* One entry, 1-based, with a decimal point whatever the locale. */
+static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
+    char number[40], *point;
+    if (value == NULL) {
+        return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
+    }
+    sprintf(number, "%.17g", *value);
+    point = strchr(number, *localeconv()->decimal_point);
+    if (point != NULL) {
+        *point = '.';
+    }
+    return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
+}
+
+static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
+    sl_int j, p;
+    sl_off count = 0;
+    int ok;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            count += sli_is_read(triangle, A->i[p], j);
+        }
+    }
+    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n", A->x != NULL ? "real" : "pattern",
+                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows, (long)A->n_cols,
+                 (long)count) > 0;
+    for (j = 0; j < A->n_cols && ok; j++) {
+        for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
+            const sl_int i = A->i[p];
+            if (sli_is_read(triangle, i, j)) {
+                const int flip = reading == SL_AS_SYMMETRIC && i < j;
+                ok = sli_write_entry(file, flip ? j : i, flip ? i : j, A->x != NULL ? A->x + p : NULL);
+            }
+        }
+    }
+    return ok;
+}
+
+SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
+    const int saved = errno;
+    sl_status status = sl_csc_check(A, NULL);
+    FILE *file;
+    int ok;
+    if (status != SL_OK) {
+        return status;
+    }
+    if (path == NULL || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+        return SL_ERR_ARGUMENT;
+    }
+    file = fopen(path, "wb");
+    ok = file != NULL && sli_write(file, A, reading, reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE);
+    if (file != NULL) {
+        ok = fclose(file) == 0 && ok;
+    }
+    errno = saved;
+    return ok ? SL_OK : SL_ERR_IO;
+}
+
+#endif
+/* end src/impl/io.h */
+/* L3 patterns: never see a value array */
+/* begin src/impl/symbolic_types.h */
+/* symbolic_types.h: the analysis object: what the pattern parts fill in and the number parts read */
+#ifndef SLI_SYMBOLIC_TYPES_H
+#define SLI_SYMBOLIC_TYPES_H
+
+struct sl_symbolic {
+    sl_allocator allocator;
+    sl_stats stats;          /* the symbolic group */
+    sl_int n;                /* rows of A */
+    sl_int n_supers;         /* supernodes, in postorder */
+    sl_int nnz_input;        /* entries of A as handed in, read or not */
+    uint64_t fingerprint;    /* of A's arrays p and i: a refactorization must bring the same */
+    sl_int tallest, widest;  /* largest height (columns + rows below) and width of a supernode */
+    sl_int *perm, *iperm;    /* n */
+    sl_int *parent;          /* n: elimination tree, -1 at a root */
+    sl_int *counts;          /* n: entries of each column of L without relaxation */
+    sl_int *super_of;        /* n */
+    sl_int *super_first;     /* n_supers + 1 */
+    sl_int *super_parent;    /* n_supers, -1 at a root */
+    sl_off *rows_begin;      /* n_supers + 1 */
+    sl_int *rows;            /* rows_begin[n_supers]: rows below each supernode, ascending */
+    sl_off *panel_begin;     /* n_supers + 1, in doubles */
+    sli_step *steps;         /* n_supers: the reach of everything */
+    sl_off *map_begin;       /* n_supers + 1 */
+    sl_int *map_from;        /* map_begin[n_supers]: positions in A, grouped by supernode */
+    sl_off *map_to;          /* the same: positions in L; several may share one (duplicates) */
+};
+
+/* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */
+typedef struct sli_half {
+    sl_int *begin; /* n + 1 */
+    sl_int *to;    /* begin[n] */
+    sl_int *from;  /* begin[n]: the entry of A; NULL where nobody asks */
+} sli_half;
+
+#endif
+/* end src/impl/symbolic_types.h */
+/* begin src/impl/graph.h */
+/* graph.h: the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves */
+#ifndef SLI_GRAPH_H
+#define SLI_GRAPH_H
+
+/* The full pattern without its diagonal; an entry given twice is an edge given twice. */
+typedef struct sli_graph {
+    sl_int n;
+    sl_off *begin; /* n + 1 */
+    sl_int *to;    /* begin[n] neighbours */
+} sli_graph;
+
+/* G has room for n + 1 positions and twice A's entries. */
+static void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
+    sl_int j, p;
+    sl_off total = 0;
+    memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
+    for (j = 0; j < G->n; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            const int is_edge = A->i[p] != j && sli_is_read(triangle, A->i[p], j);
+            G->begin[A->i[p]] += is_edge;
+            G->begin[j] += is_edge;
+        }
+    }
+    for (j = 0; j <= G->n; j++) {
+        const sl_off here = G->begin[j];
+        G->begin[j] = total;
+        total += here;
+    }
+    for (j = 0; j < G->n; j++) { /* every begin moves to its end, and back afterwards */
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            const sl_int i = A->i[p];
+            if (i != j && sli_is_read(triangle, i, j)) {
+                G->to[G->begin[j]++] = i;
+                G->to[G->begin[i]++] = j;
+            }
+        }
+    }
+    memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
+    G->begin[0] = 0;
+}
+
+/* Counts to starting positions. */
+static void sli_half_starts(sli_half *h, sl_int n) {
+    sl_int k, total = 0;
+    for (k = 0; k <= n; k++) {
+        const sl_int here = h->begin[k];
+        h->begin[k] = total;
+        total += here;
+    }
+}
+
+/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k: the rows from k on).
+ * What follows walks them in elimination order, each pass only the half that it needs. */
+static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm, sli_half *rows,
+                            sli_half *columns) {
+    const sl_int n = A->n_cols;
+    sl_int j, p;
+    memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
+    memset(columns->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
+    for (j = 0; j < n; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                rows->begin[sli_max(iperm[A->i[p]], iperm[j])]++;
+                columns->begin[sli_min(iperm[A->i[p]], iperm[j])]++;
+            }
+        }
+    }
+    sli_half_starts(rows, n);
+    sli_half_starts(columns, n);
+    for (j = 0; j < n; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]), i = sli_min(iperm[A->i[p]], iperm[j]);
+                const sl_int at = rows->begin[k]++;
+                rows->to[at] = i;
+                rows->from[at] = p;
+                columns->to[columns->begin[i]++] = k;
+            }
+        }
+    }
+    memmove(rows->begin + 1, rows->begin, (size_t)n * sizeof(sl_int));
+    memmove(columns->begin + 1, columns->begin, (size_t)n * sizeof(sl_int));
+    rows->begin[0] = columns->begin[0] = 0;
+}
+
+/* A number that two patterns share only by a 2^-64 accident. */
+static uint64_t sli_fingerprint(const sl_csc *A) {
+    uint64_t h = (uint64_t)(uint32_t)A->n_cols + 0x9e3779b97f4a7c15u;
+    sl_int k;
+    for (k = 0; k < A->n_cols; k++) {
+        h = (h ^ (uint32_t)A->p[k + 1]) * 0xd6e8feb86659fd93u;
+        h ^= h >> 32;
+    }
+    for (k = 0; k < sli_nnz(A); k++) {
+        h = (h ^ (uint32_t)A->i[k]) * 0xd6e8feb86659fd93u;
+        h ^= h >> 32;
+    }
+    return h;
+}
+
+#endif
+/* end src/impl/graph.h */
+/* begin src/impl/order_metis.h */
+/* order_metis.h: nested dissection of one connected component by METIS_NodeND */
+#ifndef SLI_ORDER_METIS_H
+#define SLI_ORDER_METIS_H
+
+#if !defined(SL_NO_METIS)
+
+#include <metis.h>
+
+/* The component's graph as METIS wants it: its own numbering, no edge twice. */
+static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count, const sl_int *local, idx_t *xadj,
+                            idx_t *adjncy, idx_t *mark) {
+    sl_int k;
+    idx_t edges = 0;
+    for (k = 0; k < count; k++) {
+        mark[k] = -1;
+    }
+    for (k = 0; k < count; k++) {
+        const sl_int v = vertices[k];
+        sl_off e;
+        xadj[k] = edges;
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            const sl_int u = local[G->to[e]];
+            if (mark[u] != k) {
+                mark[u] = k;
+                adjncy[edges++] = u;
+            }
+        }
+    }
+    xadj[count] = edges;
+}
+
+/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry. */
+static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count, const sl_int *local,
+                                     const sl_int *metis_options, const sl_allocator *a) {
+    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_off edges = 0;
+    sl_status status = SL_OK;
+    sl_int k;
+    int pass, result;
+    for (k = 0; k < count; k++) {
+        edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
+    }
+    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
+        adjncy = SLI_TAKE(&b, idx_t, edges);
+        perm = SLI_TAKE(&b, idx_t, count);
+        iperm = SLI_TAKE(&b, idx_t, count);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_metis_graph(G, vertices, count, local, xadj, adjncy, iperm);
+    METIS_SetDefaultOptions(options);
+    for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
+        options[k] = metis_options[k];
+    }
+    options[METIS_OPTION_NUMBERING] = 0;
+    result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
+    if (result == METIS_OK) {
+        for (k = 0; k < count; k++) { /* xadj is done with: the old numbers of the component go there */
+            xadj[k] = vertices[k];
+        }
+        for (k = 0; k < count; k++) {
+            vertices[k] = (sl_int)xadj[perm[k]];
+        }
+    }
+    sli_free(a, b.base);
+    return result == METIS_OK ? SL_OK : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY : SL_ERR_ORDERING;
+}
+
+#endif
+
+#endif
+/* end src/impl/order_metis.h */
+/* begin src/impl/order.h */
+/* order.h: the fill-reducing order of the rows: natural, given, or nested dissection by component */
+#ifndef SLI_ORDER_H
+#define SLI_ORDER_H
+
+static void sli_order_natural(sl_int n, sl_int *perm) {
+    sl_int k;
+    for (k = 0; k < n; k++) {
+        perm[k] = k;
+    }
+}
+
+static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch, sl_stats *stats) {
+    sl_int bad;
+    if (given == NULL && n > 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    bad = sli_perm_invert(given, n, scratch);
+    if (bad >= 0) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
+    }
+    if (n > 0) {
+        memcpy(perm, given, (size_t)n * sizeof(sl_int));
+    }
+    return SL_OK;
+}
+
+#if !defined(SL_NO_METIS)
+#define SLI_ORDER_TINY 4 /* a component this small has nothing to dissect */
+
+/* One breadth-first search a component, the queue being perm itself; each component is then dissected in its place. */
+static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm, sl_int *local,
+                                 const sl_allocator *a) {
+    sl_int root, head, tail = 0, start;
+    sl_status status = SL_OK;
+    for (root = 0; root < G->n; root++) {
+        local[root] = -1;
+    }
+    for (root = 0; root < G->n && status == SL_OK; root++) {
+        if (local[root] >= 0) {
+            continue;
+        }
+        start = tail;
+        local[root] = 0;
+        perm[tail++] = root;
+        for (head = start; head < tail; head++) {
+            sl_off e;
+            for (e = G->begin[perm[head]]; e < G->begin[perm[head] + 1]; e++) {
+                const sl_int u = G->to[e];
+                if (local[u] < 0) {
+                    local[u] = tail - start;
+                    perm[tail++] = u;
+                }
+            }
+        }
+        if (tail - start > SLI_ORDER_TINY) {
+            status = sli_order_component(G, perm + start, tail - start, local, metis_options, a);
+        }
+    }
+    return status;
+}
+
+static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm,
+                                      sl_int *local, const sl_allocator *a) {
+    sli_graph G;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&G, 0, sizeof G);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        G.n = A->n_cols;
+        G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
+        G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(A));
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_graph_fill(&G, A, triangle);
+        status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, local, a);
+        sli_free(a, b.base);
+    }
+    return status;
+}
+#endif
+
+/* perm: n, the order of a checked symmetric pattern. scratch: n. */
+static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm, sl_int *scratch,
+                           const sl_allocator *a, sl_stats *stats) {
+    sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
+#if defined(SL_NO_METIS)
+    (void)a;
+    (void)triangle;
+    if (ordering == SL_ORDERING_DEFAULT) {
+        ordering = SL_ORDERING_NATURAL;
+    }
+#else
+    if (ordering == SL_ORDERING_DEFAULT || ordering == SL_ORDERING_METIS) {
+        return sli_order_dissection(A, triangle, opt, perm, scratch, a);
+    }
+#endif
+    if (ordering == SL_ORDERING_GIVEN) {
+        return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
+    }
+    if (ordering == SL_ORDERING_NATURAL) {
+        sli_order_natural(A->n_cols, perm);
+        return SL_OK;
+    }
+    return ordering == SL_ORDERING_METIS ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT;
+}
+
+#endif
+/* end src/impl/order.h */
+/* begin src/impl/etree.h */
+/* etree.h: the elimination tree of an ordered graph, postorder, and relabelling along an order */
+#ifndef SLI_ETREE_H
+#define SLI_ETREE_H
+
+/* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n of scratch, the
+ * paths to the roots found so far, compressed. [Liu90] */
+static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *ancestor) {
+    sl_int k, p;
+    for (k = 0; k < n; k++) {
+        parent[k] = -1;
+        ancestor[k] = -1;
+        for (p = rows->begin[k]; p < rows->begin[k + 1]; p++) {
+            sl_int i = rows->to[p];
+            while (i != -1 && i < k) {
+                const sl_int next = ancestor[i];
+                ancestor[i] = k;
+                if (next == -1) {
+                    parent[i] = k;
+                }
+                i = next;
+            }
+        }
+    }
+}
+
+/* post[k] := the k-th node of a forest in postorder, children ascending; parent[j] > j is not needed.
+ * child, sibling: n of scratch each. */
+static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child, sl_int *sibling) {
+    sl_int j, k = 0, root;
+    for (j = 0; j < n; j++) {
+        child[j] = -1;
+    }
+    for (j = n - 1; j >= 0; j--) { /* the lists come out ascending */
+        if (parent[j] != -1) {
+            sibling[j] = child[parent[j]];
+            child[parent[j]] = j;
+        }
+    }
+    for (root = 0; root < n; root++) {
+        if (parent[root] != -1) {
+            continue;
+        }
+        j = root;
+        for (;;) {
+            while (child[j] != -1) { /* down to the first leaf; a visited child is taken off its list */
+                const sl_int c = child[j];
+                child[j] = sibling[c];
+                j = c;
+            }
+            post[k++] = j;
+            if (j == root) {
+                break;
+            }
+            j = parent[j];
+        }
+    }
+}
+
+/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of, and the tree.
+ * scratch: 2n. */
+static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of, sl_int *parent, sl_int *scratch) {
+    sl_int *fresh = scratch, *number = scratch + n, k;
+    for (k = 0; k < n; k++) {
+        fresh[k] = old_of[order[k]];
+        number[order[k]] = k;
+    }
+    if (n > 0) {
+        memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
+    }
+    for (k = 0; k < n; k++) {
+        const sl_int old = parent[order[k]];
+        new_of[old_of[k]] = k;
+        fresh[k] = old == -1 ? -1 : number[old];
+    }
+    if (n > 0) {
+        memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
+    }
+}
+
+#endif
+/* end src/impl/etree.h */
+/* begin src/impl/counts.h */
+/* counts.h: entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees */
+#ifndef SLI_COUNTS_H
+#define SLI_COUNTS_H
+
+/* counts[j] := entries of column j of L, diagonal included; the order is a postorder of parent. columns
+ * has the numbers before that order, old_of[j] being j's; scratch: 4n.
+ *
+ * Row i of L is the subtree of the elimination tree that hangs between i and the smallest columns of row i of A. Column
+ * j counts one for each row subtree that it lies in: +1 at every leaf of a row subtree, -1 at the lowest common
+ * ancestor of two leaves in a row, -1 at i's parent side for the diagonal, summed up the tree. In a postorder j is a
+ * leaf of row i's subtree if no earlier neighbour of i lies among j's descendants. [GNP94]
+ */
+static void sli_counts(sl_int n, const sli_half *columns, const sl_int *old_of, const sl_int *new_of,
+                       const sl_int *parent, sl_int *counts, sl_int *scratch) {
+    sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n, *set = scratch + 3 * (size_t)n;
+    sl_int i, j, p;
+    for (j = 0; j < n; j++) {
+        first[j] = j; /* the first descendant; seen: the largest first of a leaf in row i; leaf: that leaf */
+        seen[j] = -1;
+        leaf[j] = -1;
+        set[j] = j;
+    }
+    for (j = 0; j < n; j++) {
+        counts[j] = first[j] == j; /* a leaf of the tree starts the subtree of its own row */
+        if (parent[j] != -1) {
+            first[parent[j]] = sli_min(first[parent[j]], first[j]);
+        }
+    }
+    for (j = 0; j < n; j++) {
+        const sl_int end = columns->begin[old_of[j] + 1];
+        if (parent[j] != -1) {
+            counts[parent[j]]--; /* row j ends here */
+        }
+        for (p = columns->begin[old_of[j]]; p < end; p++) {
+            i = new_of[columns->to[p]];
+            if (i <= j || first[j] <= seen[i]) {
+                continue;
+            }
+            counts[j]++;
+            seen[i] = first[j];
+            if (leaf[i] != -1) { /* the subtrees of two successive leaves meet at the root of the earlier one's set */
+                sl_int root = leaf[i], q = leaf[i];
+                while (root != set[root]) {
+                    root = set[root];
+                }
+                while (q != root) {
+                    const sl_int up = set[q];
+                    set[q] = root;
+                    q = up;
+                }
+                counts[root]--;
+            }
+            leaf[i] = j;
+        }
+        if (parent[j] != -1) {
+            set[j] = parent[j];
+        }
+    }
+    for (j = 0; j < n; j++) {
+        if (parent[j] != -1) {
+            counts[parent[j]] += counts[j];
+        }
+    }
+}
+
+#endif
+/* end src/impl/counts.h */
+/* begin src/impl/supernodes.h */
+/* supernodes.h: fundamental supernodes, and their relaxed amalgamation over the whole assembly tree */
+#ifndef SLI_SUPERNODES_H
+#define SLI_SUPERNODES_H
+
+/* Supernodes under construction, all arrays of n. A group is named by its top fundamental supernode. */
+typedef struct sli_groups {
+    sl_int count;      /* fundamental supernodes */
+    sl_int *first;     /* n + 1: first column of each */
+    sl_int *parent;    /* parent supernode, -1 at a root */
+    sl_int *width;     /* columns of the group so far */
+    sl_int *below;     /* rows below it */
+    double *zeros;     /* stored places of the group that L does not fill */
+    sl_int *group;     /* the supernode it was merged into, itself while on top; at last the top */
+} sli_groups;
+
+/* Runs of columns with the same structure, each the only child of the next: count falls by one along the run. */
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children, sl_int *super_of,
+                            sli_groups *g) {
+    sl_int j, s = -1;
+    memset(children, 0, (size_t)n * sizeof(sl_int));
+    for (j = 0; j < n; j++) {
+        if (parent[j] != -1) {
+            children[parent[j]]++;
+        }
+    }
+    for (j = 0; j < n; j++) {
+        if (j == 0 || parent[j - 1] != j || children[j] != 1 || counts[j - 1] != counts[j] + 1) {
+            g->first[++s] = j;
+        }
+        super_of[j] = s;
+    }
+    g->count = s + 1;
+    g->first[g->count] = n;
+    for (s = 0; s < g->count; s++) {
+        const sl_int last = g->first[s + 1] - 1;
+        g->width[s] = g->first[s + 1] - g->first[s];
+        g->below[s] = counts[last] - 1;
+        g->parent[s] = parent[last] == -1 ? -1 : super_of[parent[last]];
+        g->zeros[s] = 0.0;
+        g->group[s] = s;
+    }
+}
+
+/* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not their flops; the
+ * thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
+static int sli_may_merge(sl_int width, double z) {
+    return width <= 8 || (width <= 16 && z < 0.30) || (width <= 48 && z < 0.15) || z < 0.05;
+}
+
+/* Zeros that joining child c to p adds: c's columns grow to p's rows. */
+static double sli_new_zeros(const sli_groups *g, sl_int c, sl_int p) {
+    return (double)g->width[c] * (double)(g->width[p] + g->below[p] - g->below[c]);
+}
+
+/* Joins the children of p, cheapest first, as long as the zeros allow. list: the children, keyed by rank. */
+static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int count, uint64_t *scratch) {
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        const sl_int c = sli_value(list[k]);
+        const double cost = sli_new_zeros(g, c, p);
+        list[k] = sli_keyed(cost < 2e9 ? (sl_int)cost : INT32_MAX, c);
+    }
+    sli_sort(list, count, scratch);
+    for (k = 0; k < count; k++) {
+        const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
+        const double zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
+        const double places = (double)width * (0.5 * (width + 1.0) + g->below[p]);
+        if (sli_may_merge(width, zeros / places)) {
+            g->width[p] = width;
+            g->zeros[p] = zeros;
+            g->group[c] = p;
+        }
+    }
+}
+
+/* Every supernode in turn takes in its children, which come before it. child, sibling: lists of children;
+ * list, scratch: room for all of them. */
+static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *list, uint64_t *scratch) {
+    sl_int s, c, count;
+    for (s = 0; s < g->count; s++) {
+        child[s] = -1;
+    }
+    for (s = 0; s < g->count; s++) {
+        count = 0;
+        for (c = child[s]; c != -1; c = sibling[c]) {
+            list[count++] = sli_keyed(0, c);
+        }
+        if (count > 0) {
+            sli_merge_children(g, s, list, count, scratch);
+        }
+        if (g->parent[s] != -1) {
+            sibling[s] = child[g->parent[s]];
+            child[g->parent[s]] = s;
+        }
+    }
+}
+
+/* Numbers the groups in a postorder of their tree and lays their columns side by side: order[k] = old column of the
+ * new k. On return the arrays describe the groups in their new numbers, and count is how many there are.
+ * scratch: 5n. */
+static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *super_of, sl_int *scratch) {
+    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n;
+    sl_int *more = scratch + 4 * (size_t)n;
+    sl_int s, k, groups = 0, column = 0;
+    for (s = g->count - 1; s >= 0; s--) { /* parents come first, so that their group is final */
+        g->group[s] = g->group[s] == s ? s : g->group[g->group[s]];
+    }
+    for (s = 0; s < g->count; s++) {
+        if (g->group[s] == s) {
+            at[s] = groups;
+            top[groups++] = s;
+        }
+    }
+    for (k = 0; k < groups; k++) {
+        const sl_int up = g->parent[top[k]];
+        tree[k] = up == -1 ? -1 : at[g->group[up]];
+    }
+    for (s = 0; s < g->count; s++) { /* from here on: the group's place in top */
+        g->group[s] = at[g->group[s]];
+    }
+    sli_postorder(tree, groups, post, at, more);
+    for (k = 0; k < groups; k++) {
+        more[post[k]] = k;
+        at[post[k]] = column; /* where the group's next column goes */
+        column += g->width[top[post[k]]];
+    }
+    for (s = 0; s < g->count; s++) {
+        sl_int *next = &at[g->group[s]];
+        for (k = g->first[s]; k < g->first[s + 1]; k++) {
+            super_of[*next] = more[g->group[s]];
+            order[(*next)++] = k;
+        }
+    }
+    for (k = 0; k < groups; k++) { /* group and at are done with: they carry the sizes to the new numbers */
+        at[k] = g->width[top[post[k]]];
+        g->group[k] = g->below[top[post[k]]];
+    }
+    column = 0;
+    for (k = 0; k < groups; k++) {
+        g->first[k] = column;
+        g->width[k] = at[k];
+        g->below[k] = g->group[k];
+        g->parent[k] = tree[post[k]] == -1 ? -1 : more[tree[post[k]]];
+        column += at[k];
+    }
+    g->first[groups] = n;
+    g->count = groups;
+}
+
+#endif
+/* end src/impl/supernodes.h */
+/* begin src/impl/structure.h */
+/* structure.h: the rows of every supernode, the places of the panels, and the map of A into L */
+#ifndef SLI_STRUCTURE_H
+#define SLI_STRUCTURE_H
+
+/* Entries of A that a supernode's columns hold, summed up to the starts of its part of the map. */
+static void sli_count_map(sl_symbolic *S, const sli_half *columns, const sl_int *old_of) {
+    sl_int s, k = 0;
+    sl_off total = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        S->map_begin[s] = total;
+        for (; k < S->super_first[s + 1]; k++) {
+            total += columns->begin[old_of[k] + 1] - columns->begin[old_of[k]];
+        }
+    }
+    S->map_begin[S->n_supers] = total;
+}
+
+/* The rows of every supernode, and the place in L of every entry of A, in one walk over the rows.
+ *
+ * Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode: k is appended to each
+ * of them, and as k ascends so do the lists; where it was appended is the local row of k's entries. end: n_supers, how
+ * far each list has got; mark: n_supers.
+ */
+static void sli_fill_structure(sl_symbolic *S, const sli_half *rows, const sl_int *old_of, const sl_int *new_of,
+                               sl_off *end, sl_int *mark) {
+    sl_int k, p, s;
+    for (s = 0; s < S->n_supers; s++) {
+        end[s] = S->rows_begin[s];
+        mark[s] = -1;
+    }
+    for (k = 0; k < S->n; k++) {
+        const sl_int own = S->super_of[k];
+        for (p = rows->begin[old_of[k]]; p < rows->begin[old_of[k] + 1]; p++) {
+            const sl_int i = new_of[rows->to[p]], home = S->super_of[i];
+            const sl_int first = S->super_first[home], width = S->super_first[home + 1] - first;
+            sl_int local;
+            sl_off at;
+            for (s = home; s != own && mark[s] != k; s = S->super_parent[s]) {
+                mark[s] = k;
+                S->rows[end[s]++] = k;
+            }
+            local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
+            at = S->map_begin[home]++; /* every start moves to its end, and back afterwards */
+            S->map_from[at] = rows->from[p];
+            S->map_to[at] = S->panel_begin[home] + sli_panel_at(width, local, i - first);
+        }
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        SLI_ASSERT(end[s] == S->rows_begin[s + 1]);
+    }
+    memmove(S->map_begin + 1, S->map_begin, (size_t)S->n_supers * sizeof(sl_off));
+    S->map_begin[0] = 0;
+}
+
+/* The step of every supernode: the reach of everything, in which a column's place is the column. */
+static void sli_fill_steps(sl_symbolic *S) {
+    sl_int s;
+    S->tallest = 0;
+    S->widest = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        sli_step *step = &S->steps[s];
+        step->panel = S->panel_begin[s];
+        step->column = S->super_first[s];
+        step->base = S->super_first[s];
+        step->width = S->super_first[s + 1] - S->super_first[s];
+        step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+        step->first_tile = 0;
+        step->up = S->super_parent[s];
+        S->widest = sli_max(S->widest, step->width);
+        S->tallest = sli_max(S->tallest, step->width + step->below);
+    }
+}
+
+#endif
+/* end src/impl/structure.h */
+/* begin src/impl/symbolic.h */
+/* symbolic.h: the analysis, from the pattern of A to the places of L */
+#ifndef SLI_SYMBOLIC_H
+#define SLI_SYMBOLIC_H
+
+/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order that was asked for
+ * (rows, columns), and in the postorder of the supernodes that comes of it (everything else). */
+typedef struct sli_analysis {
+    sl_int n;
+    sli_half rows, columns;
+    sli_groups groups;
+    sl_int *perm;                             /* n: the order asked for */
+    sl_int *old_of, *new_of;                  /* n: from the last numbering to the one before, and back */
+    sl_int *parent, *counts, *super_of;       /* n each */
+    sl_int *scratch;                          /* 5n */
+    uint64_t *list;                           /* 2n */
+} sli_analysis;
+
+static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
+    const size_t n = (size_t)rows;
+    w->n = rows;
+    w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
+    w->rows.to = SLI_TAKE(b, sl_int, nnz);
+    w->rows.from = SLI_TAKE(b, sl_int, nnz);
+    w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
+    w->columns.to = SLI_TAKE(b, sl_int, nnz);
+    w->perm = SLI_TAKE(b, sl_int, n);
+    w->old_of = SLI_TAKE(b, sl_int, n);
+    w->new_of = SLI_TAKE(b, sl_int, n);
+    w->parent = SLI_TAKE(b, sl_int, n);
+    w->counts = SLI_TAKE(b, sl_int, n);
+    w->super_of = SLI_TAKE(b, sl_int, n);
+    w->scratch = SLI_TAKE(b, sl_int, 5 * n);
+    w->groups.first = SLI_TAKE(b, sl_int, n + 1);
+    w->groups.parent = SLI_TAKE(b, sl_int, n);
+    w->groups.width = SLI_TAKE(b, sl_int, n);
+    w->groups.below = SLI_TAKE(b, sl_int, n);
+    w->groups.zeros = SLI_TAKE(b, double, n);
+    w->groups.group = SLI_TAKE(b, sl_int, n);
+    w->list = SLI_TAKE(b, uint64_t, 2 * n);
+}
+
+static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
+    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+    (void)sli_take(b, 1, sizeof(sl_symbolic));
+    S->perm = SLI_TAKE(b, sl_int, n);
+    S->iperm = SLI_TAKE(b, sl_int, n);
+    S->parent = SLI_TAKE(b, sl_int, n);
+    S->counts = SLI_TAKE(b, sl_int, n);
+    S->super_of = SLI_TAKE(b, sl_int, n);
+    S->super_first = SLI_TAKE(b, sl_int, supers + 1);
+    S->super_parent = SLI_TAKE(b, sl_int, supers);
+    S->rows_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->rows = SLI_TAKE(b, sl_int, rows);
+    S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->steps = SLI_TAKE(b, sli_step, supers);
+    S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->map_from = SLI_TAKE(b, sl_int, entries);
+    S->map_to = SLI_TAKE(b, sl_off, entries);
+}
+
+/* Tree, counts and supernodes in their final numbering. */
+static void sli_analyse_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+    const sl_int n = w->n;
+    sl_int *order = w->scratch, *more = w->scratch + n;
+    sl_int k;
+    sli_order_natural(n, w->old_of);
+    sli_etree(n, &w->rows, w->parent, order);
+    sli_postorder(w->parent, n, order, more, more + n);
+    sli_relabel(order, n, w->old_of, w->new_of, w->parent, more);
+    sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+    sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->groups);
+    stats->supernodes_fundamental = w->groups.count;
+    if (opt == NULL || opt->relaxation != SL_RELAXATION_NONE) {
+        sli_relax(&w->groups, order, more, w->list, w->list + n);
+    }
+    order = (sl_int *)(void *)w->list; /* renumbering needs all of scratch */
+    sli_renumber_groups(&w->groups, n, order, w->super_of, w->scratch);
+    for (k = 0; k < n; k++) {
+        w->scratch[k] = w->counts[order[k]];
+    }
+    if (n > 0) {
+        memcpy(w->counts, w->scratch, (size_t)n * sizeof(sl_int));
+    }
+    sli_relabel(order, n, w->old_of, w->new_of, w->parent, w->scratch);
+}
+
+/* The figures that a user asks about. depth: n of scratch. */
+static void sli_analyse_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
+    sl_int k;
+    stats->n = S->n;
+    stats->supernodes = S->n_supers;
+    stats->nnz_panels = S->panel_begin[S->n_supers];
+    for (k = S->n - 1; k >= 0; k--) {
+        const double count = S->counts[k];
+        depth[k] = S->parent[k] == -1 ? 1 : depth[S->parent[k]] + 1;
+        stats->tree_height = sli_max(stats->tree_height, depth[k]);
+        stats->components += S->parent[k] == -1;
+        stats->nnz_l += S->counts[k];
+        stats->flops += count * count;
+    }
+}
+
+/* Copies the tree out of the workspace and fills everything that hangs on it. */
+static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
+    const size_t bytes = (size_t)S->n * sizeof(sl_int);
+    sl_int s, k;
+    for (k = 0; k < S->n; k++) {
+        S->perm[k] = w->perm[w->old_of[k]];
+        S->iperm[S->perm[k]] = k;
+    }
+    memcpy(S->parent, w->parent, bytes);
+    memcpy(S->counts, w->counts, bytes);
+    memcpy(S->super_of, w->super_of, bytes);
+    memcpy(S->super_first, w->groups.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+    memcpy(S->super_parent, w->groups.parent, (size_t)S->n_supers * sizeof(sl_int));
+    S->rows_begin[0] = 0;
+    S->panel_begin[0] = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        S->rows_begin[s + 1] = S->rows_begin[s] + w->groups.below[s];
+        S->panel_begin[s + 1] = S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
+    }
+    /* list has 4n words of 4 bytes: the ends of the rows in one half, the marks in the other */
+    sli_count_map(S, &w->columns, w->old_of);
+    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list, (sl_int *)(void *)(w->list + S->n));
+    sli_fill_steps(S);
+    sli_analyse_stats(S, w->scratch, stats);
+}
+
+static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sli_analysis *w,
+                                   const sl_allocator *a, sl_stats *stats) {
+    double started;
+    sl_symbolic draft;
+    sli_block b = {NULL, 0, 0};
+    sl_off rows = 0;
+    sl_int s;
+    int pass;
+    sl_status status;
+    started = sli_seconds();
+    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, a, stats);
+    stats->seconds_order = sli_seconds() - started;
+    if (status != SL_OK) {
+        return status;
+    }
+    started = sli_seconds();
+    for (s = 0; s < w->n; s++) {
+        w->scratch[w->perm[s]] = s;
+    }
+    sli_halves_fill(A, stats->triangle, w->scratch, &w->rows, &w->columns);
+    stats->nnz_a = w->rows.begin[w->n];
+    sli_analyse_tree(w, opt, stats);
+    memset(&draft, 0, sizeof draft);
+    draft.allocator = *a;
+    draft.n = A->n_cols;
+    draft.n_supers = w->groups.count;
+    draft.nnz_input = sli_nnz(A);
+    draft.fingerprint = sli_fingerprint(A);
+    for (s = 0; s < w->groups.count; s++) {
+        rows += w->groups.below[s];
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_symbolic_layout(&draft, &b, rows, stats->nnz_a);
+        stats->bytes_symbolic = b.used;
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_symbolic_fill(&draft, w, stats);
+    stats->seconds_analyse += sli_seconds() - started;
+    draft.stats = *stats;
+    *out = (sl_symbolic *)(void *)b.base;
+    **out = draft;
+    return SL_OK;
+}
+
+/* Copies the symbolic group from one struct to the other. */
+static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
+    to->n = from->n;
+    to->triangle = from->triangle;
+    to->nnz_a = from->nnz_a;
+    to->nnz_l = from->nnz_l;
+    to->nnz_panels = from->nnz_panels;
+    to->flops = from->flops;
+    to->supernodes = from->supernodes;
+    to->supernodes_fundamental = from->supernodes_fundamental;
+    to->tree_height = from->tree_height;
+    to->components = from->components;
+    to->seconds_order = from->seconds_order;
+    to->seconds_analyse = from->seconds_analyse;
+    to->bytes_symbolic = from->bytes_symbolic;
+}
+
+SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    const double started = sli_seconds();
+    sli_analysis w;
+    sli_block b = {NULL, 0, 0};
+    sl_stats found;
+    sl_status status;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sl_csc_check(A, stats);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (A->n_rows != A->n_cols) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(&w, 0, sizeof w);
+    memset(&found, 0, sizeof found);
+    sli_stats_clear_error(&found);
+    status = sli_csc_triangle(A, &found.triangle, opt, stats);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_analysis_layout(&w, &b, A->n_cols, sli_nnz(A));
+        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        found.seconds_analyse = sli_seconds() - started;
+        status = sli_symbolic_make(out, A, opt, &w, &a, &found);
+        if (stats != NULL && status == SL_OK) {
+            sli_symbolic_stats_copy(&found, stats);
+        } else if (stats != NULL) {
+            stats->error_row = found.error_row;
+        }
+        sli_free(&a, b.base);
+    }
+    return status;
+}
+
+SL_API void sl_symbolic_free(sl_symbolic *S) {
+    if (S != NULL) {
+        const sl_allocator a = S->allocator;
+        sli_free(&a, S);
+    }
+}
+
+SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (S != NULL && stats != NULL) {
+        sli_symbolic_stats_copy(&S->stats, stats);
+    }
+}
+
+SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S) {
+    sl_symbolic_view_t v;
+    memset(&v, 0, sizeof v);
+    if (S != NULL) {
+        v.n = S->n;
+        v.n_supers = S->n_supers;
+        v.perm = S->perm;
+        v.iperm = S->iperm;
+        v.parent = S->parent;
+        v.counts = S->counts;
+        v.super_first = S->super_first;
+        v.super_of = S->super_of;
+        v.super_parent = S->super_parent;
+        v.rows_begin = S->rows_begin;
+        v.rows = S->rows;
+        v.panel_begin = S->panel_begin;
+    }
+    return v;
+}
+
+#endif
+/* end src/impl/symbolic.h */
+/* begin src/impl/reach.h */
+/* reach.h: the columns that a set of rows touches: the elimination tree's paths from them to the roots */
+#ifndef SLI_REACH_H
+#define SLI_REACH_H
+
+/* A reach, compiled for the kernels: its supernodes ascending, each from the first column needed, and the places of
+ * their rows in a vector that holds the reach's columns alone. */
+typedef struct sli_reach {
+    sl_int count;           /* supernodes */
+    sl_int columns;         /* length of the vector */
+    sl_int tallest, widest; /* largest height and width, for the scratch */
+    sl_off n_rows;          /* length of rows */
+    sl_off entries;         /* doubles of L that a sweep reads */
+    const sli_step *steps;  /* count */
+    const sl_int *rows;     /* n_rows, step after step */
+} sli_reach;
+
+/* The reach of everything: what the analysis holds already. */
+static sli_reach sli_reach_all(const sl_symbolic *S) {
+    sli_reach R;
+    R.count = S->n_supers;
+    R.columns = S->n;
+    R.tallest = S->tallest;
+    R.widest = S->widest;
+    R.n_rows = S->rows_begin[S->n_supers];
+    R.entries = S->panel_begin[S->n_supers];
+    R.steps = S->steps;
+    R.rows = S->rows;
+    return R;
+}
+
+/* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a postorder the first
+ * ancestor at or after it is on the next seed's own path, so that paths join without a mark on any column. */
+SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sl_int *k) {
+    const sl_int here = S->super_of[sli_key(seeds[*k])];
+    sl_int s = here;
+    while (++*k < count && s == here) {
+        s = S->super_of[sli_key(seeds[*k])];
+        if (s != here) {
+            return s;
+        }
+    }
+    return S->n_supers;
+}
+
+/* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
+static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_reach *R) {
+    sl_int k = 0, s, next;
+    memset(R, 0, sizeof *R);
+    while (k < count) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            R->count++;
+            R->n_rows += S->rows_begin[s + 1] - S->rows_begin[s];
+        }
+    }
+}
+
+/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded through `up` of the steps
+ * whose parent has not come yet; its top waits for the smallest supernode. */
+static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed, sl_int *waiting) {
+    const sl_int first = S->super_first[s];
+    sli_step *step = &steps[at];
+    sl_int column = seed;
+    while (*waiting != -1 && S->super_parent[S->super_of[steps[*waiting].column]] == s) {
+        sli_step *child = &steps[*waiting];
+        const sl_int c = S->super_of[child->column];
+        column = sli_min(column, S->rows[S->rows_begin[c]]);
+        *waiting = child->up;
+        child->up = at;
+    }
+    step->panel = S->panel_begin[s];
+    step->first_tile = (column - first) / SLI_TILE;
+    step->column = first + SLI_TILE * step->first_tile;
+    step->width = S->super_first[s + 1] - first;
+    step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+    step->up = -1;
+    if (S->super_parent[s] != -1) {
+        step->up = *waiting;
+        *waiting = at;
+    }
+}
+
+/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them. */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at, sl_int *places) {
+    const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
+    const sl_int below = steps[at].below;
+    sl_int i = 0;
+    while (i < below) {
+        sl_int end, shift;
+        at = steps[at].up;
+        end = steps[at].column + sli_step_columns(&steps[at]);
+        shift = steps[at].base - steps[at].column;
+        for (; i < below && rows[i] < end; i++) {
+            places[i] = rows[i] + shift;
+        }
+    }
+}
+
+/* Compiles the reach that sli_reach_measure has counted. O(reach). */
+static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_step *steps, sl_int *rows,
+                           sli_reach *R) {
+    sl_int k = 0, at = 0, waiting = -1, s, next;
+    sl_off placed = 0;
+    while (k < count) {
+        sl_int seed = sli_key(seeds[k]);
+        s = S->super_of[seed];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            sli_reach_enter(S, steps, at++, s, seed, &waiting);
+            seed = INT32_MAX;
+        }
+    }
+    for (at = 0; at < R->count; at++) {
+        const sli_step *step = &steps[at];
+        steps[at].base = R->columns;
+        R->columns += sli_step_columns(step);
+        R->widest = sli_max(R->widest, step->width);
+        R->tallest = sli_max(R->tallest, step->width + step->below);
+        R->entries += sli_panel_size(step->width, step->below) - sli_tile_offset(step->width, step->first_tile) -
+                      (sl_off)SLI_TILE * SLI_TILE * step->first_tile *
+                          (sli_tiles(step->width + step->below) - step->first_tile);
+    }
+    for (at = 0; at < R->count; at++) {
+        sli_reach_places(S, steps, at, rows + placed);
+        placed += steps[at].below;
+    }
+    R->steps = steps;
+    R->rows = rows;
+}
+
+#endif
+/* end src/impl/reach.h */
+/* L4 numbers */
+/* begin src/impl/uplooking.h */
+/* uplooking.h: the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A */
+#ifndef SLI_UPLOOKING_H
+#define SLI_UPLOOKING_H
+
+struct sl_factor {
+    sl_allocator allocator;
+    sl_stats stats;            /* the factor group and the error fields */
+    const sl_symbolic *S;      /* borrowed */
+    const sli_kernels *kernels;
+    double null_tolerance;
+    int is_good;               /* L and D hold a factor */
+    double *L;                 /* the panels */
+    double *D;                 /* n pivots */
+    double *x;                 /* n: updates on their way up row k; all 0 between rows */
+    double *buffer;            /* kernel scratch */
+    sl_int *head;              /* n: first supernode whose next row is k, -1 for none */
+    sl_int *next;              /* n_supers: the others, as a list */
+    sl_int *position;          /* n_supers: how many rows below have been done */
+    uint64_t *list;            /* n_supers: the reach of row k */
+    uint64_t *list_scratch;
+};
+
+/* The column of A that holds position p. */
+static sl_int sli_column_of(const sl_csc *A, sl_int p) {
+    sl_int low = 0, high = A->n_cols - 1;
+    while (low < high) { /* the last column that starts at or before p */
+        const sl_int middle = low + (high - low + 1) / 2;
+        if (A->p[middle] <= p) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+/* Puts A's entries into supernode s's panel, over zeros. */
+static sl_status sli_panel_load(sl_factor *F, const sl_csc *A, sl_int s) {
+    const sl_symbolic *S = F->S;
+    const size_t size = (size_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
+    sl_off m;
+    memset(F->L + S->panel_begin[s], 0, size * sizeof(double));
+    for (m = S->map_begin[s]; m < S->map_begin[s + 1]; m++) {
+        const double a = A->x[S->map_from[m]];
+        if (!sli_is_finite(a)) {
+            const sl_int p = S->map_from[m];
+            return sli_fail_at(&F->stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), a);
+        }
+        F->L[S->map_to[m]] += a;
+    }
+    return SL_OK;
+}
+
+/* Hangs supernode s onto the list of its next row, if it has one. */
+static void sli_wait_for_row(sl_factor *F, sl_int s) {
+    const sl_off at = F->S->rows_begin[s] + F->position[s];
+    if (at < F->S->rows_begin[s + 1]) {
+        const sl_int k = F->S->rows[at];
+        F->next[s] = F->head[k];
+        F->head[k] = s;
+    }
+}
+
+/* Row q of supernode s, local numbering; see sli_row_kernel. */
+static void sli_do_row(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
+    const sl_symbolic *S = F->S;
+    const sl_int first = S->super_first[s];
+    F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s], F->D + first,
+                    F->x + first, F->x, F->buffer, pivot, magnitude);
+}
+
+/* Row k: the supernodes that wait for it, in ascending order so that descendants come first, then its own. */
+static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
+    const sl_symbolic *S = F->S;
+    const sl_int own = S->super_of[k];
+    sl_int s, m, count = 0;
+    for (s = F->head[k]; s != -1; s = F->next[s]) {
+        F->list[count++] = sli_keyed(s, 0);
+    }
+    sli_sort(F->list, count, F->list_scratch);
+    for (m = 0; m < count; m++) {
+        s = sli_key(F->list[m]);
+        sli_do_row(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
+        F->position[s]++;
+        sli_wait_for_row(F, s);
+    }
+    if (k > S->super_first[own]) {
+        sli_do_row(F, own, k - S->super_first[own], pivot, magnitude);
+    }
+}
+
+/* Refuses a pivot that is not a number or null against what it was made of; otherwise counts it. */
+static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double magnitude) {
+    const double size = fabs(pivot);
+    sl_stats *stats = &F->stats;
+    if (!sli_is_finite(pivot)) {
+        return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
+    }
+    if (size == 0.0 || size <= F->null_tolerance * magnitude) {
+        stats->null++;
+        return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
+    }
+    stats->positive += pivot > 0.0;
+    stats->negative += pivot < 0.0;
+    stats->pivot_min = k == 0 || size < stats->pivot_min ? size : stats->pivot_min;
+    stats->pivot_max = k == 0 || size > stats->pivot_max ? size : stats->pivot_max;
+    F->D[k] = pivot;
+    return SL_OK;
+}
+
+/* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
+static sl_status sli_uplooking(sl_factor *F, const sl_csc *A) {
+    const sl_symbolic *S = F->S;
+    sl_status status = SL_OK;
+    sl_int k;
+    F->stats.positive = F->stats.negative = F->stats.null = 0;
+    F->stats.pivot_min = F->stats.pivot_max = 0.0;
+    for (k = 0; k < S->n; k++) {
+        F->head[k] = -1;
+    }
+    for (k = 0; k < S->n && status == SL_OK; k++) {
+        const sl_int s = S->super_of[k], q = k - S->super_first[s];
+        double *diagonal, pivot, magnitude;
+        if (q == 0) {
+            status = sli_panel_load(F, A, s);
+            if (status != SL_OK) {
+                break;
+            }
+        }
+        diagonal = F->L + S->panel_begin[s] + sli_panel_at(S->steps[s].width, q, q);
+        pivot = *diagonal;
+        magnitude = fabs(pivot);
+        *diagonal = 0.0;
+        sli_do_all_rows(F, k, &pivot, &magnitude);
+        status = sli_take_pivot(F, k, pivot, magnitude);
+        if (q == S->steps[s].width - 1) {
+            F->position[s] = 0;
+            sli_wait_for_row(F, s);
+        }
+    }
+    if (status != SL_OK) {
+        memset(F->x, 0, (size_t)S->n * sizeof(double));
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/uplooking.h */
+/* begin src/impl/factor.h */
+/* factor.h: the factor object: creation, refactorization, and what can be asked of it */
+#ifndef SLI_FACTOR_H
+#define SLI_FACTOR_H
+
+static void sli_factor_layout(sl_factor *F, sli_block *b) {
+    const size_t n = (size_t)F->S->n, supers = (size_t)F->S->n_supers;
+    (void)sli_take(b, 1, sizeof(sl_factor));
+    F->D = SLI_TAKE(b, double, n);
+    F->x = SLI_TAKE(b, double, n);
+    F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
+    F->head = SLI_TAKE(b, sl_int, n);
+    F->next = SLI_TAKE(b, sl_int, supers);
+    F->position = SLI_TAKE(b, sl_int, supers);
+    F->list = SLI_TAKE(b, uint64_t, supers);
+    F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    F->L = SLI_TAKE(b, double, F->S->panel_begin[F->S->n_supers]);
+}
+
+/* Whether A can be the matrix that S was made from. */
+static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
+    if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
+        return SL_ERR_PATTERN;
+    }
+    if (S->nnz_input > 0 && (A->i == NULL || A->x == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_fingerprint(A) == S->fingerprint ? SL_OK : SL_ERR_PATTERN;
+}
+
+static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
+    to->isa = from->isa;
+    to->positive = from->positive;
+    to->negative = from->negative;
+    to->null = from->null;
+    to->pivot_min = from->pivot_min;
+    to->pivot_max = from->pivot_max;
+    to->seconds_factor = from->seconds_factor;
+    to->bytes_factor = from->bytes_factor;
+}
+
+SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
+    const double started = sli_seconds();
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    F->is_good = 0;
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_stats_clear_error(&F->stats);
+    status = sli_uplooking(F, A);
+    F->stats.seconds_factor = sli_seconds() - started;
+    F->is_good = status == SL_OK;
+    if (stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+        stats->error_row = F->stats.error_row;
+        stats->error_column = F->stats.error_column;
+        stats->error_value = F->stats.error_value;
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A, const sl_options *opt,
+                                  sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_factor draft;
+    sli_block b = {NULL, 0, 0};
+    sl_status status;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_factor_check(S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&draft, 0, sizeof draft);
+    draft.allocator = a;
+    draft.S = S;
+    draft.null_tolerance = opt == NULL || opt->null_tolerance == 0.0 ? 64.0 * DBL_EPSILON : opt->null_tolerance;
+    draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+    if (draft.kernels == NULL) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_factor_layout(&draft, &b);
+        draft.stats.bytes_factor = b.used;
+        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sl_factor *F = (sl_factor *)(void *)b.base;
+        draft.stats.isa = draft.kernels->isa;
+        *F = draft;
+        if (S->n > 0) {
+            memset(F->x, 0, (size_t)S->n * sizeof(double));
+        }
+        status = sl_factor_refactor(F, A, stats);
+        if (status == SL_OK) {
+            *out = F;
+        } else {
+            sl_factor_free(F);
+        }
+    }
+    return status;
+}
+
+SL_API void sl_factor_free(sl_factor *F) {
+    if (F != NULL) {
+        const sl_allocator a = F->allocator;
+        sli_free(&a, F);
+    }
+}
+
+SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (F != NULL && stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+    }
+}
+
+SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
+    double sum = 0.0;
+    sl_int k;
+    if (F == NULL || log_abs_det == NULL || sign == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    for (k = 0; k < F->S->n; k++) {
+        sum += log(fabs(F->D[k]));
+    }
+    *log_abs_det = sum;
+    *sign = F->stats.negative % 2 == 0 ? 1.0 : -1.0;
+    return SL_OK;
+}
+
+/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them. */
+static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
+    const sl_symbolic *S = F->S;
+    sl_int s, j, r;
+    sl_off count = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int first = S->super_first[s], width = S->steps[s].width, height = width + S->steps[s].below;
+        for (j = 0; j < width; j++) {
+            for (r = j; r < height; r++) {
+                const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];
+                if (l != 0.0) {
+                    if (M != NULL) {
+                        M->i[count] = r < width ? first + r : S->rows[S->rows_begin[s] + r - width];
+                        M->x[count] = l;
+                    }
+                    count++;
+                }
+            }
+            if (M != NULL) {
+                M->p[first + j + 1] = (sl_int)count;
+            }
+        }
+    }
+    return count;
+}
+
+SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_off count;
+    sl_status status;
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    count = sli_factor_entries(F, NULL);
+    if (count > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
+    if (status == SL_OK) {
+        (*out)->p[0] = 0;
+        (void)sli_factor_entries(F, *out);
+    }
+    return status;
+}
+
+SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
+    sl_factor_view_t v = {NULL, NULL, NULL};
+    if (F != NULL) {
+        v.symbolic = F->S;
+        v.L = F->L;
+        v.D = F->D;
+    }
+    return v;
+}
+
+#endif
+/* end src/impl/factor.h */
+/* begin src/impl/work.h */
+/* work.h: the workspace: one block of a thread's scratch that only grows */
+#ifndef SLI_WORK_H
+#define SLI_WORK_H
+
+struct sl_work {
+    sl_allocator allocator;
+    void *block; /* size bytes, 64-byte aligned; contents live for one call */
+    size_t size;
+};
+
+/* At least bytes of scratch; what was in it is lost. */
+static sl_status sli_work_grow(sl_work *W, size_t bytes) {
+    void *block;
+    if (bytes <= W->size) {
+        return SL_OK;
+    }
+    block = sli_alloc(&W->allocator, bytes);
+    if (block == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    sli_free(&W->allocator, W->block);
+    W->block = block;
+    W->size = bytes;
+    return SL_OK;
+}
+
+SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
+    if (*out == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    (*out)->allocator = a;
+    (*out)->block = NULL;
+    (*out)->size = 0;
+    return SL_OK;
+}
+
+SL_API void sl_work_free(sl_work *W) {
+    if (W != NULL) {
+        const sl_allocator a = W->allocator;
+        sli_free(&a, W->block);
+        sli_free(&a, W);
+    }
+}
+
+SL_API size_t sl_work_bytes(const sl_work *W) {
+    return W == NULL ? 0 : W->size;
+}
+
+#endif
+/* end src/impl/work.h */
+/* begin src/impl/sweep.h */
+/* sweep.h: one block of right-hand sides through the forward reach, across to the backward reach, and out */
+#ifndef SLI_SWEEP_H
+#define SLI_SWEEP_H
+
+/* A compiled question: the reach of b, the reach of x, and where the caller's rows stand in their vectors. */
+typedef struct sli_query {
+    const sl_symbolic *S;
+    sl_int nb, nx;
+    int is_shared;             /* one reach and one vector serve both sweeps */
+    sli_reach forward, backward;
+    const sl_int *b_place;     /* nb */
+    const sl_int *x_place;     /* nx */
+} sli_query;
+
+/* Everything known and everything wanted: the full solve. */
+static sli_query sli_query_all(const sl_symbolic *S) {
+    sli_query q;
+    q.S = S;
+    q.nb = q.nx = S->n;
+    q.is_shared = 1;
+    q.forward = q.backward = sli_reach_all(S);
+    q.b_place = q.x_place = S->iperm;
+    return q;
+}
+
+/* The kernel for the next block of nrhs right-hand sides, and how many lanes it has. */
+SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
+    return nrhs <= 1 ? SLI_LANES_1 : nrhs == 2 ? SLI_LANES_2 : nrhs <= 4 ? SLI_LANES_4 : SLI_LANES_8;
+}
+
+/* The vectors and scratch of one block, cut from a workspace. */
+typedef struct sli_vectors {
+    double *y, *x, *scratch;
+} sli_vectors;
+
+static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q, sl_int nrhs) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
+    const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
+    const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
+    v->y = SLI_TAKE(b, double, (size_t)q->forward.columns * (size_t)lanes);
+    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (size_t)q->backward.columns * (size_t)lanes);
+    v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
+}
+
+/* Bytes for any block of up to nrhs right-hand sides; 0 if they cannot be counted. One lane keeps partial sums that
+ * more lanes do not need, so both ends are looked at. */
+static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
+    sli_block one = {NULL, 0, 0}, many = {NULL, 0, 0};
+    sli_vectors v;
+    sli_vectors_layout(&v, &one, q, 1);
+    sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
+    return one.overflow || many.overflow ? 0 : one.used > many.used ? one.used : many.used;
+}
+
+/* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of columns: moving rows in
+ * and out is a fifth of a full solve, and a counted inner loop would double that. */
+SLI_INLINE void sli_interleave(double *v, sl_int lanes, const sl_int *place, sl_int count, const double *M, size_t ld,
+                               sl_int columns) {
+    sl_int k, r;
+    for (k = 0; k < count; k++) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+            v[(ptrdiff_t)place[k] * lanes + r] = M[(size_t)k + (size_t)r * ld];
+        }
+    }
+}
+
+/* The way back. */
+SLI_INLINE void sli_separate(double *M, size_t ld, const double *v, sl_int lanes, const sl_int *place, sl_int count,
+                             sl_int columns) {
+    sl_int k, r;
+    for (k = 0; k < count; k++) {
+        SLI_UNROLL
+        for (r = 0; r < columns; r++) {
+            M[(size_t)k + (size_t)r * ld] = v[(ptrdiff_t)place[k] * lanes + r];
+        }
+    }
+}
+
+/* b into the forward vector, interleaved; unknown rows and idle lanes are 0. */
+static void sli_pack(const sli_query *q, double *y, const double *B, size_t ldb, sl_int lanes, sl_int nrhs) {
+    if (q->nb < q->forward.columns || nrhs < lanes) {
+        memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+    }
+    switch (nrhs) {
+    case 8: sli_interleave(y, 8, q->b_place, q->nb, B, ldb, 8); break;
+    case 3: sli_interleave(y, 4, q->b_place, q->nb, B, ldb, 3); break;
+    case 1: sli_interleave(y, 1, q->b_place, q->nb, B, ldb, 1); break;
+    default: sli_interleave(y, lanes, q->b_place, q->nb, B, ldb, nrhs);
+    }
+}
+
+/* The wanted rows out of the backward vector. */
+static void sli_unpack(const sli_query *q, double *X, size_t ldx, const double *x, sl_int lanes, sl_int nrhs) {
+    switch (nrhs) {
+    case 8: sli_separate(X, ldx, x, 8, q->x_place, q->nx, 8); break;
+    case 3: sli_separate(X, ldx, x, 4, q->x_place, q->nx, 3); break;
+    case 1: sli_separate(X, ldx, x, 1, q->x_place, q->nx, 1); break;
+    default: sli_separate(X, ldx, x, lanes, q->x_place, q->nx, nrhs);
+    }
+}
+
+/* y carried over to the columns that both reaches have; the rest of the backward vector starts from 0. */
+static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lanes) {
+    const sli_step *f = q->forward.steps, *b = q->backward.steps;
+    const sli_step *f_end = f + q->forward.count, *b_end = b + q->backward.count;
+    memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
+    while (f < f_end && b < b_end) {
+        if (f->panel == b->panel) { /* a panel belongs to one supernode */
+            const sl_int column = sli_max(f->column, b->column);
+            const sl_int count = f->column + sli_step_columns(f) - column;
+            memcpy(x + (ptrdiff_t)(b->base + column - b->column) * lanes,
+                   y + (ptrdiff_t)(f->base + column - f->column) * lanes,
+                   (size_t)count * (size_t)lanes * sizeof(double));
+            f++;
+            b++;
+        } else if (f->panel < b->panel) {
+            f++;
+        } else {
+            b++;
+        }
+    }
+}
+
+/* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good. */
+static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, size_t ldx, const double *B, size_t ldb,
+                      sl_int nrhs, void *memory) {
+    sl_int r;
+    for (r = 0; r < nrhs; r += 8) {
+        const sl_int block = sli_min(8, nrhs - r);
+        const int kind = sli_lanes_kind(block);
+        const sl_int lanes = (sl_int)1 << kind;
+        sli_block b;
+        sli_vectors v;
+        b.base = (unsigned char *)memory;
+        b.used = 0;
+        b.overflow = 0;
+        sli_vectors_layout(&v, &b, q, block);
+        sli_pack(q, v.y, B + (size_t)r * ldb, ldb, lanes, block);
+        F->kernels->forward[kind](q->forward.count, q->forward.steps, q->forward.rows, F->L, v.y, v.scratch);
+        if (!q->is_shared) {
+            sli_cross(q, v.y, v.x, lanes);
+        }
+        F->kernels->backward[kind](q->backward.count, q->backward.steps, q->backward.rows + q->backward.n_rows, F->L,
+                                   F->D, v.x, v.scratch);
+        sli_unpack(q, X + (size_t)r * ldx, ldx, v.x, lanes, block);
+    }
+}
+
+/* What every solve asks of its dense arguments. */
+static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B, size_t ldb, sl_int nb,
+                                 sl_int nrhs) {
+    const int bad_x = nx > 0 && (X == NULL || (nrhs > 1 && ldx < (size_t)nx));
+    const int bad_b = nb > 0 && (B == NULL || (nrhs > 1 && ldb < (size_t)nb));
+    return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b)) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+/* A query answered in the caller's workspace, or in one of this call's own. */
+static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, size_t ldx, const double *B, size_t ldb,
+                            sl_int nrhs, sl_work *W) {
+    sl_work own;
+    sl_status status;
+    size_t bytes;
+    if (nrhs == 0 || q->nx == 0) {
+        return SL_OK;
+    }
+    own.allocator = sli_allocator(NULL);
+    own.block = NULL;
+    own.size = 0;
+    W = W == NULL ? &own : W;
+    bytes = sli_vectors_bytes(q, nrhs);
+    status = bytes == 0 ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+    if (status == SL_OK) {
+        sli_sweep(F, q, X, ldx, B, ldb, nrhs, W->block);
+    }
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
+/* end src/impl/sweep.h */
+/* begin src/impl/solve.h */
+/* solve.h: full solves: the query in which everything is known and everything wanted */
+#ifndef SLI_SOLVE_H
+#define SLI_SOLVE_H
+
+SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                                 sl_work *W) {
+    sli_query q;
+    sl_status status;
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    q = sli_query_all(F->S);
+    return sli_answer(F, &q, X, ldx, B, ldb, nrhs, W);
+}
+
+/* Room for the blocks of a query. */
+static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
+    const size_t bytes = nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 1;
+    return bytes == 0 ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+}
+
+SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
+    sli_query q;
+    if (W == NULL || F == NULL || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    q = sli_query_all(F->S);
+    return sli_work_reserve(W, &q, nrhs);
+}
+
+#endif
+/* end src/impl/solve.h */
+/* begin src/impl/plan.h */
+/* plan.h: local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace */
+#ifndef SLI_PLAN_H
+#define SLI_PLAN_H
+
+struct sl_plan {
+    sl_allocator allocator;
+    size_t bytes;
+    sli_query query;
+};
+
+/* A set of rows while it is compiled. rows NULL: all of them. */
+typedef struct sli_set {
+    const sl_int *rows;
+    sl_int count;
+    uint64_t *seeds;   /* count: its columns of L ascending, each with its place in the caller's order */
+    uint64_t *scratch; /* count */
+    sl_int *place;     /* count */
+    sli_step *steps;
+    sl_int *compact;   /* the steps' rows */
+} sli_set;
+
+static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
+    sli_set set;
+    memset(&set, 0, sizeof set);
+    set.rows = rows;
+    set.count = rows == NULL ? S->n : count;
+    return set;
+}
+
+/* What sorting a set needs, and what its compiled reach needs. */
+static void sli_set_layout_seeds(sli_set *set, sli_block *b) {
+    const size_t count = set->rows == NULL ? 0 : (size_t)set->count;
+    set->seeds = SLI_TAKE(b, uint64_t, count);
+    set->scratch = SLI_TAKE(b, uint64_t, count);
+}
+
+static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R) {
+    if (set->rows != NULL) {
+        set->place = SLI_TAKE(b, sl_int, set->count);
+        set->steps = SLI_TAKE(b, sli_step, R->count);
+        set->compact = SLI_TAKE(b, sl_int, R->n_rows);
+    }
+}
+
+/* Sorts a set by column of L; refuses rows out of range or given twice. Then counts its reach. */
+static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R, sl_stats *stats) {
+    sl_int k;
+    if (set->rows == NULL) {
+        *R = sli_reach_all(S);
+        return SL_OK;
+    }
+    for (k = 0; k < set->count; k++) {
+        const sl_int i = set->rows[k];
+        if (i < 0 || i >= S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, 0.0);
+        }
+        set->seeds[k] = sli_keyed(S->iperm[i], k);
+    }
+    sli_sort(set->seeds, set->count, set->scratch);
+    for (k = 1; k < set->count; k++) {
+        if (sli_key(set->seeds[k - 1]) == sli_key(set->seeds[k])) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[sli_key(set->seeds[k])], -1, 0.0);
+        }
+    }
+    sli_reach_measure(S, set->seeds, set->count, R);
+    return SL_OK;
+}
+
+/* Fills the reach and the place of each of the caller's rows in its vector. */
+static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **place) {
+    sl_int k, at = 0;
+    if (set->rows == NULL) {
+        *place = S->iperm;
+        return;
+    }
+    sli_reach_fill(S, set->seeds, set->count, set->steps, set->compact, R);
+    for (k = 0; k < set->count; k++) {
+        const sl_int column = sli_key(set->seeds[k]);
+        while (column >= set->steps[at].column + sli_step_columns(&set->steps[at])) {
+            at++;
+        }
+        set->place[sli_value(set->seeds[k])] = column - set->steps[at].column + set->steps[at].base;
+    }
+    *place = set->place;
+}
+
+/* Whether two compiled reaches are the same columns. */
+static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
+    sl_int k;
+    if (a->count != b->count || a->columns != b->columns) {
+        return 0;
+    }
+    for (k = 0; k < a->count && a->steps != b->steps; k++) {
+        if (a->steps[k].column != b->steps[k].column) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the crossing. */
+static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_set *x) {
+    q->S = S;
+    q->nb = b->count;
+    q->nx = x->count;
+    sli_set_fill(S, b, &q->forward, &q->b_place);
+    sli_set_fill(S, x, &q->backward, &q->x_place);
+    q->is_shared = sli_reach_equal(&q->forward, &q->backward);
+}
+
+static void sli_query_stats(const sli_query *q, sl_stats *stats) {
+    stats->b_supernodes = q->forward.count;
+    stats->b_columns = q->forward.columns;
+    stats->b_entries = q->forward.entries;
+    stats->x_supernodes = q->backward.count;
+    stats->x_columns = q->backward.columns;
+    stats->x_entries = q->backward.entries;
+}
+
+static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
+    return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb, const sl_int *xset,
+                                sl_int nx, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sl_plan *P = NULL;
+    sli_query query;
+    sli_set b, x;
+    sl_status status;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sli_check_sets(S, bset, nb, xset, nx);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&query, 0, sizeof query);
+    b = sli_set_of(S, bset, nb);
+    x = sli_set_of(S, xset, nx);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_set_layout_seeds(&b, &seeds);
+        sli_set_layout_seeds(&x, &seeds);
+        status = pass == 0 ? sli_block_alloc(&seeds, &a) : SL_OK;
+    }
+    status = status == SL_OK ? sli_set_measure(S, &b, &query.forward, stats) : status;
+    status = status == SL_OK ? sli_set_measure(S, &x, &query.backward, stats) : status;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        P = (sl_plan *)sli_take(&kept, 1, sizeof(sl_plan));
+        sli_set_layout_reach(&b, &kept, &query.forward);
+        sli_set_layout_reach(&x, &kept, &query.backward);
+        status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_query_fill(&query, S, &b, &x);
+        P->allocator = a;
+        P->bytes = kept.used;
+        P->query = query;
+        *out = P;
+        sl_plan_stats(P, stats);
+    }
+    sli_free(&a, seeds.base);
+    return status;
+}
+
+SL_API void sl_plan_free(sl_plan *P) {
+    if (P != NULL) {
+        const sl_allocator a = P->allocator;
+        sli_free(&a, P);
+    }
+}
+
+SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (P != NULL && stats != NULL) {
+        sli_query_stats(&P->query, stats);
+        stats->bytes_plan = P->bytes;
+    }
+}
+
+SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb,
+                               sl_int nrhs, sl_work *W) {
+    sl_status status;
+    if (P == NULL || F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!F->is_good || F->S != P->query.S) {
+        return SL_ERR_STATE;
+    }
+    return sli_answer(F, &P->query, X, ldx, B, ldb, nrhs, W);
+}
+
+SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs) {
+    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT : sli_work_reserve(W, &P->query, nrhs);
+}
+
+/* Seeds, reaches and vectors of one local solve, all in the workspace. How much the reaches take is known only once
+ * the seeds are sorted: where W is too small for them it grows and the sorting is done again. */
+static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *bset, sli_set *xset, const double *B,
+                           size_t ldb, sl_int nrhs, sl_work *W, sl_stats *stats) {
+    const sl_symbolic *S = F->S;
+    sli_query q;
+    size_t bytes = 0, vectors;
+    sl_status status;
+    for (;;) {
+        sli_block b = {NULL, 0, 0};
+        sli_set_layout_seeds(bset, &b);
+        sli_set_layout_seeds(xset, &b);
+        status = b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes > b.used ? bytes : b.used + 1);
+        if (status != SL_OK) {
+            return status;
+        }
+        b.base = (unsigned char *)W->block;
+        b.used = 0;
+        sli_set_layout_seeds(bset, &b);
+        sli_set_layout_seeds(xset, &b);
+        status = sli_set_measure(S, bset, &q.forward, stats);
+        status = status == SL_OK ? sli_set_measure(S, xset, &q.backward, stats) : status;
+        if (status != SL_OK) {
+            return status;
+        }
+        sli_set_layout_reach(bset, &b, &q.forward);
+        sli_set_layout_reach(xset, &b, &q.backward);
+        bytes = b.used;
+        if (b.overflow || bytes > W->size) {
+            if (b.overflow) {
+                return SL_ERR_TOO_LARGE;
+            }
+            continue; /* the reaches would run over the end: nothing is written yet */
+        }
+        sli_query_fill(&q, S, bset, xset);
+        vectors = nrhs > 0 ? sli_vectors_bytes(&q, nrhs) : 1;
+        if (vectors == 0 || vectors > SIZE_MAX - bytes) {
+            return SL_ERR_TOO_LARGE;
+        }
+        if (bytes + vectors <= W->size) {
+            break;
+        }
+        bytes += vectors;
+    }
+    if (stats != NULL) {
+        sli_query_stats(&q, stats);
+        stats->bytes_plan = 0;
+    }
+    if (nrhs > 0 && q.nx > 0) {
+        sli_sweep(F, &q, X, ldx, B, ldb, nrhs, (unsigned char *)W->block + bytes);
+    }
+    return SL_OK;
+}
+
+SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset, sl_int nx,
+                                const double *B, size_t ldb, const sl_int *bset, sl_int nb, sl_int nrhs, sl_work *W,
+                                sl_stats *stats) {
+    sl_work own;
+    sli_set b, x;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_sets(F->S, bset, nb, xset, nx);
+    if (status != SL_OK) {
+        return status;
+    }
+    b = sli_set_of(F->S, bset, nb);
+    x = sli_set_of(F->S, xset, nx);
+    status = sli_check_dense(X, ldx, x.count, B, ldb, b.count, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    own.allocator = sli_allocator(NULL);
+    own.block = NULL;
+    own.size = 0;
+    status = sli_local(F, X, ldx, &b, &x, B, ldb, nrhs, W == NULL ? &own : W, stats);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
+/* end src/impl/plan.h */
+/* last: takes every internal macro away again */
+/* begin src/impl/leave.h */
+/* leave.h: takes every internal macro away again */
+#undef SLI_X86
+#undef SLI_ARM
+#undef SLI_INLINE
+#undef SLI_TARGET
+#undef SLI_UNROLL
+#undef SLI_ASSERT
+#undef SLI_ALIGN
+#undef SLI_TAKE
+#undef SLI_SORT_SMALL
+#undef SLI_TILE
+#undef SLI_EACH4
+#undef SLI_EACH8
+#undef SLI_EACH4_AGAIN
+#undef SLI_EACH8_AGAIN
+#undef SLI_HIGH4
+#undef SLI_HIGH8
+#undef SLI_LOW4
+#undef SLI_LOW8
+#undef SLI_TOKEN_MAX
+#undef SLI_ORDER_TINY
+/* end src/impl/leave.h */
+#endif
+
+/*
+ * MIT License
+ *
+ * Copyright (c) 2026 the sparse_local.h authors
+ *
+ * Permission is hereby granted, free of charge, to any person obtaining a copy
+ * of this software and associated documentation files (the "Software"), to deal
+ * in the Software without restriction, including without limitation the rights
+ * to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+ * copies of the Software, and to permit persons to whom the Software is
+ * furnished to do so, subject to the following conditions:
+ *
+ * The above copyright notice and this permission notice shall be included in all
+ * copies or substantial portions of the Software.
+ *
+ * THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+ * IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+ * FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+ * AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+ * LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+ * OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+ * SOFTWARE.
+ */
