@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 5c5f51374e81049c
+ * FNV-1a of all that follows this comment, license aside: efa8ca4c1b7cc1f4
  *
  * Contents
  *         (what a user reads)
@@ -5052,7 +5052,7 @@ typedef struct sli_graph {
 } sli_graph;
 
 /* G has room for n + 1 positions and twice A's entries. */
-static void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
+SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
     sl_int j, p;
     sl_off total = 0;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));

@@ -13,7 +13,7 @@ typedef struct sli_graph {
 } sli_graph;
 
 /* G has room for n + 1 positions and twice A's entries. */
-static void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
+SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
     sl_int j, p;
     sl_off total = 0;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));

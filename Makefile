@@ -1,0 +1,267 @@
+# Makefile: makes sparse_local.h from src/, and checks, tests and measures it; `make help` lists what there is
+
+## CC       C compiler: gcc or clang
+## CXX      C++ compiler of the C++ checks and of the peers
+CXX ?= g++
+## OPT      optimization, and whatever a build of one's own needs
+OPT ?= -O2
+## DATA     folder of real meshes and matrices; nothing needs it
+DATA ?= ../shared/data
+## BENCH    size of the bench: quick, full (to 4e6 unknowns) or nothing
+BENCH ?=
+## ASK      questions of the bench by name (build/bench --list); nothing asks all
+ASK ?=
+## MESH     mesh file that the bench uses instead of its grids
+MESH ?=
+## FUZZ_SECONDS  how long each fuzzer runs
+FUZZ_SECONDS ?= 20
+## B        folder of everything that is built
+B ?= build
+## V        1 shows every command
+V ?=
+
+Q := $(if $(V),,@)
+say = @echo '  $(1)  $@'
+SL_DATA ?= $(wildcard $(DATA))
+export SL_DATA BENCH MESH
+
+WARN_BOTH = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+WARN = $(WARN_BOTH) -Wstrict-prototypes -Wmissing-prototypes
+C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(INCLUDES) $(CFLAGS)
+CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(INCLUDES) $(CXXFLAGS)
+IMPL_COMPILE = $(CC) $(C_FLAGS)
+LINK = $(CC) $(OPT)
+LIBS = -lmetis -lz -lm
+TEST_LIBS = -lcmocka
+
+PARTS := $(wildcard src/public/*.h src/impl/*.h)
+SRC := src/sparse_local.in.h $(PARTS)
+PROGRAMS := $(shell grep -l '^int main\b' tools/*.c)
+TOOLS := $(filter-out $(PROGRAMS),$(wildcard tools/*.c))
+TESTS := $(wildcard tests/test_*.c)
+FUZZERS := $(wildcard tests/fuzz_*.c)
+HELPERS := $(filter-out $(TESTS) $(FUZZERS) tests/replay.c,$(wildcard tests/*.c))
+WHITE_BOX := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null)
+QUESTIONS := $(filter-out bench/peers%,$(wildcard bench/*.c))
+PEERS := $(wildcard bench/peers*.c bench/peers*.cpp)
+
+object = $(addprefix $(B)/obj/,$(addsuffix .o,$(1)))
+IMPL = $(B)/obj/sparse_local.o
+LIBRARY = $(B)/libtools.a
+TEST_PROGRAMS = $(TESTS:tests/%.c=$(B)/tests/%)
+REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
+
+.DELETE_ON_ERROR:
+.SECONDARY:
+.PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
+	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers \
+	format tidy clean always build-tests run-tests run-fuzz
+
+all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
+
+help: ## this list
+	@echo 'Targets'
+	@awk -F ':.*## ' '/^[a-z-]+[a-z0-9-]*:.*## / { printf "  %-16s %s\n", $$1, $$2 }' Makefile
+	@echo 'Variables (make test CC=clang)'
+	@sed -n 's/^## /  /p' Makefile
+
+# ---- the header ----
+
+header: build/amalgamate ## makes sparse_local.h from src/
+	build/amalgamate src/sparse_local.in.h sparse_local.h LICENSE
+
+sparse_local.h: build/amalgamate $(SRC) LICENSE
+	$(call say,MAKE)
+	$(Q)build/amalgamate src/sparse_local.in.h $@ LICENSE
+	@touch $@
+
+check-header: build/amalgamate ## is sparse_local.h what src/ makes?
+	@build/amalgamate --check src/sparse_local.in.h sparse_local.h LICENSE
+	@echo 'check-header: sparse_local.h is what src/ makes'
+
+build/amalgamate: tools/amalgamate.c
+	@mkdir -p $(@D)
+	$(call say,CC  )
+	$(Q)cc -std=c99 -O2 $(WARN) -o $@ $<
+
+layers: ## do the parts include only what stands below them, and carry their names?
+	@awk -f tools/layers.awk $(SRC)
+
+parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does every part compile alone?
+	@echo 'parts: each of $(words $^) compiles alone'
+
+build/parts/%.ok: src/% $(SRC) | build/deps.ok
+	@mkdir -p $(@D)
+	@printf '#include "$*"\ntypedef int sl_this_part_alone;\n' | \
+	$(CC) $(C_FLAGS) -Isrc -Wno-unused-function -Wno-unused-variable -fsyntax-only -x c -
+	@touch $@
+
+check-promises: sparse_local.h build/deps.ok ## does the header hold each of its promises (C++, two users, SL_STATIC, ...)?
+	@CC='$(CC)' CXX='$(CXX)' tests/check_header.sh
+
+# ---- what others must give; Debian packages, installed where missing ----
+
+deps: build/deps.ok ## METIS, cmocka, zlib
+	@tools/deps.sh metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
+
+build/deps.ok: tools/deps.sh
+	@mkdir -p $(@D)
+	@tools/deps.sh metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
+	@touch $@
+
+deps-cxx: ## g++
+	@tools/deps.sh $(CXX)=g++
+
+deps-peers: deps-cxx ## CHOLMOD with OpenBLAS, Eigen
+	@tools/deps.sh suitesparse/cholmod.h=libsuitesparse-dev /usr/include/eigen3/Eigen/Sparse=libeigen3-dev \
+	/usr/share/doc/libopenblas-dev=libopenblas-dev
+
+deps-clang: ## clang with its sanitizers and fuzzer
+	@tools/deps.sh clang=clang '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a=libclang-rt-dev'
+
+ARM = /usr/lib/aarch64-linux-gnu
+deps-aarch64: ## a cross compiler, an emulator and arm64 libraries
+	@tools/deps.sh aarch64-linux-gnu-gcc=gcc-aarch64-linux-gnu qemu-aarch64=qemu-user \
+	/usr/aarch64-linux-gnu/include/stdio.h=libc6-dev-arm64-cross $(ARM)/libmetis.so.5=libmetis5:arm64 \
+	$(ARM)/libcmocka.so.0=libcmocka0:arm64 $(ARM)/libz.so.1=zlib1g:arm64
+
+deps-cov: ## gcovr
+	@tools/deps.sh gcovr=gcovr
+
+# ---- compiling ----
+
+# Holds what objects are compiled with, so that they are made anew when that changes.
+$(B)/flags: always
+	@mkdir -p $(@D)
+	@echo '$(CC) $(C_FLAGS) | $(CXX) $(CXX_FLAGS) | $(IMPL_COMPILE)' | cmp -s - $@ || \
+	echo '$(CC) $(C_FLAGS) | $(CXX) $(CXX_FLAGS) | $(IMPL_COMPILE)' >$@
+always:
+
+$(B)/obj/%.o: %.c $(B)/flags | build/deps.ok sparse_local.h
+	@mkdir -p $(@D)
+	$(call say,CC  )
+	$(Q)$(CC) $(C_FLAGS) -MMD -MP -c -o $@ $<
+
+$(B)/obj/%.o: %.cpp $(B)/flags | build/deps.ok sparse_local.h
+	@mkdir -p $(@D)
+	$(call say,CXX )
+	$(Q)$(CXX) $(CXX_FLAGS) -MMD -MP -c -o $@ $<
+
+$(B)/obj/sparse_local.c:
+	@mkdir -p $(@D)
+	@printf '/* sparse_local.c: the bodies */\n#define SPARSE_LOCAL_IMPLEMENTATION\n#include "sparse_local.h"\n' >$@
+
+$(IMPL): $(B)/obj/sparse_local.c sparse_local.h $(B)/flags | build/deps.ok
+	$(call say,CC  )
+	$(Q)$(IMPL_COMPILE) -c -o $@ $<
+
+$(LIBRARY): $(call object,$(TOOLS:.c=))
+	@rm -f $@
+	$(call say,AR  )
+	$(Q)$(AR) rcs $@ $^
+
+$(B)/%: $(B)/obj/tools/%.o $(LIBRARY) $(IMPL)
+	$(call say,LINK)
+	$(Q)$(LINK) -o $@ $^ $(LIBS)
+
+programs: $(patsubst tools/%.c,$(B)/%,$(filter-out tools/amalgamate.c,$(PROGRAMS))) ## the programs of tools/
+
+-include $(shell find $(B)/obj -name '*.d' 2>/dev/null)
+
+# ---- tests ----
+
+$(B)/tests/test_%: $(B)/obj/tests/test_%.o $(call object,$(HELPERS:.c=)) $(LIBRARY) $(IMPL)
+	@mkdir -p $(@D)
+	$(call say,LINK)
+	$(Q)$(LINK) -o $@ $(if $(filter tests/test_$*.c,$(WHITE_BOX)),$(filter-out $(IMPL),$^),$^) $(TEST_LIBS) $(LIBS)
+
+$(B)/tests/replay_%: $(B)/obj/tests/fuzz_%.o $(B)/obj/tests/replay.o $(LIBRARY) $(IMPL)
+	@mkdir -p $(@D)
+	$(call say,LINK)
+	$(Q)$(LINK) -o $@ $^ $(LIBS)
+
+# What the variants below share: they differ in B, compiler and flags.
+build-tests: $(TEST_PROGRAMS) $(REPLAYS)
+run-tests: build-tests
+	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)
+
+test: deps ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
+	@$(MAKE) --no-print-directory run-tests ALSO=tests/check_header.sh
+
+test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
+	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
+
+test-cxx: deps deps-cxx sparse_local.h ## the tests, over bodies compiled as C++11
+	@$(MAKE) --no-print-directory run-tests B=build/cxx LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
+
+test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, under emulation
+	@mkdir -p build/aarch64/include
+	@for h in metis cmocka cmocka_pbc cmocka_version zlib zconf; do \
+	if [ -e /usr/include/$$h.h ]; then cp -p /usr/include/$$h.h build/aarch64/include; fi; done
+	@$(MAKE) --no-print-directory run-tests B=build/aarch64 CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
+	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
+	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
+
+sanitize: deps sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
+	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
+	-fsanitize=address,undefined -fno-sanitize-recover=all'
+
+valgrind: deps ## the tests under valgrind (no AVX-512 there)
+	@tools/deps.sh valgrind=valgrind
+	@$(MAKE) --no-print-directory run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
+
+cov: deps deps-cov sparse_local.h ## line and branch coverage of the header by the tests; build/cov/index.html
+	@if [ -d build/cov ]; then find build/cov -name '*.gcda' -delete; fi
+	@$(MAKE) --no-print-directory run-tests B=build/cov OPT='-O0 -g --coverage'; status=$$?; \
+	gcovr --root . --filter 'sparse_local\.h' --gcov-ignore-parse-errors --exclude-unreachable-branches --html-details build/cov/index.html \
+	--print-summary build/cov 2>build/cov/gcovr.log || { cat build/cov/gcovr.log; exit 1; }; exit $$status
+
+fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/corpus
+	@$(MAKE) --no-print-directory run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
+	-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all'
+
+$(B)/run/%: $(B)/obj/tests/fuzz_%.o $(LIBRARY) $(IMPL)
+	@mkdir -p $(@D)
+	$(call say,LINK)
+	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(LIBS)
+
+# New inputs stay under B: those worth keeping are copied to tests/corpus by hand.
+run-fuzz: $(FUZZERS:tests/fuzz_%.c=$(B)/run/%)
+	@for program in $^; do name=$${program##*/}; echo "fuzz $$name"; \
+	mkdir -p $(B)/found/$$name tests/corpus/$$name; \
+	$$program -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 -artifact_prefix=$(B)/found/crash-$$name- \
+	$(B)/found/$$name tests/corpus/$$name >$(B)/$$name.log 2>&1 || { tail -n 60 $(B)/$$name.log; exit 1; }; \
+	grep 'number_of_executed_units' $(B)/$$name.log; done
+
+# ---- bench ----
+
+$(B)/bench: $(call object,$(QUESTIONS:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
+	$(call say,LINK)
+	$(Q)$(LINK) -o $@ $^ $(PEER_LIBS) $(LIBS)
+
+bench: deps ## times full and local solves on this machine; CSV and plots under build/bench-out
+	@$(MAKE) --no-print-directory $(B)/bench
+	@mkdir -p build/bench-out
+	$(BENCH_ENV) $(B)/bench $(ASK)
+
+# Peers in their best setting: OpenBLAS chooses its kernels by itself, whatever core the environment forces on it.
+PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
+# Eigen picks its vector instructions when it is compiled: its best setting is -march=native, for its own file alone.
+bench-peers: deps deps-peers sparse_local.h ## the bench with CHOLMOD and Eigen beside
+	@$(MAKE) --no-print-directory bench B=build/peers LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+	CFLAGS='-DSL_BENCH_PEERS $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
+	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
+	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
+
+# ---- the rest ----
+
+format: ## clang-format over all sources, in place
+	clang-format -i $(SRC) $(wildcard tests/*.[ch] bench/*.[ch] bench/*.cpp tools/*.[ch])
+
+tidy: sparse_local.h ## clang-tidy over the bodies and the tools
+	@printf '#define SPARSE_LOCAL_IMPLEMENTATION\n#include "sparse_local.in.h"\n' >build/tidy.c
+	$(Q)clang-tidy --quiet --checks='bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,clang-analyzer-*,-clang-analyzer-security*,-clang-analyzer-valist*' \
+	build/tidy.c $(TOOLS) -- -std=c99 -I. -Isrc
+
+clean: ## removes everything built
+	rm -rf build

@@ -1,0 +1,37 @@
+/* checks.c: what makes a result right before it is timed: a small residual, or the bits of the full solve */
+#include <stdlib.h>
+
+#include "bench.h"
+
+int bench_check_residual(bench_run *run, const bench_system *system, const double *X,
+                         const double *B, sl_int nrhs, const char *method) {
+    size_t n = (size_t)system->n;
+    double *R = bench_alloc(n * (size_t)nrhs, sizeof *R);
+    double *error = bench_alloc((size_t)nrhs, sizeof *error);
+    /* rounding adds up along the paths of the elimination tree */
+    double bound = 2.3e-16 * (10.0 + system->stats.tree_height);
+    int good = 1;
+    bench_must(sl_csc_residual(&system->A, R, n, error, X, n, B, n, nrhs), "residual");
+    for (sl_int r = 0; r < nrhs; r++) {
+        good &= bench_expect(run, error[r] <= bound, "%s, %s: backward error %.2g above %.2g",
+                             system->name, method, error[r], bound);
+    }
+    free(error);
+    free(R);
+    return good;
+}
+
+int bench_check_bits(bench_run *run, const bench_system *system, const double *X,
+                     const sl_int *xset, sl_int nx, const double *full, sl_int nrhs,
+                     const char *method) {
+    sl_int differ = 0;
+    for (sl_int r = 0; r < nrhs; r++) {
+        for (sl_int k = 0; k < nx; k++) {
+            double local = X[(size_t)r * (size_t)nx + (size_t)k];
+            double whole = full[(size_t)r * (size_t)system->n + (size_t)xset[k]];
+            differ += !(local == whole); /* also where one is NaN */
+        }
+    }
+    return bench_expect(run, differ == 0, "%s, %s: %d of %d values differ from the full solve",
+                        system->name, method, (int)differ, (int)(nx * nrhs));
+}

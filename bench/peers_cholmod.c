@@ -1,0 +1,159 @@
+/* peers_cholmod.c: CHOLMOD in its best setting for a given permutation and one thread */
+#include "peers.h"
+
+#include <cblas.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <suitesparse/cholmod.h>
+
+typedef struct side {
+    cholmod_common common;
+    cholmod_factor *L;
+    cholmod_dense *X, *Y, *E; /* kept from solve to solve */
+} side;
+
+struct peer_cholmod {
+    cholmod_sparse A;
+    sl_int *perm;
+    side super, simple;
+    cholmod_dense *b;     /* n x 1, read at Bset only */
+    cholmod_sparse *bset; /* a column of n rows */
+    cholmod_sparse *xset;
+};
+
+static void must(int good, const char *doing) {
+    if (!good) {
+        fprintf(stderr, "bench: CHOLMOD failed: %s\n", doing);
+        exit(2);
+    }
+}
+
+static cholmod_factor *analyse(peer_cholmod *peer, side *s) {
+    cholmod_factor *L = cholmod_analyze_p(&peer->A, peer->perm, NULL, 0, &s->common);
+    must(L != NULL, "analysis");
+    return L;
+}
+
+static void factor(peer_cholmod *peer, side *s) {
+    must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
+         "factorization");
+}
+
+static void prepare(peer_cholmod *peer, side *s, int supernodal) {
+    cholmod_common *c = &s->common;
+    cholmod_start(c);
+    c->nmethods = 1;
+    c->method[0].ordering = CHOLMOD_GIVEN;
+    c->postorder = 1;
+    c->print = 0;
+    c->supernodal = supernodal ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
+    c->final_ll = supernodal;
+    c->final_pack = 1;
+    c->final_asis = supernodal;
+    s->L = analyse(peer, s);
+    factor(peer, s);
+}
+
+peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
+    peer_cholmod *peer = calloc(1, sizeof *peer);
+    must(peer != NULL, "memory");
+    size_t n = (size_t)A->n_rows;
+    openblas_set_num_threads(1);
+    peer->A.nrow = peer->A.ncol = n;
+    peer->A.nzmax = (size_t)A->p[n];
+    /* CHOLMOD does not write to its input, but has no const there */
+    memcpy(&peer->A.p, &A->p, sizeof A->p);
+    memcpy(&peer->A.i, &A->i, sizeof A->i);
+    memcpy(&peer->A.x, &A->x, sizeof A->x);
+    peer->A.stype = -1;
+    peer->A.itype = CHOLMOD_INT;
+    peer->A.xtype = CHOLMOD_REAL;
+    peer->A.dtype = CHOLMOD_DOUBLE;
+    peer->A.sorted = 1;
+    peer->A.packed = 1;
+    peer->perm = malloc((n + 1) * sizeof *peer->perm);
+    must(peer->perm != NULL, "memory");
+    memcpy(peer->perm, perm, n * sizeof *perm);
+    prepare(peer, &peer->super, 1);
+    prepare(peer, &peer->simple, 0);
+    must(!peer->simple.L->is_super && !peer->simple.L->is_ll &&
+             peer->simple.L->xtype == CHOLMOD_REAL,
+         "a simplicial LDL' was asked for");
+    peer->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &peer->simple.common);
+    peer->bset = cholmod_allocate_sparse(n, 1, n, 0, 1, 0, CHOLMOD_PATTERN, &peer->simple.common);
+    must(peer->b && peer->bset, "memory");
+    if (n > 0) {
+        /* the first call makes the inverse permutation and the workspaces */
+        sl_int first = 0;
+        double zero = 0;
+        (void)peer_cholmod_local(peer, &first, 1, &zero);
+    }
+    return peer;
+}
+
+static void release(side *s) {
+    cholmod_free_factor(&s->L, &s->common);
+    cholmod_free_dense(&s->X, &s->common);
+    cholmod_free_dense(&s->Y, &s->common);
+    cholmod_free_dense(&s->E, &s->common);
+    cholmod_finish(&s->common);
+}
+
+void peer_cholmod_free(peer_cholmod *peer) {
+    cholmod_free_dense(&peer->b, &peer->simple.common);
+    cholmod_free_sparse(&peer->bset, &peer->simple.common);
+    cholmod_free_sparse(&peer->xset, &peer->simple.common);
+    release(&peer->simple);
+    release(&peer->super);
+    free(peer->perm);
+    free(peer);
+}
+
+void peer_cholmod_analyse(peer_cholmod *peer) {
+    cholmod_factor *L = analyse(peer, &peer->super);
+    cholmod_free_factor(&L, &peer->super.common);
+}
+
+void peer_cholmod_factor(peer_cholmod *peer) {
+    factor(peer, &peer->super);
+}
+
+const double *peer_cholmod_solve(peer_cholmod *peer, const double *B, sl_int nrhs) {
+    side *s = &peer->super;
+    cholmod_dense b;
+    memset(&b, 0, sizeof b);
+    b.nrow = b.d = peer->A.nrow;
+    b.ncol = (size_t)nrhs;
+    b.nzmax = b.nrow * b.ncol;
+    memcpy(&b.x, &B, sizeof B);
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    must(cholmod_solve2(CHOLMOD_A, s->L, &b, NULL, &s->X, NULL, &s->Y, &s->E, &s->common), "solve");
+    return s->X->x;
+}
+
+const double *peer_cholmod_local(peer_cholmod *peer, const sl_int *bset, sl_int nb,
+                                 const double *b) {
+    side *s = &peer->simple;
+    int *p = peer->bset->p, *i = peer->bset->i;
+    double *values = peer->b->x;
+    p[0] = 0;
+    p[1] = nb;
+    for (sl_int k = 0; k < nb; k++) {
+        i[k] = bset[k];
+        values[bset[k]] = b[k];
+    }
+    must(cholmod_solve2(CHOLMOD_A, s->L, peer->b, peer->bset, &s->X, &peer->xset, &s->Y, &s->E,
+                        &s->common),
+         "solve with Bset");
+    return s->X->x;
+}
+
+double peer_cholmod_nnz(const peer_cholmod *peer) {
+    return peer->simple.common.lnz;
+}
+
+const char *peer_cholmod_kernels(void) {
+    return openblas_get_corename();
+}

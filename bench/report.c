@@ -1,0 +1,135 @@
+/* report.c: one line of a table a measurement, aligned on the screen and whole in a CSV file */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+
+struct bench_report {
+    char name[32];
+    FILE *csv;
+    const bench_system *system; /* of the last row */
+};
+
+static const char *isa_name(sl_isa isa) {
+    static const char *const names[] = {"auto", "scalar", "avx2", "avx512", "neon"};
+    return (size_t)isa < sizeof names / sizeof *names ? names[isa] : "?";
+}
+
+bench_report *bench_report_open(const bench_run *run, const char *name, const char *question,
+                                const char *baseline) {
+    bench_report *report = bench_alloc(1, sizeof *report);
+    char path[512];
+    memset(report, 0, sizeof *report);
+    snprintf(report->name, sizeof report->name, "%s", name);
+    snprintf(path, sizeof path, "%s/%s.csv", run->out_dir, name);
+    report->csv = fopen(path, "w");
+    if (!report->csv) {
+        bench_must(SL_ERR_IO, path);
+    }
+    fprintf(report->csv,
+            "question,system,n,nnz_l,nnz_panels,isa,case,method,nrhs,b_columns,x_columns,b_entries,"
+            "x_entries,entries,flops,count,min_s,median_s,max_s,gb_per_s,gflop_per_s,limit_share,"
+            "ratio\n");
+    printf("\n== %s: %s\n   ratio: time / time of %s; L read: doubles of L read in both sweeps; "
+           "limit: the time of\n"
+           "   only reading them, as a share of the median\n",
+           name, question, baseline);
+    return report;
+}
+
+/* "4.321 us": 9 characters at most */
+static const char *time_text(char *text, size_t size, double seconds) {
+    static const char *const units[] = {"ns", "us", "ms", "s "};
+    double value = seconds * 1e9;
+    int unit = 0;
+    while (unit < 3 && value >= 999.5) {
+        value /= 1000;
+        unit++;
+    }
+    snprintf(text, size, "%.*f %s",
+             value >= 99.95   ? 1
+             : value >= 9.995 ? 2
+                              : 3,
+             value, units[unit]);
+    return text;
+}
+
+static void print_heading(const bench_system *system) {
+    printf("\n%s: n %d, nnz(A) %.4g, nnz(L) %.4g, panels %.4g (%.2f), %s\n", system->name,
+           (int)system->n, (double)system->stats.nnz_a, (double)system->stats.nnz_l,
+           (double)system->stats.nnz_panels,
+           (double)system->stats.nnz_panels /
+               (double)(system->stats.nnz_l > 0 ? system->stats.nnz_l : 1),
+           isa_name(system->stats.isa));
+    printf("  %-14s %-22s %3s %10s %9s %9s %9s %10s %5s %8s\n", "case", "method", "rhs", "L read",
+           "min", "median", "max", "rate", "limit", "ratio");
+}
+
+void bench_report_row(bench_report *report, const bench_system *system, const bench_row *row) {
+    double seconds = row->time.median > 0 ? row->time.median : 1e-9;
+    double bytes = 8 * row->entries, share = 0;
+    char min[32], median[32], max[32], rate[32] = "-", limit[32] = "-", ratio[32] = "-",
+                                       read[32] = "-";
+    if (report->system != system) {
+        print_heading(system);
+        report->system = system;
+    }
+    if (row->flops > 0) {
+        snprintf(rate, sizeof rate, "%.1f GF/s", row->flops / seconds * 1e-9);
+    } else if (bytes > 0) {
+        snprintf(rate, sizeof rate, "%.1f GB/s", bytes / seconds * 1e-9);
+    }
+    if (bytes > 0) {
+        /* both sweeps read about the same block */
+        double block = bytes / (row->passes > 1 ? 2 * row->passes : 2);
+        share = bytes / bench_bandwidth(block) / seconds;
+        snprintf(limit, sizeof limit, "%.0f%%", 100 * share);
+        snprintf(read, sizeof read, "%.0f", row->entries);
+    }
+    if (row->baseline > 0) {
+        snprintf(ratio, sizeof ratio, "%.2f", seconds / row->baseline);
+    }
+    printf("  %-14s %-22s %3d %10s %9s %9s %9s %10s %5s %8s\n", row->what, row->method,
+           (int)row->nrhs, read, time_text(min, sizeof min, row->time.min),
+           time_text(median, sizeof median, row->time.median),
+           time_text(max, sizeof max, row->time.max), rate, limit, ratio);
+    fflush(stdout);
+    fprintf(report->csv,
+            "%s,%s,%d,%lld,%lld,%s,%s,%s,%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%.9g,%.4g,%.4g,%"
+            ".4g,%.4g\n",
+            report->name, system->name, (int)system->n, (long long)system->stats.nnz_l,
+            (long long)system->stats.nnz_panels, isa_name(system->stats.isa), row->what,
+            row->method, (int)row->nrhs, (int)row->reach.b_columns, (int)row->reach.x_columns,
+            (long long)row->reach.b_entries, (long long)row->reach.x_entries, row->entries,
+            row->flops, row->time.count, row->time.min, row->time.median, row->time.max,
+            bytes / seconds * 1e-9, row->flops / seconds * 1e-9, share,
+            row->baseline > 0 ? seconds / row->baseline : 0);
+}
+
+void bench_report_note(bench_report *report, const char *format, ...) {
+    (void)report;
+    va_list arguments;
+    va_start(arguments, format);
+    printf("  ");
+    vprintf(format, arguments);
+    printf("\n");
+    va_end(arguments);
+}
+
+void bench_report_close(bench_report *report) {
+    fclose(report->csv);
+    free(report);
+}
+
+void bench_row_reach(bench_row *row, const sl_stats *stats) {
+    row->reach = *stats;
+    row->entries = (double)stats->b_entries + (double)stats->x_entries;
+}
+
+void bench_row_full(bench_row *row, const bench_system *system) {
+    row->reach.b_columns = row->reach.x_columns = system->n;
+    row->reach.b_entries = row->reach.x_entries = system->stats.nnz_panels;
+    row->entries = 2 * (double)system->stats.nnz_panels;
+}

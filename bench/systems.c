@@ -1,0 +1,154 @@
+/* systems.c: the systems that questions are asked on: jittered triangulated grids, 3D grids, or a mesh from a file */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../tools/dataset.h"
+#include "../tools/grid.h"
+#include "../tools/laplacian.h"
+#include "bench.h"
+
+enum { MAX_SYSTEMS = 32 };
+
+static bench_system *kept[MAX_SYSTEMS];
+static int n_kept;
+
+static const bench_system *find(const char *name) {
+    for (int k = 0; k < n_kept; k++) {
+        if (strcmp(kept[k]->name, name) == 0) {
+            return kept[k];
+        }
+    }
+    return NULL;
+}
+
+/* Analyses and factors matrix, which the system takes over. */
+static const bench_system *keep(const char *name, sl_matrix *matrix) {
+    if (n_kept == MAX_SYSTEMS) {
+        bench_must(SL_ERR_TOO_LARGE, "keeping one more system");
+    }
+    bench_system *system = bench_alloc(1, sizeof *system);
+    memset(system, 0, sizeof *system);
+    snprintf(system->name, sizeof system->name, "%s", name);
+    system->matrix = matrix;
+    system->A = sl_matrix_view(matrix);
+    system->n = system->A.n_rows;
+    double start = bench_now();
+    bench_must(sl_symbolic_create(&system->S, &system->A, NULL, &system->stats), name);
+    bench_must(sl_factor_create(&system->F, system->S, &system->A, NULL, &system->stats), name);
+    if (!adjacency_from_matrix(&system->graph, &system->A)) {
+        bench_must(SL_ERR_MEMORY, "making the graph of a matrix");
+    }
+    system->seen = bench_alloc((size_t)system->n, sizeof *system->seen);
+    system->place = bench_alloc((size_t)system->n, sizeof *system->place);
+    memset(system->seen, 0, (size_t)system->n * sizeof *system->seen);
+    memset(system->place, -1, (size_t)system->n * sizeof *system->place);
+    bench_progress("[%s: analysed and factored in %.2f s]\n", name, bench_now() - start);
+    kept[n_kept++] = system;
+    return system;
+}
+
+/* t of M + t L: the square of a tenth of the bounding box's diagonal */
+static double spread(const mesh *m) {
+    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, square = 0;
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        for (int c = 0; c < 3; c++) {
+            double x = m->xyz[3 * (size_t)v + (size_t)c];
+            low[c] = v == 0 || x < low[c] ? x : low[c];
+            high[c] = v == 0 || x > high[c] ? x : high[c];
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        square += (high[c] - low[c]) * (high[c] - low[c]);
+    }
+    return 0.01 * square;
+}
+
+static const bench_system *keep_mesh(const char *name, mesh *m) {
+    sl_matrix *matrix;
+    if (!laplacian_system(&matrix, m, spread(m))) {
+        bench_must(SL_ERR_MEMORY, "making the matrix of a mesh");
+    }
+    mesh_free(m);
+    return keep(name, matrix);
+}
+
+static const bench_system *grid(double vertices) {
+    char name[64];
+    sl_int side = (sl_int)lround(sqrt(vertices));
+    snprintf(name, sizeof name, "grid %dx%d", (int)side, (int)side);
+    const bench_system *system = find(name);
+    if (!system) {
+        mesh m;
+        if (!mesh_grid(&m, side, side, 0.2, 1)) {
+            bench_must(SL_ERR_MEMORY, "making a grid");
+        }
+        system = keep_mesh(name, &m);
+    }
+    return system;
+}
+
+const bench_system *bench_volume(sl_int side) {
+    char name[64];
+    snprintf(name, sizeof name, "volume %dx%dx%d", (int)side, (int)side, (int)side);
+    const bench_system *system = find(name);
+    if (!system) {
+        sl_matrix *matrix;
+        double tenth = 0.1 * (double)side;
+        if (!grid_laplacian_3d(&matrix, side, side, side, 1 / (tenth * tenth))) {
+            bench_must(SL_ERR_MEMORY, "making a volume");
+        }
+        system = keep(name, matrix);
+    }
+    return system;
+}
+
+const bench_system *bench_mesh(const char *path) {
+    char name[64];
+    snprintf(name, sizeof name, "%s", dataset_basename(path));
+    const bench_system *system = find(name);
+    if (!system) {
+        mesh m;
+        char message[256];
+        if (!mesh_read(&m, path, message, sizeof message)) {
+            bench_progress("bench: %s\n", message);
+            return NULL;
+        }
+        if (m.n_vertices == 0) {
+            bench_progress("bench: %s has no vertices\n", name);
+            mesh_free(&m);
+            return NULL;
+        }
+        system = keep_mesh(name, &m);
+    }
+    return system;
+}
+
+int bench_systems(const bench_run *run, const double *wanted, int count, const bench_system **out) {
+    static const double largest[] = {1e5, 1e6, 4e6}; /* by bench_size */
+    int found = 0;
+    if (run->mesh_path) {
+        out[0] = bench_mesh(run->mesh_path);
+        return out[0] != NULL;
+    }
+    for (int k = 0; k < count; k++) {
+        if (wanted[k] <= largest[run->size]) {
+            out[found++] = grid(wanted[k]);
+        }
+    }
+    return found;
+}
+
+void bench_systems_free(void) {
+    while (n_kept > 0) {
+        bench_system *system = kept[--n_kept];
+        adjacency_free(&system->graph);
+        free(system->seen);
+        free(system->place);
+        sl_factor_free(system->F);
+        sl_symbolic_free(system->S);
+        sl_matrix_free(system->matrix);
+        free(system);
+    }
+}

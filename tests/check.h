@@ -1,0 +1,207 @@
+/* check.h: validators that name their reason, shared by the tests and tried on broken input by test_meta.c */
+#ifndef SL_TEST_CHECK_H
+#define SL_TEST_CHECK_H
+
+#include "gen.h"
+#include "ref.h"
+
+/* NULL, or what is wrong with perm and its inverse. */
+static inline const char *check_permutation(sl_int n, const sl_int *perm, const sl_int *iperm) {
+    char *seen = (char *)test_array((size_t)n, 1);
+    const char *wrong = NULL;
+    for (sl_int k = 0; k < n && !wrong; k++) {
+        if (perm[k] < 0 || perm[k] >= n) {
+            wrong = "perm out of range";
+        } else if (seen[perm[k]]++) {
+            wrong = "perm has a row twice";
+        } else if (iperm[perm[k]] != k) {
+            wrong = "iperm is not the inverse of perm";
+        }
+    }
+    free(seen);
+    return wrong;
+}
+
+/* NULL, or which promise of sl_symbolic_view_t about supernodes, rows and panels is broken: needs no dense matrix. */
+static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
+    if (v->super_first[0] != 0 || v->super_first[v->n_supers] != v->n) {
+        return "supernodes do not span the columns";
+    }
+    if (v->rows_begin[0] != 0 || v->panel_begin[0] != 0) {
+        return "rows or panels do not begin at 0";
+    }
+    for (sl_int s = 0; s < v->n_supers; s++) {
+        sl_int last = v->super_first[s + 1] - 1;
+        if (last < v->super_first[s]) {
+            return "empty supernode";
+        }
+        for (sl_int k = v->super_first[s]; k <= last; k++) {
+            if (v->super_of[k] != s) {
+                return "super_of contradicts super_first";
+            }
+        }
+        sl_off begin = v->rows_begin[s], end = v->rows_begin[s + 1];
+        if (end < begin) {
+            return "rows_begin descends";
+        }
+        for (sl_off q = begin; q < end; q++) {
+            if (v->rows[q] >= v->n || v->rows[q] <= (q > begin ? v->rows[q - 1] : last)) {
+                return "rows not ascending, or not below the supernode";
+            }
+        }
+        if (v->super_parent[s] != (begin < end ? v->super_of[v->rows[begin]] : -1)) {
+            return "super_parent is not the supernode of the first row";
+        }
+        if (v->panel_begin[s + 1] - v->panel_begin[s] != ref_panel_size(ref_width(v, s), ref_height(v, s))) {
+            return "panel size";
+        }
+        if (begin < end) { /* the rows beyond the parent's columns must be rows of the parent */
+            sl_int up = v->super_parent[s];
+            sl_off at = v->rows_begin[up];
+            for (sl_off q = begin; q < end; q++) {
+                if (v->rows[q] >= v->super_first[up + 1]) {
+                    while (at < v->rows_begin[up + 1] && v->rows[at] < v->rows[q]) {
+                        at++;
+                    }
+                    if (at == v->rows_begin[up + 1] || v->rows[at] != v->rows[q]) {
+                        return "a row is missing in the parent";
+                    }
+                }
+            }
+        }
+    }
+    return NULL;
+}
+
+/* Postorder: the descendants of each node are the ones right before it. */
+static inline const char *check_postorder(sl_int n, const sl_int *parent) {
+    sl_int *size = test_ints((size_t)n), *first = test_ints((size_t)n);
+    const char *wrong = NULL;
+    for (sl_int k = 0; k < n; k++) {
+        first[k] = k;
+    }
+    for (sl_int k = 0; k < n && !wrong; k++) { /* children before parents: first[k] is final when k is met */
+        size[k]++;
+        if (k - first[k] + 1 != size[k]) {
+            wrong = "not a postorder";
+        } else if (parent[k] != -1 && (parent[k] <= k || parent[k] >= n)) {
+            wrong = "a parent that is not later";
+        } else if (parent[k] != -1) {
+            sl_int up = parent[k];
+            size[up] += size[k];
+            first[up] = first[k] < first[up] ? first[k] : first[up];
+        }
+    }
+    free(size);
+    free(first);
+    return wrong;
+}
+
+/* The tree, the counts and the rows against dense symbolic elimination; exact: no row more than L has. */
+static inline const char *check_structure(const sl_symbolic_view_t *v, const sl_csc *A, int exact) {
+    sl_int n = v->n, *parent = test_ints((size_t)n), *counts = test_ints((size_t)n);
+    char *M = ref_pattern(A), *fill = ref_permute_pattern(n, M, v->perm), *stored = NULL;
+    const char *wrong = NULL;
+    ref_fill(n, fill);
+    ref_etree(n, fill, parent);
+    ref_counts(n, fill, counts);
+    for (sl_int k = 0; k < n && !wrong; k++) {
+        wrong = parent[k] != v->parent[k] ? "parent" : counts[k] != v->counts[k] ? "counts" : NULL;
+    }
+    stored = (char *)test_array((size_t)n * (size_t)n, 1);
+    for (sl_int s = 0; s < v->n_supers; s++) {
+        for (sl_int c = 0; c < ref_width(v, s); c++) {
+            for (sl_int r = c; r < ref_height(v, s); r++) {
+                AT(stored, ref_row(v, s, r), v->super_first[s] + c) = 1;
+            }
+        }
+    }
+    for (sl_int j = 0; j < n && !wrong; j++) {
+        for (sl_int i = j; i < n && !wrong; i++) {
+            if (AT(fill, i, j) && !AT(stored, i, j)) {
+                wrong = "an entry of L has no place";
+            } else if (exact && AT(stored, i, j) && !AT(fill, i, j)) {
+                wrong = "a place for a zero without relaxation";
+            }
+        }
+    }
+    free(parent);
+    free(counts);
+    free(M);
+    free(fill);
+    free(stored);
+    return wrong;
+}
+
+/* L as a dense matrix from the panels, or NULL with *wrong set where a zero that is promised is not there. */
+static inline double *check_expand(const sl_factor *F, const char **wrong) {
+    sl_factor_view_t f = sl_factor_view(F);
+    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    sl_int n = v.n;
+    double *L = test_reals((size_t)n * (size_t)n);
+    *wrong = NULL;
+    for (sl_int s = 0; s < v.n_supers; s++) {
+        sl_int width = ref_width(&v, s), height = ref_height(&v, s);
+        const double *panel = f.L + v.panel_begin[s];
+        for (sl_int r = 0; r < (height + 7) / 8 * 8; r++) {
+            for (sl_int c = 0; c < width; c++) {
+                sl_off place = ref_place(width, r, c);
+                double value = place < 0 ? 0.0 : panel[place];
+                if (r >= height || r <= c) {
+                    *wrong = value != 0.0 ? "a padding, diagonal or upper place is not 0" : *wrong;
+                } else {
+                    AT(L, ref_row(&v, s, r), v.super_first[s] + c) = value;
+                }
+            }
+        }
+    }
+    for (sl_int k = 0; k < n; k++) {
+        AT(L, k, k) = 1.0;
+    }
+    return L;
+}
+
+/* NULL, or that |P A P' - L D L'| exceeds c n eps |L| |D| |L'| somewhere, the entrywise bound of elimination without
+ * growth hidden in it: c = 4 for products, sums and the division. */
+static inline const char *check_product(sl_int n, const double *C, const double *L, const double *D) {
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int i = j; i < n; i++) {
+            double sum = 0.0, size = 0.0;
+            for (sl_int k = 0; k <= j; k++) {
+                double term = AT(L, i, k) * D[k] * AT(L, j, k);
+                sum += term;
+                size += fabs(term);
+            }
+            if (!(fabs(AT(C, i, j) - sum) <= 4.0 * (double)n * DBL_EPSILON * size)) {
+                return "L D L' is not P A P'";
+            }
+        }
+    }
+    return NULL;
+}
+
+static inline const char *check_factor(const sl_factor *F, const sl_csc *A) {
+    sl_factor_view_t f = sl_factor_view(F);
+    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    const char *wrong = NULL;
+    double *M = ref_dense(A), *C = ref_permute(v.n, M, v.perm), *L = check_expand(F, &wrong);
+    if (!wrong) {
+        wrong = check_product(v.n, C, L, f.D);
+    }
+    free(M);
+    free(C);
+    free(L);
+    return wrong;
+}
+
+/* Print the reason and fail. */
+#define NOTHING_WRONG(check)                                                                                           \
+    do {                                                                                                               \
+        const char *wrong_ = (check);                                                                                  \
+        if (wrong_) {                                                                                                  \
+            print_error("%s: %s\n", #check, wrong_);                                                                   \
+            fail();                                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+#endif

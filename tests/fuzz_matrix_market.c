@@ -1,0 +1,73 @@
+/* fuzz_matrix_market.c: any bytes as a Matrix Market file; what is accepted is a good matrix, and a small one is solved */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "../sparse_local.h"
+
+#define PROMISE(condition) ((condition) ? (void)0 : abort())
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { MOST = 64 };
+
+/* A header may honestly ask for 2^31 empty columns: no input here needs that much. */
+static void *allocate(void *context, size_t bytes) {
+    (void)context;
+    return bytes > ((size_t)1 << 26) ? NULL : malloc(bytes);
+}
+
+static void release(void *context, void *block) {
+    (void)context;
+    free(block);
+}
+
+static void solve(const sl_csc *A) {
+    double B[MOST], X[MOST], Y[MOST];
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    const sl_int last = A->n_cols - 1;
+    const sl_status status = sl_symbolic_create(&S, A, NULL, NULL);
+    PROMISE((S != NULL) == (status == SL_OK));
+    if (S && A->x && sl_factor_create(&F, S, A, NULL, NULL) == SL_OK) {
+        for (sl_int k = 0; k < A->n_cols; k++) {
+            B[k] = 1.0 + k;
+            Y[k] = k == last ? B[k] : 0.0;
+        }
+        PROMISE(sl_factor_solve(F, X, MOST, B, MOST, 1, NULL) == SL_OK);
+        PROMISE(sl_factor_solve(F, Y, MOST, Y, MOST, 1, NULL) == SL_OK);
+        if (last >= 0) {
+            PROMISE(sl_local_solve(F, X, 1, &last, 1, B + last, 1, &last, 1, 1, NULL, NULL) == SL_OK);
+            PROMISE(X[0] == Y[last] || (X[0] != X[0] && Y[last] != Y[last]));
+        }
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    sl_matrix *M = NULL;
+    sl_stats stats = {0};
+    sl_options opt = {0};
+    opt.allocator.allocate = allocate;
+    opt.allocator.release = release;
+    const sl_status status = sl_matrix_parse(&M, (const char *)data, size, &opt, &stats);
+    PROMISE((M != NULL) == (status == SL_OK));
+    if (status == SL_ERR_IO) {
+        PROMISE(stats.error_line >= 0 && (size_t)stats.error_line <= size + 1);
+    }
+    if (M) {
+        sl_matrix *T = NULL;
+        const sl_csc A = sl_matrix_view(M);
+        PROMISE(sl_csc_check(&A, NULL) == SL_OK);
+        if (A.n_rows <= MOST && sl_matrix_transpose(&T, &A, NULL) == SL_OK) {
+            PROMISE(sl_matrix_view(T).p[A.n_rows] == A.p[A.n_cols]);
+        }
+        if (A.n_rows == A.n_cols && A.n_cols <= MOST) {
+            solve(&A);
+        }
+        sl_matrix_free(T);
+    }
+    sl_matrix_free(M);
+    return 0;
+}

@@ -1,0 +1,191 @@
+/* fuzz_solve.c: any bytes as a small matrix (often malformed), options and sets; all calls; local must equal full */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../sparse_local.h"
+
+#define PROMISE(condition) ((condition) ? (void)0 : abort())
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { MOST = 40, ENTRIES = 512, RHS = 9 };
+
+typedef struct input_t {
+    const uint8_t *at, *end;
+} input_t;
+
+static int take(input_t *in) {
+    return in->at < in->end ? *in->at++ : 0;
+}
+
+/* 0..n-1, and now and then just outside */
+static sl_int take_row(input_t *in, sl_int n) {
+    const int byte = take(in);
+    return byte == 255 ? n : byte == 254 ? -1 : n > 0 ? byte % n : 0;
+}
+
+/* small integers and eighths, so that cancellations are exact and frequent, with some extremes */
+static double take_value(input_t *in) {
+    static const double odd[8] = {1e300, -1e300, 1e-300, 0.0, 1.0 / 3.0, 5e-324, -1.0, 1e16};
+    const int byte = take(in);
+    return byte >= 248 ? odd[byte - 248] : (byte - 120) / 8.0;
+}
+
+typedef struct case_t {
+    sl_csc A;
+    sl_int p[MOST + 1], i[ENTRIES], perm[MOST], bset[MOST], xset[MOST];
+    double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS];
+    sl_int nb, nx, nrhs;
+    sl_options opt;
+} case_t;
+
+static void take_matrix(case_t *c, input_t *in) {
+    const int form = take(in);
+    const sl_int n = take(in) % (MOST + 1);
+    sl_off stored = 0;
+    c->A.n_rows = form & 1 ? n : n + (form & 2 ? 1 : 0);
+    c->A.n_cols = n;
+    c->p[0] = form >= 250 ? -1 : 0;
+    for (sl_int j = 0; j < n; j++) {
+        const sl_int count = take(in) % 8;
+        if (form & 4 && stored < ENTRIES) { /* a strong diagonal, so that factorizations often succeed */
+            c->i[stored] = j;
+            c->x[stored++] = (take(in) % 2 ? 1 : -1) * (40.0 + j);
+        }
+        for (sl_int k = 0; k < count && stored < ENTRIES; k++) {
+            sl_int row = take_row(in, n);
+            if (form & 8 && row < j) { /* lower triangle only */
+                row = n - 1 - row % (n - j);
+            }
+            c->i[stored] = row;
+            c->x[stored++] = take_value(in);
+        }
+        c->p[j + 1] = (sl_int)stored;
+    }
+    if (form >= 240 && n > 1) { /* positions out of order; the last one stays true, arrays end there */
+        c->p[1 + take(in) % (n - 1)] = take(in) * 8 - 64;
+    }
+    c->A.p = c->p;
+    c->A.i = c->i;
+    c->A.x = form & 16 ? NULL : c->x;
+}
+
+static void take_wishes(case_t *c, input_t *in) {
+    const int wishes = take(in), more = take(in);
+    const sl_int n = c->A.n_cols;
+    memset(&c->opt, 0, sizeof c->opt);
+    c->opt.ordering = (sl_ordering)(wishes % 4);
+    c->opt.relaxation = (sl_relaxation)(wishes / 4 % 2);
+    c->opt.isa = (sl_isa)(wishes / 8 % 5);
+    c->opt.null_tolerance = more < 64 ? 0.0 : more < 128 ? -1.0 : more / 256.0;
+    c->opt.perm = c->perm;
+    for (sl_int k = 0; k < n; k++) {
+        c->perm[k] = k;
+    }
+    for (sl_int k = 0; k + 1 < n; k++) {
+        const sl_int with = k + take(in) % (n - k), keep = c->perm[k];
+        c->perm[k] = c->perm[with];
+        c->perm[with] = keep;
+    }
+    if (more == 7 && n > 0) {
+        c->perm[0] = take_row(in, n); /* perhaps twice */
+    }
+    c->nb = n > 0 ? take(in) % n : 0;
+    c->nx = n > 0 ? take(in) % n : 0;
+    c->nrhs = take(in) % (RHS + 1);
+    for (sl_int k = 0; k < c->nb; k++) {
+        c->bset[k] = more & 1 ? take_row(in, n) : c->perm[k];
+    }
+    for (sl_int k = 0; k < c->nx; k++) {
+        c->xset[k] = more & 2 ? take_row(in, n) : c->perm[n - 1 - k];
+    }
+    for (sl_int q = 0; q < MOST * c->nrhs; q++) {
+        c->B[q] = take_value(in);
+    }
+}
+
+/* b known on bset, column-major with leading dimension MOST, spread over all rows and solved in full */
+static void solve_full(case_t *c, const sl_factor *F) {
+    memset(c->full, 0, sizeof c->full);
+    for (sl_int r = 0; r < c->nrhs; r++) {
+        for (sl_int k = 0; k < c->nb; k++) {
+            c->full[c->bset[k] + MOST * r] = c->B[k + MOST * r];
+        }
+    }
+    PROMISE(sl_factor_solve(F, c->full, MOST, c->full, MOST, c->nrhs, NULL) == SL_OK);
+}
+
+static void compare(const case_t *c) {
+    for (sl_int r = 0; r < c->nrhs; r++) {
+        for (sl_int k = 0; k < c->nx; k++) {
+            const double local = c->X[k + MOST * r], full = c->full[c->xset[k] + MOST * r];
+            PROMISE(local == full || (local != local && full != full));
+        }
+    }
+}
+
+static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
+    double log_abs_det, sign;
+    sl_matrix *L = NULL;
+    sl_plan *P = NULL;
+    sl_work *W = NULL;
+    PROMISE(sl_factor_logdet(F, &log_abs_det, &sign) == SL_OK);
+    PROMISE(sl_factor_lower(&L, F, NULL) == SL_OK);
+    const sl_csc view = sl_matrix_view(L);
+    PROMISE(sl_csc_check(&view, NULL) == SL_OK);
+    PROMISE(sl_work_create(&W, NULL) == SL_OK);
+    const sl_status planned = sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, NULL, NULL);
+    PROMISE((P != NULL) == (planned == SL_OK));
+    PROMISE(planned == SL_OK || planned == SL_ERR_ARGUMENT);
+    const sl_status shot = sl_local_solve(F, c->X, MOST, c->xset, c->nx, c->B, MOST, c->bset, c->nb, c->nrhs, W, NULL);
+    PROMISE(planned == shot);
+    if (P) {
+        solve_full(c, F);
+        compare(c);
+        memset(c->X, 0, sizeof c->X);
+        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
+        compare(c);
+    }
+    sl_work_free(W);
+    sl_plan_free(P);
+    sl_matrix_free(L);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    input_t in = {data, data};
+    case_t *c = (case_t *)calloc(1, sizeof *c);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_matrix *T = NULL;
+    if (!c || size == 0) {
+        free(c);
+        return 0;
+    }
+    in.end = data + size;
+    take_matrix(c, &in);
+    take_wishes(c, &in);
+    const sl_status good = sl_csc_check(&c->A, NULL);
+    PROMISE((sl_matrix_transpose(&T, &c->A, NULL) == SL_OK) == (good == SL_OK));
+    const sl_status status = sl_symbolic_create(&S, &c->A, &c->opt, NULL);
+    PROMISE((S != NULL) == (status == SL_OK));
+    if (S) {
+        PROMISE(good == SL_OK && c->A.n_rows == c->A.n_cols);
+        sl_factor_create(&F, S, &c->A, &c->opt, NULL) == SL_OK ? solve_all(c, S, F) : PROMISE(F == NULL);
+        if (F) { /* other values: the same pattern, perhaps no factor */
+            for (sl_int q = 0; q < c->p[c->A.n_cols]; q++) {
+                c->x[q] = take_value(&in);
+            }
+            if (sl_factor_refactor(F, &c->A, NULL) == SL_OK) {
+                solve_all(c, S, F);
+            } else {
+                PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STATE);
+            }
+        }
+    }
+    sl_matrix_free(T);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    free(c);
+    return 0;
+}

@@ -1,0 +1,426 @@
+/* gen.h: seeded generators of symmetric matrices, and the ways in which one may be stored */
+#ifndef SL_TEST_GEN_H
+#define SL_TEST_GEN_H
+
+#include "test.h"
+
+/* ---- random numbers: splitmix64, the same on every machine ---- */
+
+static inline uint64_t gen_bits(uint64_t *state) {
+    uint64_t z = (*state += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+/* 0 .. bound-1 */
+static inline sl_int gen_below(uint64_t *state, sl_int bound) {
+    return (sl_int)(gen_bits(state) % (uint64_t)bound);
+}
+
+/* in (-1, 1), never 0 */
+static inline double gen_real(uint64_t *state) {
+    double magnitude = ((double)(gen_bits(state) >> 11) + 1.0) * (1.0 / 9007199254740994.0);
+    return gen_bits(state) & 1u ? magnitude : -magnitude;
+}
+
+static inline void gen_reals(double *x, size_t count, uint64_t seed) {
+    for (size_t k = 0; k < count; k++) {
+        x[k] = gen_real(&seed);
+    }
+}
+
+static inline void gen_permutation(sl_int *perm, sl_int n, uint64_t seed) {
+    for (sl_int k = 0; k < n; k++) {
+        perm[k] = k;
+    }
+    for (sl_int k = n - 1; k > 0; k--) {
+        sl_int other = gen_below(&seed, k + 1), keep = perm[k];
+        perm[k] = perm[other];
+        perm[other] = keep;
+    }
+}
+
+/* count rows of 0..n-1, each once, in random order; set has room for n */
+static inline void gen_set(sl_int *set, sl_int count, sl_int n, uint64_t seed) {
+    (void)count;
+    gen_permutation(set, n, seed);
+}
+
+/* ---- a symmetric matrix as triplets of its lower triangle, each place at most once ---- */
+
+typedef struct gen_list_t {
+    sl_int n;
+    size_t count, room;
+    sl_int *row, *col; /* row >= col */
+    double *x;
+} gen_list_t;
+
+static inline gen_list_t gen_list(sl_int n) {
+    gen_list_t t = {n, 0, 0, NULL, NULL, NULL};
+    return t;
+}
+
+static inline void gen_list_free(gen_list_t *t) {
+    free(t->row);
+    free(t->col);
+    free(t->x);
+    *t = gen_list(0);
+}
+
+static inline void gen_add(gen_list_t *t, sl_int i, sl_int j, double x) {
+    if (t->count == t->room) {
+        t->room = t->room ? 2 * t->room : 64;
+        t->row = (sl_int *)realloc(t->row, t->room * sizeof *t->row);
+        t->col = (sl_int *)realloc(t->col, t->room * sizeof *t->col);
+        t->x = (double *)realloc(t->x, t->room * sizeof *t->x);
+        if (!t->row || !t->col || !t->x) {
+            abort();
+        }
+    }
+    t->row[t->count] = i > j ? i : j;
+    t->col[t->count] = i > j ? j : i;
+    t->x[t->count++] = x;
+}
+
+/* ---- edges: each generator below adds those of one kind of graph ---- */
+
+static inline void gen_edges_path(gen_list_t *t, uint64_t *state) {
+    for (sl_int k = 1; k < t->n; k++) {
+        gen_add(t, k, k - 1, gen_real(state));
+    }
+}
+
+/* row c is tied to all the others */
+static inline void gen_edges_star(gen_list_t *t, sl_int c, uint64_t *state) {
+    for (sl_int k = 0; k < t->n; k++) {
+        if (k != c) {
+            gen_add(t, k, c, gen_real(state));
+        }
+    }
+}
+
+static inline void gen_edges_grid(gen_list_t *t, sl_int nx, sl_int ny, sl_int nz, uint64_t *state) {
+    for (sl_int z = 0; z < nz; z++) {
+        for (sl_int y = 0; y < ny; y++) {
+            for (sl_int x = 0; x < nx; x++) {
+                sl_int v = x + nx * (y + ny * z);
+                if (x > 0) {
+                    gen_add(t, v, v - 1, gen_real(state));
+                }
+                if (y > 0) {
+                    gen_add(t, v, v - nx, gen_real(state));
+                }
+                if (z > 0) {
+                    gen_add(t, v, v - nx * ny, gen_real(state));
+                }
+            }
+        }
+    }
+}
+
+/* each row hangs on a random later one, or is a root */
+static inline void gen_edges_forest(gen_list_t *t, uint64_t *state) {
+    for (sl_int k = 0; k + 1 < t->n; k++) {
+        if (gen_below(state, 8) != 0) {
+            gen_add(t, k + 1 + gen_below(state, t->n - k - 1), k, gen_real(state));
+        }
+    }
+}
+
+/* each place below the diagonal with probability per_mille / 1000 */
+static inline void gen_edges_random(gen_list_t *t, sl_int per_mille, uint64_t *state) {
+    for (sl_int j = 0; j < t->n; j++) {
+        for (sl_int i = j + 1; i < t->n; i++) {
+            if (gen_below(state, 1000) < per_mille) {
+                gen_add(t, i, j, gen_real(state));
+            }
+        }
+    }
+}
+
+/* ---- diagonals ---- */
+
+/* a diagonal that dominates by rows: |a_kk| = 1 + the sum of the others; sign 1, -1, or 0 for random signs */
+static inline void gen_dominate(gen_list_t *t, int sign, uint64_t *state) {
+    double *sum = test_reals((size_t)t->n);
+    for (size_t k = 0; k < t->count; k++) {
+        sum[t->row[k]] += fabs(t->x[k]);
+        sum[t->col[k]] += fabs(t->x[k]);
+    }
+    for (sl_int k = 0; k < t->n; k++) {
+        int s = sign ? sign : (gen_bits(state) & 1u ? 1 : -1);
+        gen_add(t, k, k, (1.0 + sum[k]) * (double)s);
+    }
+    free(sum);
+}
+
+/* a graph Laplacian: edges -1, the diagonal the degree: every row sums to 0 */
+static inline void gen_laplacian(gen_list_t *t) {
+    sl_int *degree = test_ints((size_t)t->n);
+    for (size_t k = 0; k < t->count; k++) {
+        t->x[k] = -1.0;
+        degree[t->row[k]]++;
+        degree[t->col[k]]++;
+    }
+    for (sl_int k = 0; k < t->n; k++) {
+        gen_add(t, k, k, (double)degree[k]);
+    }
+    free(degree);
+}
+
+/* ---- the zoo ---- */
+
+typedef enum gen_kind_t {
+    GEN_NONE,       /* n = 0 */
+    GEN_ONE,        /* 1 x 1 */
+    GEN_DIAGONAL,   /* no edges */
+    GEN_PATH,       /* tridiagonal */
+    GEN_STAR,       /* the first row meets all: in natural order L is dense */
+    GEN_ARROW,      /* the last row meets all: no fill */
+    GEN_GRID2,      /* 5-point */
+    GEN_GRID3,      /* 7-point */
+    GEN_FOREST,     /* several trees */
+    GEN_DENSE,      /* all entries */
+    GEN_RANDOM,     /* each entry with probability 5/n */
+    GEN_COMPONENTS, /* grids, a path and lone rows side by side */
+    GEN_KKT,        /* quasi-definite [H B'; B -C] */
+    GEN_SCALED,     /* a grid whose rows are scaled by 2^-20 .. 2^20 */
+    GEN_REGULAR,    /* how many kinds come before: these all factor */
+    GEN_SINGULAR = GEN_REGULAR, /* Laplacian of a grid: the last pivot is null */
+    GEN_EMPTY_ROW,  /* one row without any entry */
+    GEN_KINDS
+} gen_kind_t;
+
+static inline const char *gen_name(gen_kind_t kind) {
+    static const char *const names[] = {"n = 0", "1 x 1",  "diagonal", "path",       "star", "arrow",
+                                        "grid2", "grid3",  "forest",   "dense",      "random", "components",
+                                        "KKT",   "scaled", "singular", "empty row"};
+    return names[kind];
+}
+
+static inline void gen_kkt(gen_list_t *t, uint64_t *state) {
+    sl_int m = t->n - t->n / 3;
+    gen_list_t H = gen_list(m);
+    gen_edges_random(&H, m > 4 ? 3000 / m : 500, state);
+    gen_dominate(&H, 1, state);
+    for (size_t k = 0; k < H.count; k++) {
+        gen_add(t, H.row[k], H.col[k], H.x[k]);
+    }
+    gen_list_free(&H);
+    for (sl_int k = m; k < t->n; k++) {
+        for (sl_int step = 0, j = gen_below(state, m); step < 3 && j < m; step++) {
+            gen_add(t, k, j, 2.0 * gen_real(state));
+            j += 1 + gen_below(state, m);
+        }
+        gen_add(t, k, k, -0.125 - fabs(gen_real(state)));
+    }
+}
+
+static inline void gen_components(gen_list_t *t, uint64_t *state) {
+    sl_int third = t->n / 3, width = 1;
+    while ((width + 1) * (width + 1) <= third) {
+        width++;
+    }
+    gen_edges_grid(t, width, width, 1, state);
+    for (sl_int k = third + 1; k < 2 * third; k++) {
+        gen_add(t, k, k - 1, gen_real(state));
+    }
+    for (sl_int k = 2 * third + 2; k < t->n; k += 3) {
+        gen_add(t, k, k - 1, gen_real(state));
+    }
+}
+
+static inline void gen_scale(gen_list_t *t, uint64_t *state) {
+    int *power = (int *)test_array((size_t)t->n, sizeof(int));
+    for (sl_int k = 0; k < t->n; k++) {
+        power[k] = (int)gen_below(state, 41) - 20;
+    }
+    for (size_t k = 0; k < t->count; k++) {
+        t->x[k] = ldexp(t->x[k], power[t->row[k]] + power[t->col[k]]);
+    }
+    free(power);
+}
+
+/* Roughly size rows (grids round down); sign as in gen_dominate, where the kind leaves it open. */
+static inline gen_list_t gen_make(gen_kind_t kind, sl_int size, int sign, uint64_t seed) {
+    uint64_t state = seed * 1000003u + (uint64_t)kind;
+    sl_int square = 1, cube = 1;
+    while ((square + 1) * (square + 1) <= size) {
+        square++;
+    }
+    while ((cube + 1) * (cube + 1) * (cube + 1) <= size) {
+        cube++;
+    }
+    sl_int n = kind == GEN_NONE                                                            ? 0
+               : kind == GEN_ONE                                                           ? 1
+               : kind == GEN_GRID3                                                         ? cube * cube * cube
+               : kind == GEN_GRID2 || kind == GEN_SCALED || kind == GEN_SINGULAR ? square * square
+                                                                                           : size;
+    gen_list_t t = gen_list(n);
+    switch (kind) {
+    case GEN_PATH: gen_edges_path(&t, &state); break;
+    case GEN_STAR: gen_edges_star(&t, 0, &state); break;
+    case GEN_ARROW: gen_edges_star(&t, n - 1, &state); break;
+    case GEN_GRID2:
+    case GEN_SCALED:
+    case GEN_SINGULAR: gen_edges_grid(&t, square, square, 1, &state); break;
+    case GEN_GRID3: gen_edges_grid(&t, cube, cube, cube, &state); break;
+    case GEN_FOREST: gen_edges_forest(&t, &state); break;
+    case GEN_DENSE: gen_edges_random(&t, 1000, &state); break;
+    case GEN_RANDOM:
+    case GEN_EMPTY_ROW: gen_edges_random(&t, n > 5 ? 5000 / n : 1000, &state); break;
+    case GEN_COMPONENTS: gen_components(&t, &state); break;
+    case GEN_KKT: gen_kkt(&t, &state); break;
+    default: break;
+    }
+    if (kind == GEN_SINGULAR) {
+        gen_laplacian(&t);
+    } else if (kind != GEN_KKT) {
+        gen_dominate(&t, sign, &state);
+    }
+    if (kind == GEN_SCALED) {
+        gen_scale(&t, &state);
+    } else if (kind == GEN_EMPTY_ROW) {
+        size_t kept = 0;
+        for (size_t k = 0; k < t.count; k++) {
+            if (t.row[k] != n / 2 && t.col[k] != n / 2) {
+                t.row[kept] = t.row[k];
+                t.col[kept] = t.col[k];
+                t.x[kept++] = t.x[k];
+            }
+        }
+        t.count = kept;
+    }
+    return t;
+}
+
+/* ---- storing it ---- */
+
+typedef struct gen_style_t {
+    sl_triangle triangle; /* LOWER, UPPER or BOTH */
+    int unsorted;         /* rows of a column in random order */
+    int duplicated;       /* about half of the entries come in parts that sum exactly */
+} gen_style_t;
+
+enum { GEN_STYLES = 12 };
+
+static inline gen_style_t gen_style(int which) {
+    static const sl_triangle triangles[3] = {SL_TRIANGLE_LOWER, SL_TRIANGLE_UPPER, SL_TRIANGLE_BOTH};
+    gen_style_t style = {triangles[which % 3], which / 3 % 2, which / 6 % 2};
+    return style;
+}
+
+typedef struct gen_matrix_t {
+    sl_int *p, *i;
+    double *x;
+    sl_csc view;
+} gen_matrix_t;
+
+static inline void gen_matrix_free(gen_matrix_t *M) {
+    free(M->p);
+    free(M->i);
+    free(M->x);
+}
+
+/* The places that a triplet (i, j) fills: none, one or two of (row, col). */
+static inline int gen_places(sl_triangle triangle, sl_int i, sl_int j, sl_int row[2], sl_int col[2]) {
+    int upper_first = triangle == SL_TRIANGLE_UPPER;
+    row[0] = upper_first ? j : i;
+    col[0] = upper_first ? i : j;
+    row[1] = j;
+    col[1] = i;
+    return triangle == SL_TRIANGLE_BOTH && i != j ? 2 : 1;
+}
+
+static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uint64_t seed) {
+    size_t n = (size_t)t->n, total = 0;
+    unsigned char *parts = (unsigned char *)test_array(t->count, 1);
+    sl_int row[2], col[2], *next = test_ints(n + 1);
+    for (size_t k = 0; k < t->count; k++) {
+        parts[k] = (unsigned char)(style.duplicated && gen_bits(&seed) & 1u ? 2 + gen_below(&seed, 2) : 1);
+    }
+    gen_matrix_t M = {test_ints(n + 1), NULL, NULL, {0, 0, NULL, NULL, NULL}};
+    for (size_t k = 0; k < t->count; k++) {
+        for (int side = gen_places(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
+            M.p[col[side] + 1] += parts[k];
+            total += parts[k];
+        }
+    }
+    for (size_t j = 0; j < n; j++) {
+        M.p[j + 1] += M.p[j];
+        next[j] = M.p[j];
+    }
+    M.i = test_ints(total);
+    M.x = test_reals(total);
+    for (size_t k = 0; k < t->count; k++) {
+        for (int side = gen_places(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
+            double left = t->x[k];
+            for (int part = parts[k]; part-- > 0;) { /* x/2, x/4, x/4: every order of summing is exact */
+                sl_int p = next[col[side]]++;
+                M.i[p] = row[side];
+                M.x[p] = part ? left / 2 : left;
+                left /= 2;
+            }
+        }
+    }
+    for (size_t j = 0; j < n; j++) {
+        for (sl_int a = M.p[j]; a < M.p[j + 1]; a++) {
+            sl_int b = a;
+            if (style.unsorted) {
+                b += gen_below(&seed, M.p[j + 1] - a);
+            } else { /* selection sort: columns are short */
+                for (sl_int c = a + 1; c < M.p[j + 1]; c++) {
+                    b = M.i[c] < M.i[b] ? c : b;
+                }
+            }
+            sl_int keep_i = M.i[a];
+            double keep_x = M.x[a];
+            M.i[a] = M.i[b];
+            M.x[a] = M.x[b];
+            M.i[b] = keep_i;
+            M.x[b] = keep_x;
+        }
+    }
+    M.view.n_rows = M.view.n_cols = t->n;
+    M.view.p = M.p;
+    M.view.i = M.i;
+    M.view.x = M.x;
+    free(parts);
+    free(next);
+    return M;
+}
+
+/* The usual one: lower triangle, ascending, no duplicates. */
+static inline gen_matrix_t gen_matrix(gen_kind_t kind, sl_int size, int sign, uint64_t seed) {
+    gen_list_t t = gen_make(kind, size, sign, seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), seed);
+    gen_list_free(&t);
+    return M;
+}
+
+/* ---- a nested dissection of the nx x ny grid, without METIS: a line of vertices splits the longer side ---- */
+
+static inline sl_int gen_dissect(sl_int *perm, sl_int at, sl_int nx, sl_int x0, sl_int x1, sl_int y0, sl_int y1) {
+    if (x0 >= x1 || y0 >= y1) {
+        return at;
+    }
+    if (x1 - x0 >= y1 - y0) {
+        sl_int mid = x0 + (x1 - x0) / 2;
+        at = gen_dissect(perm, at, nx, x0, mid, y0, y1);
+        at = gen_dissect(perm, at, nx, mid + 1, x1, y0, y1);
+        for (sl_int y = y0; y < y1; y++) {
+            perm[at++] = mid + nx * y;
+        }
+    } else {
+        sl_int mid = y0 + (y1 - y0) / 2;
+        at = gen_dissect(perm, at, nx, x0, x1, y0, mid);
+        at = gen_dissect(perm, at, nx, x0, x1, mid + 1, y1);
+        for (sl_int x = x0; x < x1; x++) {
+            perm[at++] = x + nx * mid;
+        }
+    }
+    return at;
+}
+
+#endif

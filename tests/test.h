@@ -1,0 +1,232 @@
+/* test.h: what every test program includes: cmocka, status checks, a counting and failing allocator, the pass figure */
+#ifndef SL_TEST_H
+#define SL_TEST_H
+
+/* cmocka wants these first, in this order */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../sparse_local.h"
+
+/* ---- statuses ---- */
+
+static inline void test_status(sl_status got, sl_status wanted, const char *call, const char *file, int line) {
+    if (got != wanted) {
+        print_error("%s\n    gave \"%s\" instead of \"%s\"\n", call, sl_status_string(got), sl_status_string(wanted));
+        _fail(file, line);
+    }
+}
+
+#define SL_CHECK(call) test_status((call), SL_OK, #call, __FILE__, __LINE__)
+#define SL_EXPECT(status, call) test_status((call), (status), #call, __FILE__, __LINE__)
+
+/* ---- memory: counts, fails at will, finds writes beside a block ---- */
+
+typedef struct counter_t {
+    size_t calls;       /* allocations asked for, the failed one included */
+    size_t live_blocks; /* not released yet */
+    size_t live_bytes;
+    size_t total_bytes; /* ever handed out */
+    size_t damaged;     /* blocks released with a broken edge */
+    int64_t fail_at;    /* the call (0-based) that fails; -1: none */
+} counter_t;
+
+enum { COUNTER_EDGE = 16 };
+
+typedef union counter_head_t {
+    size_t bytes;
+    unsigned char room[COUNTER_EDGE]; /* keeps the block aligned as malloc's */
+} counter_head_t;
+
+static inline void *counter_allocate(void *context, size_t bytes) {
+    counter_t *c = (counter_t *)context;
+    int fails = c->fail_at >= 0 && c->calls == (size_t)c->fail_at;
+    c->calls++;
+    if (fails || bytes > SIZE_MAX - 2 * COUNTER_EDGE) {
+        return NULL;
+    }
+    unsigned char *raw = (unsigned char *)malloc(bytes + 2 * COUNTER_EDGE);
+    if (!raw) {
+        return NULL;
+    }
+    ((counter_head_t *)(void *)raw)->bytes = bytes;
+    /* all ones: a double read before it is written is a NaN, an index is -1 */
+    memset(raw + COUNTER_EDGE, 0xFF, bytes);
+    memset(raw + COUNTER_EDGE + bytes, 0xE7, COUNTER_EDGE);
+    c->live_blocks++;
+    c->live_bytes += bytes;
+    c->total_bytes += bytes;
+    return raw + COUNTER_EDGE;
+}
+
+static inline void counter_release(void *context, void *block) {
+    counter_t *c = (counter_t *)context;
+    unsigned char *raw = (unsigned char *)block - COUNTER_EDGE;
+    size_t bytes = ((counter_head_t *)(void *)raw)->bytes;
+    for (size_t k = 0; k < COUNTER_EDGE; k++) {
+        if (raw[COUNTER_EDGE + bytes + k] != 0xE7) {
+            c->damaged++;
+            break;
+        }
+    }
+    c->live_blocks--;
+    c->live_bytes -= bytes;
+    free(raw);
+}
+
+static inline counter_t counter_make(void) {
+    counter_t c = {0, 0, 0, 0, 0, -1};
+    return c;
+}
+
+static inline sl_options options_none(void) {
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    return opt;
+}
+
+static inline sl_options options_counted(counter_t *c) {
+    sl_options opt = options_none();
+    opt.allocator.allocate = counter_allocate;
+    opt.allocator.release = counter_release;
+    opt.allocator.context = c;
+    return opt;
+}
+
+#define COUNTER_CLEAN(c)                                                                                               \
+    do {                                                                                                               \
+        assert_int_equal((c)->live_blocks, 0);                                                                         \
+        assert_int_equal((c)->live_bytes, 0);                                                                          \
+        assert_int_equal((c)->damaged, 0);                                                                             \
+    } while (0)
+
+/* Memory of the tests themselves: no test goes on without it. */
+static inline void *test_array(size_t count, size_t size) {
+    void *block = calloc(count ? count : 1, size);
+    if (!block) {
+        print_error("the test itself is out of memory: %lu x %lu bytes\n", (unsigned long)count, (unsigned long)size);
+        abort();
+    }
+    return block;
+}
+
+static inline double *test_reals(size_t count) {
+    return (double *)test_array(count, sizeof(double));
+}
+
+static inline sl_int *test_ints(size_t count) {
+    return (sl_int *)test_array(count, sizeof(sl_int));
+}
+
+/* ---- instruction sets ---- */
+
+static inline const char *isa_name(sl_isa isa) {
+    static const char *const names[] = {"auto", "scalar", "AVX2", "AVX-512", "NEON"};
+    return (unsigned)isa < 5 ? names[isa] : "?";
+}
+
+static inline int isa_is_present(sl_isa isa) {
+    static const sl_int p[2] = {0, 1}, i[1] = {0};
+    static const double x[1] = {2.0};
+    const sl_csc one = {1, 1, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.isa = isa;
+    SL_CHECK(sl_symbolic_create(&S, &one, &opt, NULL));
+    sl_status status = sl_factor_create(&F, S, &one, &opt, NULL);
+    assert_true(status == SL_OK || status == SL_ERR_UNSUPPORTED);
+    assert_true((F != NULL) == (status == SL_OK));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    return status == SL_OK;
+}
+
+typedef struct isa_list_t {
+    int count;
+    sl_isa isa[4];
+} isa_list_t;
+
+/* Those that run here; scalar always is the first, the best the last. */
+static inline isa_list_t isas_present(void) {
+    static const sl_isa all[4] = {SL_ISA_SCALAR, SL_ISA_NEON, SL_ISA_AVX2, SL_ISA_AVX512};
+    isa_list_t list = {0, {SL_ISA_AUTO, SL_ISA_AUTO, SL_ISA_AUTO, SL_ISA_AUTO}};
+    for (int k = 0; k < 4; k++) {
+        if (isa_is_present(all[k])) {
+            list.isa[list.count++] = all[k];
+        }
+    }
+    return list;
+}
+
+/* ---- figures ---- */
+
+/* A solve passes with ||b - A x|| / (||A|| ||x|| + ||b||) <= PASS_C n eps. The textbook bound for a substitution and a
+ * dense LDL' of n columns is a small multiple of n eps times the growth; 10 covers both sweeps and growth near 1. */
+#define PASS_C 10.0
+
+static inline double pass_figure(sl_int n) {
+    return PASS_C * (n > 0 ? (double)n : 1.0) * DBL_EPSILON;
+}
+
+/* Largest backward error of nrhs columns; NaN if one is. */
+static inline double worst_backward(const sl_csc *A, const double *X, size_t ldx, const double *B, size_t ldb,
+                                    sl_int nrhs) {
+    size_t n = (size_t)A->n_rows;
+    double *R = test_reals(n * (size_t)nrhs), *eta = test_reals((size_t)nrhs), worst = 0.0;
+    SL_CHECK(sl_csc_residual(A, R, n ? n : 1, eta, X, ldx, B, ldb, nrhs));
+    for (sl_int r = 0; r < nrhs; r++) {
+        worst = eta[r] > worst || eta[r] != eta[r] ? eta[r] : worst;
+        if (worst != worst) {
+            break;
+        }
+    }
+    free(R);
+    free(eta);
+    return worst;
+}
+
+#define BACKWARD_PASSES(A, X, ldx, B, ldb, nrhs)                                                                       \
+    do {                                                                                                               \
+        double worst_ = worst_backward((A), (X), (ldx), (B), (ldb), (nrhs));                                           \
+        if (!(worst_ <= pass_figure((A)->n_rows))) {                                                                   \
+            print_error("backward error %.3g, allowed %.3g\n", worst_, pass_figure((A)->n_rows));                      \
+            fail();                                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+/* Same bits, the sign of a zero aside; NaN is never equal. */
+static inline int same_value(double a, double b) {
+    return a == b;
+}
+
+/* Position of the first difference between two columns of numbers, or -1. */
+static inline int64_t first_difference(const double *a, const double *b, size_t count) {
+    for (size_t k = 0; k < count; k++) {
+        if (!same_value(a[k], b[k])) {
+            return (int64_t)k;
+        }
+    }
+    return -1;
+}
+
+#define SAME_VALUES(a, b, count)                                                                                       \
+    do {                                                                                                               \
+        int64_t at_ = first_difference((a), (b), (count));                                                             \
+        if (at_ >= 0) {                                                                                                \
+            print_error("differ at %ld: %.17g and %.17g\n", (long)at_, (a)[at_], (b)[at_]);                            \
+            fail();                                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+#endif

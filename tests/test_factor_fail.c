@@ -1,0 +1,341 @@
+/* test_factor_fail.c: factorizations that fail: null pivots, NaN and infinity, their rows, factors that then refuse */
+#include "problem.h"
+
+static void assert_refuses(sl_factor *F, const sl_symbolic *S) {
+    double one[1] = {7}, log_det = 7, sign = 7;
+    sl_matrix *lower = NULL;
+    sl_plan *P = NULL;
+    const sl_int row[1] = {0};
+    sl_int n = sl_symbolic_view(S).n;
+    double *X = test_reals((size_t)n), *B = test_reals((size_t)n);
+    gen_reals(X, (size_t)n, 1);
+    double first = X[0];
+    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, X, (size_t)n, B, (size_t)n, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, X, (size_t)n, B, (size_t)n, 0, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_logdet(F, &log_det, &sign));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_lower(&lower, F, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_local_solve(F, one, 1, row, 1, one, 1, row, 1, 1, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, row, 1, row, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, F, one, 1, one, 1, 1, NULL));
+    assert_true(one[0] == 7 && X[0] == first && log_det == 7 && sign == 7);
+    assert_null(lower);
+    sl_plan_free(P);
+    free(X);
+    free(B);
+}
+
+static void a_failed_refactor_refuses_until_one_succeeds(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        opt.isa = isas.isa[k];
+        problem_t y = problem_make(GEN_GRID2, 400, 1, 0, &opt);
+        sl_int n = y.M.view.n_cols, nnz = y.M.p[n];
+        sl_factor *G = NULL;
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));
+        double *zeros = test_reals((size_t)nnz), *poison = test_reals((size_t)nnz);
+        memcpy(poison, y.M.x, (size_t)nnz * sizeof *poison);
+        poison[nnz / 2] = NAN;
+        sl_csc Z = y.M.view, N = y.M.view;
+        Z.x = zeros;
+        N.x = poison;
+        size_t calls = counter.calls;
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(G, &Z, &stats));
+        assert_int_equal(stats.null, 1);
+        assert_in_range(stats.error_row, 0, n - 1);
+        assert_true(stats.error_value == 0.0);
+        assert_int_equal(counter.calls, calls);
+        assert_refuses(G, y.S);
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(G, &N, &stats));
+        assert_refuses(G, y.S);
+        SL_CHECK(sl_factor_refactor(G, &y.M.view, &stats));
+        assert_same_bits(G, y.F); /* nothing of the failure is left */
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(G, &N, NULL));
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(G, &Z, NULL));
+        SL_CHECK(sl_factor_refactor(G, &y.M.view, NULL));
+        assert_same_bits(G, y.F);
+        free(zeros);
+        free(poison);
+        sl_factor_free(G);
+        problem_free(&y);
+        COUNTER_CLEAN(&counter);
+    }
+}
+
+/* The only null pivot of diag(1 .. 1, 0, 1 .. 1) is where the zero stands, under any ordering. */
+static void a_null_pivot_is_named_in_the_callers_row(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (sl_int zero = 0; zero < 20; zero++) {
+        gen_list_t t = gen_list(20);
+        for (sl_int k = 0; k < 20; k++) {
+            gen_add(&t, k, k, k == zero ? 0.0 : 1.0 + k);
+        }
+        /* ties between the others */
+        for (sl_int k = 0; k + 2 < 20; k++) {
+            if (k != zero && k + 2 != zero) {
+                gen_add(&t, k + 2, k, 0.25);
+            }
+        }
+        for (int which = 0; which < GEN_STYLES; which++) {
+            gen_matrix_t M = gen_store(&t, gen_style(which), 3);
+            sl_symbolic *S = NULL;
+            SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+            for (int k = 0; k < isas.count; k++) {
+                sl_options opt = options_none();
+                opt.isa = isas.isa[k];
+                sl_factor *F = (sl_factor *)(void *)&t;
+                sl_stats stats;
+                memset(&stats, 0, sizeof stats);
+                SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
+                assert_null(F);
+                assert_int_equal(stats.error_row, zero);
+                assert_int_equal(stats.null, 1);
+                assert_true(stats.error_value == 0.0);
+                SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, NULL));
+                /* only exact zeros are null: this one is */
+                opt.null_tolerance = -1.0;
+                SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, NULL));
+            }
+            sl_symbolic_free(S);
+            gen_matrix_free(&M);
+        }
+        gen_list_free(&t);
+    }
+}
+
+/* A Laplacian is singular: the last pivot of the order is null up to rounding, and d == 0.0 would not see it. */
+static void a_laplacian_is_singular(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (sl_int size = 4; size < 1000; size = size * 3 / 2 + 1) {
+        gen_matrix_t M = gen_matrix(GEN_SINGULAR, size, 1, 1);
+        /* thirds are not exact, so the last pivot comes out near 1e-17 and not 0 */
+        for (sl_int q = 0; q < M.p[M.view.n_cols]; q++) {
+            M.x[q] /= 3.0;
+        }
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        sl_symbolic_view_t v = sl_symbolic_view(S);
+        for (int k = 0; k < isas.count; k++) {
+            sl_options opt = options_none();
+            sl_stats stats;
+            sl_factor *F = NULL;
+            memset(&stats, 0, sizeof stats);
+            opt.isa = isas.isa[k];
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
+            assert_int_equal(stats.error_row, v.perm[v.n - 1]);
+            assert_true(fabs(stats.error_value) < 1e-12);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+static void null_tolerance_is_obeyed(void **state) {
+    (void)state;
+    /* [1 1; 1 1 + e]: second pivot e, made of magnitudes of about 2 */
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    double x[3] = {1, 1, 1};
+    sl_csc A = {2, 2, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    x[2] = 1.0 + 4.0 * DBL_EPSILON;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, &opt, NULL)); /* 64 eps */
+    opt.null_tolerance = -1.0;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    assert_true(sl_factor_view(F).D[1] == 4.0 * DBL_EPSILON);
+    /* a refactor keeps the tolerance it was made with */
+    x[2] = 1.0 + DBL_EPSILON;
+    SL_CHECK(sl_factor_refactor(F, &A, NULL));
+    x[2] = 1.0;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &A, NULL));
+    sl_factor_free(F);
+    opt.null_tolerance = 1e-3;
+    x[2] = 1.0 + 1e-3;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, &opt, NULL));
+    x[2] = 1.0 + 1e-2;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    sl_factor_free(F);
+    opt.null_tolerance = NAN;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &A, &opt, NULL));
+    assert_null(F);
+    sl_symbolic_free(S);
+}
+
+/* Every entry in turn becomes a NaN or an infinity. */
+static void not_finite_entries_are_named(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    static const double bad[3] = {NAN, INFINITY, -INFINITY};
+    for (int which = 0; which < 6; which++) {
+        gen_list_t t = gen_make(GEN_GRID2, 25, 0, 2);
+        gen_matrix_t M = gen_store(&t, gen_style(which), 5);
+        sl_int n = t.n;
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        for (sl_int j = 0; j < n; j++) {
+            for (sl_int q = M.p[j]; q < M.p[j + 1]; q++) {
+                double keep = M.x[q];
+                sl_options opt = options_none();
+                sl_stats stats;
+                sl_factor *F = NULL;
+                memset(&stats, 0, sizeof stats);
+                opt.isa = isas.isa[q % isas.count];
+                M.x[q] = bad[q % 3];
+                sl_status status = sl_factor_create(&F, S, &M.view, &opt, &stats);
+                if (gen_style(which).triangle == SL_TRIANGLE_BOTH && M.i[q] < j) {
+                    assert_int_equal(status, SL_OK); /* not read */
+                } else {
+                    assert_int_equal(status, SL_ERR_NOT_FINITE);
+                    assert_null(F);
+                    assert_int_equal(stats.error_row, M.i[q]);
+                    assert_int_equal(stats.error_column, j);
+                    assert_true(!isfinite(stats.error_value));
+                }
+                sl_factor_free(F);
+                M.x[q] = keep;
+            }
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+}
+
+/* finite values whose products are not: 1e300^2 / 1 */
+static void an_overflow_on_the_way_is_named(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double x[3] = {1, 1e300, 1};
+    sl_csc A = {2, 2, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    for (int k = 0; k < isas.count; k++) {
+        sl_factor *F = NULL;
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        opt.isa = isas.isa[k];
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &A, &opt, &stats));
+        assert_null(F);
+        assert_int_equal(stats.error_row, 1);
+        assert_int_equal(stats.error_column, -1);
+    }
+    sl_symbolic_free(S);
+}
+
+/* subnormal and huge scales: finite answers or a status, never a NaN inside a factor that claims to be good */
+static void extreme_scales(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    static const int powers[6] = {-1060, -1020, -500, 500, 1000, 1015};
+    for (int which = 0; which < 6; which++) {
+        gen_matrix_t M = gen_matrix(GEN_GRID2, 49, 0, 3);
+        for (sl_int q = 0; q < M.p[M.view.n_cols]; q++) {
+            M.x[q] = ldexp(M.x[q], powers[which]);
+        }
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        for (int k = 0; k < isas.count; k++) {
+            sl_options opt = options_none();
+            opt.isa = isas.isa[k];
+            sl_factor *F = NULL;
+            sl_status status = sl_factor_create(&F, S, &M.view, &opt, NULL);
+            if (status == SL_OK) {
+                sl_factor_view_t f = sl_factor_view(F);
+                for (sl_off q = 0; q < panel_doubles(F); q++) {
+                    assert_true(isfinite(f.L[q]));
+                }
+                for (sl_int j = 0; j < M.view.n_cols; j++) {
+                    assert_true(isfinite(f.D[j]) && f.D[j] != 0.0);
+                }
+            } else {
+                assert_true(status == SL_ERR_NOT_FINITE || status == SL_ERR_PIVOT);
+            }
+            if (powers[which] == -500 || powers[which] == 500) {
+                assert_int_equal(status, SL_OK);
+            }
+            sl_factor_free(F);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+static void wrong_arguments(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
+    gen_matrix_t other = gen_matrix(GEN_GRID2, 36, 1, 1), path = gen_matrix(GEN_PATH, 25, 1, 1);
+    sl_factor *F = NULL;
+    sl_options opt = options_none();
+    sl_csc bare = y.M.view;
+    bare.x = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &bare, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, NULL, &y.M.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(NULL, y.S, &y.M.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_PATTERN, sl_factor_create(&F, y.S, &other.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_PATTERN, sl_factor_create(&F, y.S, &path.view, NULL, NULL));
+    opt.isa = (sl_isa)77;
+    sl_status status = sl_factor_create(&F, y.S, &y.M.view, &opt, NULL);
+    assert_true(status == SL_ERR_UNSUPPORTED || status == SL_ERR_ARGUMENT);
+    assert_null(F);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor(NULL, &y.M.view, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor(y.F, &bare, NULL));
+    SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &other.view, NULL));
+    sl_matrix *lower = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_lower(&lower, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_lower(NULL, y.F, NULL));
+    sl_factor_free(NULL);
+    gen_matrix_free(&other);
+    gen_matrix_free(&path);
+    problem_free(&y);
+}
+
+/* sl_symbolic is borrowed by several factors, and a stats struct travels through all calls */
+static void stats_travel(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 100, 1, 1);
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, &stats));
+    sl_stats before = stats;
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, &stats));
+    assert_int_equal(stats.nnz_l, before.nnz_l);
+    assert_int_equal(stats.supernodes, before.supernodes);
+    assert_true(stats.flops == before.flops);
+    assert_int_equal(stats.positive, 100);
+    assert_true(stats.bytes_factor >= (size_t)stats.nnz_panels * sizeof(double));
+    assert_int_equal(stats.error_row, -1);
+    assert_int_equal(stats.error_column, -1);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_failed_refactor_refuses_until_one_succeeds),
+        cmocka_unit_test(a_null_pivot_is_named_in_the_callers_row),
+        cmocka_unit_test(a_laplacian_is_singular),
+        cmocka_unit_test(null_tolerance_is_obeyed),
+        cmocka_unit_test(not_finite_entries_are_named),
+        cmocka_unit_test(an_overflow_on_the_way_is_named),
+        cmocka_unit_test(extreme_scales),
+        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(stats_travel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,356 @@
+/* test_io.c: Matrix Market files: every kind, odd but legal text, malformed text with its line, the same bits back */
+#define _POSIX_C_SOURCE 200809L /* mkstemp */
+
+#include "check.h"
+
+#include <unistd.h>
+
+static sl_status parse(sl_matrix **M, const char *text, sl_stats *stats) {
+    /* an exact copy on the heap: a read past the end is seen by sanitizers, and no zero ends it */
+    size_t length = strlen(text);
+    char *copy = (char *)test_array(length, 1);
+    memcpy(copy, text, length);
+    sl_status status = sl_matrix_parse(M, copy, length, NULL, stats);
+    free(copy);
+    assert_true((*M != NULL) == (status == SL_OK));
+    return status;
+}
+
+#define BANNER(kind) "%%MatrixMarket matrix coordinate " kind "\n"
+
+/* Parses and compares with n_rows x n_cols and the entries, column by column, rows ascending. */
+static void expect_matrix(const char *text, sl_int n_rows, sl_int n_cols, const sl_int *p, const sl_int *i,
+                          const double *x) {
+    sl_matrix *M = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    SL_CHECK(parse(&M, text, &stats));
+    sl_csc A = sl_matrix_view(M);
+    SL_CHECK(sl_csc_check(&A, NULL));
+    assert_int_equal(A.n_rows, n_rows);
+    assert_int_equal(A.n_cols, n_cols);
+    assert_memory_equal(A.p, p, ((size_t)n_cols + 1) * sizeof *p);
+    if (p[n_cols] > 0) {
+        assert_memory_equal(A.i, i, (size_t)p[n_cols] * sizeof *i);
+    }
+    assert_int_equal(A.x == NULL, x == NULL);
+    if (x) {
+        SAME_VALUES(A.x, x, (size_t)p[n_cols]);
+    }
+    sl_matrix_free(M);
+}
+
+static void every_kind(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double x[3] = {1.5, -2, 4}, whole[3] = {1, -2, 4};
+    expect_matrix(BANNER("real general") "2 2 3\n1 1 1.5\n2 1 -2\n2 2 4\n", 2, 2, p, i, x);
+    expect_matrix(BANNER("real symmetric") "2 2 3\n2 2 4\n2 1 -2\n1 1 1.5\n", 2, 2, p, i, x);
+    expect_matrix(BANNER("integer general") "2 2 3\n1 1 1\n2 1 -2\n2 2 4\n", 2, 2, p, i, whole);
+    expect_matrix(BANNER("integer symmetric") "2 2 3\n1 1 1\n2 1 -2\n2 2 4\n", 2, 2, p, i, whole);
+    expect_matrix(BANNER("pattern general") "2 2 3\n1 1\n2 1\n2 2\n", 2, 2, p, i, NULL);
+    expect_matrix(BANNER("pattern symmetric") "2 2 3\n1 1\n2 1\n2 2\n", 2, 2, p, i, NULL);
+    /* rectangular, with an empty column */
+    const sl_int q[4] = {0, 1, 1, 2}, k[2] = {1, 0};
+    const double y[2] = {7, 8};
+    expect_matrix(BANNER("real general") "2 3 2\n1 3 8\n2 1 7\n", 2, 3, q, k, y);
+}
+
+static void odd_but_legal(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double x[3] = {1.5, -2, 4};
+    /* comments, blank lines, CRLF, tabs, blanks at both ends, no newline at the end, + signs, exponents */
+    expect_matrix(BANNER("real symmetric") "% a comment\n%\n\n2 2 3\n1 1 1.5\n\n2 1 -2\n2 2 4\n", 2, 2, p, i, x);
+    expect_matrix("%%MatrixMarket matrix coordinate real symmetric\r\n%\r\n2 2 3\r\n1 1 1.5\r\n2 1 -2\r\n2 2 4\r\n", 2,
+                  2, p, i, x);
+    expect_matrix(BANNER("real symmetric") "  2\t2  3  \n\t1 1 +1.5 \n 2  1\t-2.0e0\n2 2 .4E1", 2, 2, p, i, x);
+    /* words of the banner in any case */
+    expect_matrix("%%MatrixMarket MATRIX Coordinate Real SYMMETRIC\n2 2 3\n1 1 1.5\n2 1 -2\n2 2 4\n", 2, 2, p, i, x);
+    /* above the diagonal of a symmetric file: mirrored */
+    expect_matrix(BANNER("real symmetric") "2 2 3\n1 1 1.5\n1 2 -2\n2 2 4\n", 2, 2, p, i, x);
+    /* duplicates are summed */
+    expect_matrix(BANNER("real general") "2 2 5\n1 1 1\n2 1 -1\n2 2 4\n2 1 -1\n1 1 0.5\n", 2, 2, p, i, x);
+    /* nothing in it */
+    const sl_int none[3] = {0, 0, 0};
+    const double nothing[1] = {0};
+    expect_matrix(BANNER("real general") "2 2 0\n", 2, 2, none, i, nothing);
+    sl_matrix *M = NULL;
+    SL_CHECK(parse(&M, BANNER("real symmetric") "0 0 0\n", NULL));
+    assert_int_equal(sl_matrix_view(M).n_cols, 0);
+    sl_matrix_free(M);
+}
+
+static void values_that_are_not_finite_are_read(void **state) {
+    (void)state;
+    sl_matrix *M = NULL;
+    sl_status status = parse(&M, BANNER("real general") "1 1 1\n1 1 nan\n", NULL);
+    if (status == SL_OK) { /* the contract: not this function's to refuse */
+        assert_true(sl_matrix_view(M).x[0] != sl_matrix_view(M).x[0]);
+    }
+    assert_int_equal(status, SL_OK);
+    sl_matrix_free(M);
+    SL_CHECK(parse(&M, BANNER("real general") "1 1 1\n1 1 -inf\n", NULL));
+    assert_true(sl_matrix_view(M).x[0] == -INFINITY);
+    sl_matrix_free(M);
+    SL_CHECK(parse(&M, BANNER("real general") "1 1 1\n1 1 1e999\n", NULL));
+    assert_true(sl_matrix_view(M).x[0] == INFINITY);
+    sl_matrix_free(M);
+    SL_CHECK(parse(&M, BANNER("real general") "1 1 1\n1 1 1e-400\n", NULL));
+    assert_true(sl_matrix_view(M).x[0] == 0.0);
+    sl_matrix_free(M);
+}
+
+typedef struct bad_text_t {
+    sl_status status;
+    sl_off line; /* 0: not asked */
+    const char *text;
+} bad_text_t;
+
+static void malformed_at_each_place(void **state) {
+    (void)state;
+    static const bad_text_t bad[] = {
+        {SL_ERR_IO, 1, ""},
+        {SL_ERR_IO, 1, "\n"},
+        {SL_ERR_IO, 1, "2 2 3\n1 1 1\n"},
+        {SL_ERR_IO, 1, "%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n"},
+        {SL_ERR_IO, 1, "%%MatrixMarket\n"},
+        {SL_ERR_IO, 1, "%%MatrixMarket matrix coordinate real\n1 1 1\n1 1 1\n"},
+        {SL_ERR_IO, 1, "%%MatrixMarket matrix coordinate real lopsided\n1 1 1\n1 1 1\n"},
+        {SL_ERR_IO, 1, "%%MatrixMarket matrix coordinate surreal general\n1 1 1\n1 1 1\n"},
+        {SL_ERR_IO, 1, "%%MatrixMarket matrix diagonal real general\n1 1 1\n1 1 1\n"},
+        {SL_ERR_IO, 1, "%%MatrixMarket vector coordinate real general\n1 1 1\n1 1 1\n"},
+        {SL_ERR_IO, 0, BANNER("real general")},
+        {SL_ERR_IO, 0, BANNER("real general") "% only\n% comments\n"},
+        {SL_ERR_IO, 2, BANNER("real general") "2 2\n1 1 1\n"},
+        {SL_ERR_IO, 2, BANNER("real general") "2 x 1\n1 1 1\n"},
+        {SL_ERR_IO, 2, BANNER("real general") "2 2 1 7\n1 1 1\n"},
+        {SL_ERR_IO, 2, BANNER("real general") "-2 2 1\n1 1 1\n"},
+        {SL_ERR_IO, 2, BANNER("real general") "2 2 -1\n1 1 1\n"},
+        {SL_ERR_IO, 2, BANNER("real general") "2.5 2 1\n1 1 1\n"},
+        {SL_ERR_IO, 4, BANNER("real general") "%\n\n2 2 1x\n1 1 1\n"},
+        {SL_ERR_IO, 2, BANNER("real symmetric") "2 3 1\n1 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n3 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 3 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n0 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 0 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n-1 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n99999999999999999999 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n4294967297 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 abc\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1.5abc\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\na 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1.5 1\n"},
+        {SL_ERR_IO, 3, BANNER("pattern general") "2 2 1\n1 1 1\n"},
+        {SL_ERR_IO, 6, BANNER("real general") "2 2 3\n% comment\n1 1 1\n\n1 q 1\n2 2 1\n"},
+        {SL_ERR_IO, 4, BANNER("real general") "2 2 1\n1 1 1\n2 2 1\n"},        /* one too many */
+        {SL_ERR_IO, 0, BANNER("real general") "2 2 3\n1 1 1\n2 2 1\n"},        /* one too few */
+        {SL_ERR_IO, 0, BANNER("real general") "2 2 1000000000\n1 1 1\n2 2 1\n"}, /* a count that the text cannot hold */
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        sl_matrix *M = NULL;
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        sl_status status = parse(&M, bad[k].text, &stats);
+        if (status != bad[k].status || (bad[k].line && stats.error_line != bad[k].line)) {
+            print_error("case %d: \"%s\", line %ld, of the text:\n%s\n", (int)k, sl_status_string(status),
+                        (long)stats.error_line, bad[k].text);
+            fail();
+        }
+        SL_EXPECT(bad[k].status, parse(&M, bad[k].text, NULL));
+    }
+}
+
+static void unsupported_kinds(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        BANNER("complex general") "1 1 1\n1 1 1 0\n",
+        BANNER("complex hermitian") "1 1 1\n1 1 1 0\n",
+        BANNER("real skew-symmetric") "2 2 1\n2 1 1\n",
+        BANNER("real hermitian") "1 1 1\n1 1 1\n",
+        "%%MatrixMarket matrix array real general\n1 1\n1\n",
+    };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        sl_matrix *M = NULL;
+        SL_EXPECT(SL_ERR_UNSUPPORTED, parse(&M, texts[k], NULL));
+    }
+}
+
+static void sizes_that_do_not_fit(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        BANNER("real general") "2147483648 1 0\n",
+        BANNER("real general") "1 4294967297 0\n",
+        BANNER("real general") "1 1 9223372036854775808\n",
+        BANNER("real general") "99999999999999999999999999 1 0\n",
+    };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        sl_matrix *M = NULL;
+        sl_status status = parse(&M, texts[k], NULL);
+        if (status != SL_ERR_TOO_LARGE && status != SL_ERR_IO) {
+            print_error("\"%s\" for\n%s", sl_status_string(status), texts[k]);
+            fail();
+        }
+    }
+}
+
+static void every_prefix_is_refused_or_right(void **state) {
+    (void)state;
+    static const char text[] = BANNER("real symmetric") "% c\n3 3 4\n1 1 2.25\n2 2 3\n3 1 -1e-1\n3 3 4\n";
+    for (size_t length = 0; length < sizeof text - 1; length++) {
+        char *copy = (char *)test_array(length, 1);
+        memcpy(copy, text, length);
+        sl_matrix *M = NULL;
+        sl_status status = sl_matrix_parse(&M, copy, length, NULL, NULL);
+        assert_true((M != NULL) == (status == SL_OK));
+        if (length + 2 < sizeof text) { /* without the last digit an entry is missing */
+            assert_int_equal(status, SL_ERR_IO);
+        }
+        sl_matrix_free(M);
+        free(copy);
+    }
+}
+
+/* ---- files ---- */
+
+static int temporary_name(char *name, size_t size) {
+    const char *folder = getenv("TMPDIR");
+    snprintf(name, size, "%s/sparse_local_XXXXXX", folder && *folder ? folder : ".");
+    int handle = mkstemp(name);
+    if (handle >= 0) {
+        close(handle);
+    }
+    return handle >= 0;
+}
+
+static void written_and_read_back(void **state) {
+    (void)state;
+    char name[512];
+    assert_true(temporary_name(name, sizeof name));
+    for (int kind = 0; kind < GEN_KINDS; kind++) {
+        gen_list_t t = gen_make((gen_kind_t)kind, 30, 0, 6);
+        for (int which = 0; which < 6; which++) {
+            gen_matrix_t M = gen_store(&t, gen_style(which), 8);
+            for (int reading = SL_AS_SYMMETRIC; reading <= SL_AS_STORED; reading++) {
+                sl_matrix *back = NULL;
+                SL_CHECK(sl_csc_write(&M.view, (sl_reading)reading, name));
+                SL_CHECK(sl_matrix_read(&back, name, NULL, NULL));
+                sl_csc C = sl_matrix_view(back);
+                SL_CHECK(sl_csc_check(&C, NULL));
+                double *a = ref_dense(&M.view), *b = ref_dense(&C);
+                SAME_VALUES(a, b, (size_t)t.n * (size_t)t.n);
+                assert_int_equal(C.p[t.n], reading == SL_AS_STORED ? M.p[t.n] : (sl_int)t.count);
+                free(a);
+                free(b);
+                sl_matrix_free(back);
+            }
+            gen_matrix_free(&M);
+        }
+        gen_list_free(&t);
+    }
+    remove(name);
+}
+
+static void extreme_values_come_back_bit_for_bit(void **state) {
+    (void)state;
+    enum { COUNT = 12 };
+    const double x[COUNT] = {DBL_MIN,  DBL_MAX, -DBL_MAX, 4.9406564584124654e-324, 1.0 / 3.0, 0.1, -0.0, 0.0,
+                             INFINITY, -INFINITY, 1e22,   DBL_EPSILON};
+    sl_int p[COUNT + 1], i[COUNT];
+    for (sl_int k = 0; k < COUNT; k++) {
+        p[k] = i[k] = k;
+    }
+    p[COUNT] = COUNT;
+    sl_csc A = {COUNT, COUNT, p, i, x};
+    char name[512];
+    assert_true(temporary_name(name, sizeof name));
+    for (int reading = SL_AS_SYMMETRIC; reading <= SL_AS_STORED; reading++) {
+        sl_matrix *back = NULL;
+        SL_CHECK(sl_csc_write(&A, (sl_reading)reading, name));
+        SL_CHECK(sl_matrix_read(&back, name, NULL, NULL));
+        assert_memory_equal(sl_matrix_view(back).x, x, sizeof x);
+        sl_matrix_free(back);
+    }
+    /* a pattern stays one */
+    A.x = NULL;
+    sl_matrix *back = NULL;
+    SL_CHECK(sl_csc_write(&A, SL_AS_STORED, name));
+    SL_CHECK(sl_matrix_read(&back, name, NULL, NULL));
+    assert_null(sl_matrix_view(back).x);
+    sl_matrix_free(back);
+    remove(name);
+}
+
+static void files_that_cannot_be(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_PATH, 4, 1, 1);
+    sl_matrix *back = NULL;
+    char name[512];
+    SL_EXPECT(SL_ERR_IO, sl_matrix_read(&back, "no/such/folder/no_such_file.mtx", NULL, NULL));
+    assert_null(back);
+    SL_EXPECT(SL_ERR_IO, sl_csc_write(&M.view, SL_AS_STORED, "no/such/folder/no_such_file.mtx"));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_read(&back, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_read(NULL, "x", NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_parse(&back, NULL, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_parse(NULL, "x", 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_write(NULL, SL_AS_STORED, "x"));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_write(&M.view, SL_AS_STORED, NULL));
+    /* a folder opens, and cannot be read */
+    SL_EXPECT(SL_ERR_IO, sl_matrix_read(&back, ".", NULL, NULL));
+    /* an asymmetric pattern cannot be written as symmetric: (1,0) stands mirrored, (2,0) not */
+    const sl_int p[4] = {0, 2, 3, 3}, i[3] = {1, 2, 0};
+    const double x[3] = {1, 2, 3};
+    sl_csc lonely = {3, 3, p, i, x};
+    assert_true(temporary_name(name, sizeof name));
+    SL_EXPECT(SL_ERR_PATTERN, sl_csc_write(&lonely, SL_AS_SYMMETRIC, name));
+    lonely.n_rows = 1;
+    SL_EXPECT(SL_ERR_PATTERN, sl_csc_write(&lonely, SL_AS_STORED, name));
+    remove(name);
+    gen_matrix_free(&M);
+}
+
+/* The device takes every byte into its buffer and fails when it is flushed: an error that only the last call shows. */
+static void a_full_disk_is_noticed(void **state) {
+    (void)state;
+    FILE *full = fopen("/dev/full", "w");
+    if (!full) {
+        skip();
+    }
+    fclose(full);
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 100, 1, 1);
+    SL_EXPECT(SL_ERR_IO, sl_csc_write(&M.view, SL_AS_STORED, "/dev/full"));
+    gen_matrix_free(&M);
+}
+
+/* Every status has its own words, and so has any other number. */
+static void statuses_have_names(void **state) {
+    (void)state;
+    for (int a = SL_OK; a <= SL_ERR_STATE; a++) {
+        assert_non_null(sl_status_string((sl_status)a));
+        for (int b = SL_OK; b < a; b++) {
+            assert_string_not_equal(sl_status_string((sl_status)a), sl_status_string((sl_status)b));
+        }
+    }
+    assert_non_null(sl_status_string((sl_status)99));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind),
+        cmocka_unit_test(odd_but_legal),
+        cmocka_unit_test(values_that_are_not_finite_are_read),
+        cmocka_unit_test(malformed_at_each_place),
+        cmocka_unit_test(unsupported_kinds),
+        cmocka_unit_test(sizes_that_do_not_fit),
+        cmocka_unit_test(every_prefix_is_refused_or_right),
+        cmocka_unit_test(written_and_read_back),
+        cmocka_unit_test(extreme_values_come_back_bit_for_bit),
+        cmocka_unit_test(files_that_cannot_be),
+        cmocka_unit_test(a_full_disk_is_noticed),
+        cmocka_unit_test(statuses_have_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

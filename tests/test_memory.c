@@ -1,0 +1,344 @@
+/* test_memory.c: every function that allocates, with its k-th allocation failing for k = 0, 1, ... until it succeeds */
+#include "problem.h"
+
+typedef struct fixture_t {
+    problem_t y; /* a grid, made with malloc */
+    sl_plan *P;
+    sl_int bset[225], xset[225], perm[225];
+    double B[225 * 3], X[225 * 3], before[225 * 3];
+    char text[4096];
+    size_t length;
+} fixture_t;
+
+/* Runs one function with the allocator of opt. It checks by itself that an object is NULL after an error, and frees
+ * what it made. */
+typedef sl_status (*scenario_t)(fixture_t *f, const sl_options *opt);
+
+#define MADE_OR_NULL(status, object) assert_true(((object) != NULL) == ((status) == SL_OK))
+
+static sl_status end_matrix(sl_status status, sl_matrix *M) {
+    MADE_OR_NULL(status, M);
+    sl_matrix_free(M);
+    return status;
+}
+
+/* a pointer that is not NULL, to see that it becomes so */
+#define GARBAGE(type) ((type *)(void *)f)
+
+static sl_status from_triplets(fixture_t *f, const sl_options *opt) {
+    const sl_int i[4] = {0, 2, 1, 2}, j[4] = {0, 0, 1, 0};
+    const double x[4] = {1, 2, 3, 4};
+    sl_matrix *M = GARBAGE(sl_matrix);
+    return end_matrix(sl_matrix_from_triplets(&M, 3, 2, 4, i, j, x, opt, NULL), M);
+}
+
+static sl_status parse(fixture_t *f, const sl_options *opt) {
+    sl_matrix *M = GARBAGE(sl_matrix);
+    return end_matrix(sl_matrix_parse(&M, f->text, f->length, opt, NULL), M);
+}
+
+static sl_status read_file(fixture_t *f, const sl_options *opt) {
+    sl_matrix *M = GARBAGE(sl_matrix);
+    return end_matrix(sl_matrix_read(&M, f->text, opt, NULL), M);
+}
+
+static sl_status transpose(fixture_t *f, const sl_options *opt) {
+    sl_matrix *M = GARBAGE(sl_matrix);
+    return end_matrix(sl_matrix_transpose(&M, &f->y.M.view, opt), M);
+}
+
+static sl_status permute(fixture_t *f, const sl_options *opt) {
+    sl_matrix *M = GARBAGE(sl_matrix);
+    return end_matrix(sl_matrix_permute(&M, &f->y.M.view, f->perm, opt), M);
+}
+
+static sl_status triangle(fixture_t *f, const sl_options *opt) {
+    sl_triangle found;
+    return sl_csc_triangle(&f->y.M.view, &found, opt, NULL);
+}
+
+static sl_status symbolic_with(fixture_t *f, const sl_options *opt, sl_ordering ordering) {
+    sl_options wish = *opt;
+    sl_symbolic *S = GARBAGE(sl_symbolic);
+    wish.ordering = ordering;
+    wish.perm = f->perm;
+    sl_status status = sl_symbolic_create(&S, &f->y.M.view, &wish, NULL);
+    MADE_OR_NULL(status, S);
+    sl_symbolic_free(S);
+    return status;
+}
+
+static sl_status symbolic_default(fixture_t *f, const sl_options *opt) {
+    return symbolic_with(f, opt, SL_ORDERING_DEFAULT);
+}
+
+static sl_status symbolic_natural(fixture_t *f, const sl_options *opt) {
+    return symbolic_with(f, opt, SL_ORDERING_NATURAL);
+}
+
+static sl_status symbolic_given(fixture_t *f, const sl_options *opt) {
+    return symbolic_with(f, opt, SL_ORDERING_GIVEN);
+}
+
+static sl_status factor(fixture_t *f, const sl_options *opt) {
+    sl_factor *F = GARBAGE(sl_factor);
+    sl_status status = sl_factor_create(&F, f->y.S, &f->y.M.view, opt, NULL);
+    MADE_OR_NULL(status, F);
+    sl_factor_free(F);
+    return status;
+}
+
+static sl_status lower(fixture_t *f, const sl_options *opt) {
+    sl_matrix *M = GARBAGE(sl_matrix);
+    return end_matrix(sl_factor_lower(&M, f->y.F, opt), M);
+}
+
+static sl_status plan(fixture_t *f, const sl_options *opt) {
+    sl_plan *P = GARBAGE(sl_plan);
+    sl_status status = sl_plan_create(&P, f->y.S, f->bset, 20, f->xset, 30, opt, NULL);
+    MADE_OR_NULL(status, P);
+    sl_plan_free(P);
+    return status;
+}
+
+static sl_status work(fixture_t *f, const sl_options *opt) {
+    sl_work *W = GARBAGE(sl_work);
+    sl_status status = sl_work_create(&W, opt);
+    MADE_OR_NULL(status, W);
+    sl_work_free(W);
+    return status;
+}
+
+/* A workspace that could not grow stays usable: the rest of a scenario is tried on the same one. */
+typedef sl_status (*use_t)(fixture_t *f, sl_work *W);
+
+static sl_status in_work(fixture_t *f, const sl_options *opt, use_t use) {
+    counter_t *counter = (counter_t *)opt->allocator.context;
+    sl_work *W = NULL;
+    sl_status status = sl_work_create(&W, opt);
+    if (status != SL_OK) {
+        assert_null(W);
+        return status;
+    }
+    memcpy(f->X, f->before, sizeof f->X);
+    status = use(f, W);
+    if (status != SL_OK) {
+        assert_memory_equal(f->X, f->before, sizeof f->X); /* on error untouched */
+        int64_t keep = counter->fail_at;
+        counter->fail_at = -1;
+        SL_CHECK(use(f, W));
+        counter->fail_at = keep;
+    }
+    sl_work_free(W);
+    return status;
+}
+
+static sl_status use_full(fixture_t *f, sl_work *W) {
+    return sl_factor_solve(f->y.F, f->X, 225, f->B, 225, 3, W);
+}
+
+static sl_status use_plan(fixture_t *f, sl_work *W) {
+    return sl_plan_solve(f->P, f->y.F, f->X, 30, f->B, 20, 3, W);
+}
+
+static sl_status use_local(fixture_t *f, sl_work *W) {
+    return sl_local_solve(f->y.F, f->X, 30, f->xset, 30, f->B, 20, f->bset, 20, 3, W, NULL);
+}
+
+static sl_status use_reserve_factor(fixture_t *f, sl_work *W) {
+    return sl_work_reserve_factor(W, f->y.F, 3);
+}
+
+static sl_status use_reserve_plan(fixture_t *f, sl_work *W) {
+    return sl_work_reserve_plan(W, f->P, 3);
+}
+
+/* grown by a small solve first, then it has to grow again */
+static sl_status use_growing(fixture_t *f, sl_work *W) {
+    double one[1];
+    sl_status status = sl_local_solve(f->y.F, one, 1, f->xset, 1, f->B, 1, f->bset, 1, 1, W, NULL);
+    return status != SL_OK ? status : use_full(f, W);
+}
+
+static sl_status full_solve(fixture_t *f, const sl_options *opt) {
+    return in_work(f, opt, use_full);
+}
+
+static sl_status plan_solve(fixture_t *f, const sl_options *opt) {
+    return in_work(f, opt, use_plan);
+}
+
+static sl_status local_solve(fixture_t *f, const sl_options *opt) {
+    return in_work(f, opt, use_local);
+}
+
+static sl_status reserve_factor(fixture_t *f, const sl_options *opt) {
+    return in_work(f, opt, use_reserve_factor);
+}
+
+static sl_status reserve_plan(fixture_t *f, const sl_options *opt) {
+    return in_work(f, opt, use_reserve_plan);
+}
+
+static sl_status growing(fixture_t *f, const sl_options *opt) {
+    return in_work(f, opt, use_growing);
+}
+
+/* W == NULL: the scratch of one call comes from the allocator of the factor */
+static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
+    sl_factor *F = NULL;
+    sl_status status = sl_factor_create(&F, f->y.S, &f->y.M.view, opt, NULL);
+    if (status == SL_OK) {
+        memcpy(f->X, f->before, sizeof f->X);
+        status = sl_factor_solve(F, f->X, 225, f->B, 225, 3, NULL);
+        status = status != SL_OK ? status : sl_plan_solve(f->P, F, f->X, 30, f->B, 20, 3, NULL);
+        status = status != SL_OK
+                     ? status
+                     : sl_local_solve(F, f->X, 30, f->xset, 30, f->B, 20, f->bset, 20, 3, NULL, NULL);
+    }
+    sl_factor_free(F);
+    return status;
+}
+
+/* Fails each allocation in turn; returns how many there are. */
+static int64_t run(fixture_t *f, scenario_t scenario) {
+    int64_t k = 0;
+    sl_status status = SL_ERR_MEMORY;
+    for (; status != SL_OK; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        counter.fail_at = k;
+        status = scenario(f, &opt);
+        assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+        assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k); /* no failure is passed over */
+        COUNTER_CLEAN(&counter);
+        assert_in_range(k, 0, 10000);
+    }
+    return k - 1;
+}
+
+static void fixture_make(fixture_t *f, int style) {
+    uint64_t seed = 2;
+    f->y = problem_make(GEN_GRID2, 225, 1, style, NULL);
+    gen_set(f->bset, 20, 225, gen_bits(&seed));
+    gen_set(f->xset, 30, 225, gen_bits(&seed));
+    gen_permutation(f->perm, 225, gen_bits(&seed));
+    gen_reals(f->B, 225 * 3, gen_bits(&seed));
+    gen_reals(f->before, 225 * 3, gen_bits(&seed));
+    SL_CHECK(sl_plan_create(&f->P, f->y.S, f->bset, 20, f->xset, 30, NULL, NULL));
+}
+
+static void fixture_free(fixture_t *f) {
+    sl_plan_free(f->P);
+    problem_free(&f->y);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        scenario_t scenario;
+    } all[] = {
+        {"sl_matrix_from_triplets", from_triplets},
+        {"sl_matrix_transpose", transpose},
+        {"sl_matrix_permute", permute},
+        {"sl_csc_triangle", triangle},
+        {"sl_symbolic_create, default", symbolic_default},
+        {"sl_symbolic_create, natural", symbolic_natural},
+        {"sl_symbolic_create, given", symbolic_given},
+        {"sl_factor_create", factor},
+        {"sl_factor_lower", lower},
+        {"sl_plan_create", plan},
+        {"sl_work_create", work},
+        {"sl_work_reserve_factor", reserve_factor},
+        {"sl_work_reserve_plan", reserve_plan},
+        {"sl_factor_solve", full_solve},
+        {"sl_plan_solve", plan_solve},
+        {"sl_local_solve", local_solve},
+        {"a workspace that grows", growing},
+        {"solves without a workspace", solve_without_work},
+    };
+    static const int styles[3] = {0, 1, 11}; /* lower; upper; both, unsorted, duplicated */
+    for (int s = 0; s < 3; s++) {
+        fixture_t *f = (fixture_t *)test_array(1, sizeof *f);
+        fixture_make(f, styles[s]);
+        sl_csc *A = &f->y.M.view;
+        sl_int nnz = A->p[A->n_cols];
+        sl_int *p = test_ints((size_t)A->n_cols + 1), *i = test_ints((size_t)nnz);
+        double *x = test_reals((size_t)nnz);
+        memcpy(p, A->p, ((size_t)A->n_cols + 1) * sizeof *p);
+        memcpy(i, A->i, (size_t)nnz * sizeof *i);
+        memcpy(x, A->x, (size_t)nnz * sizeof *x);
+        for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+            int64_t count = run(f, all[k].scenario);
+            if (s == 0) {
+                print_message("%-30s %ld allocations\n", all[k].name, (long)count);
+            }
+            assert_true(count > 0 || all[k].scenario == triangle);
+        }
+        /* the inputs are as they were */
+        assert_memory_equal(p, A->p, ((size_t)A->n_cols + 1) * sizeof *p);
+        assert_memory_equal(i, A->i, (size_t)nnz * sizeof *i);
+        assert_memory_equal(x, A->x, (size_t)nnz * sizeof *x);
+        free(p);
+        free(i);
+        free(x);
+        fixture_free(f);
+        free(f);
+    }
+}
+
+static void reading_may_fail(void **state) {
+    (void)state;
+    static const char *const texts[2] = {
+        "%%MatrixMarket matrix coordinate real symmetric\n3 3 4\n1 1 1\n2 2 3\n3 1 -1\n3 3 4\n",
+        "%%MatrixMarket matrix coordinate pattern general\n3 3 4\n1 1\n2 2\n3 1\n3 3\n"};
+    fixture_t *f = (fixture_t *)test_array(1, sizeof *f);
+    for (int k = 0; k < 2; k++) {
+        f->length = strlen(texts[k]);
+        memcpy(f->text, texts[k], f->length);
+        assert_true(run(f, parse) > 0);
+    }
+    const char *folder = getenv("TMPDIR");
+    snprintf(f->text, sizeof f->text, "%s/sparse_local_test_memory.mtx", folder && *folder ? folder : ".");
+    FILE *file = fopen(f->text, "wb");
+    assert_non_null(file);
+    fputs(texts[0], file);
+    fclose(file);
+    assert_true(run(f, read_file) > 0);
+    remove(f->text);
+    free(f);
+}
+
+/* sl_csc_write has no options: it may allocate only to find the triangle, and needs no test of its own here. A failing
+ * allocator in the middle of a life: objects made before it broke are released well. */
+static void objects_outlive_a_broken_allocator(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    problem_t y = problem_make(GEN_GRID2, 100, 1, 0, &opt);
+    sl_int row = 5;
+    sl_plan *P = NULL, *Q = NULL;
+    double one = 1;
+    SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, &opt, NULL));
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY, sl_plan_create(&Q, y.S, &row, 1, &row, 1, &opt, NULL));
+    SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL)); /* needs no memory */
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY, sl_plan_solve(P, y.F, &one, 1, &one, 1, 1, NULL));
+    assert_true(one == 1);
+    SL_CHECK(sl_plan_solve(P, y.F, &one, 1, &one, 1, 1, NULL)); /* the next one is served */
+    assert_true(one != 1);
+    sl_plan_free(P);
+    problem_free(&y);
+    COUNTER_CLEAN(&counter);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(reading_may_fail),
+        cmocka_unit_test(objects_outlive_a_broken_allocator),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

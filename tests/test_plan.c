@@ -1,0 +1,392 @@
+/* test_plan.c: local solves equal the full solve bit for bit, on any sets, by plan and in one shot */
+#include "problem.h"
+
+#include <pthread.h>
+
+/* One question: sets (NULL: all rows), and what the full solve says to it. */
+typedef struct question_t {
+    sl_int nb, nx, nrhs;
+    sl_int *bset, *xset;
+    double *B;      /* nb x nrhs, leading dimension nb + 2 */
+    double *wanted; /* nx x nrhs, leading dimension nx */
+} question_t;
+
+static question_t ask(const sl_factor *F, sl_int n, sl_int nb, sl_int nx, sl_int nrhs, uint64_t seed) {
+    question_t q = {nb < 0 ? n : nb, nx < 0 ? n : nx, nrhs, NULL, NULL, NULL, NULL};
+    size_t cols = (size_t)nrhs, rows = (size_t)n, ldb = (size_t)q.nb + 2;
+    double *full = test_reals(rows * cols);
+    if (nb >= 0) {
+        q.bset = test_ints(rows);
+        gen_set(q.bset, nb, n, seed + 1);
+    }
+    if (nx >= 0) {
+        q.xset = test_ints(rows);
+        gen_set(q.xset, nx, n, seed + 2);
+    }
+    q.B = test_reals(ldb * cols);
+    q.wanted = test_reals((size_t)q.nx * cols);
+    gen_reals(q.B, ldb * cols, seed);
+    for (size_t r = 0; r < cols; r++) {
+        for (sl_int k = 0; k < q.nb; k++) {
+            full[(size_t)(q.bset ? q.bset[k] : k) + r * rows] = q.B[(size_t)k + r * ldb];
+        }
+    }
+    SL_CHECK(sl_factor_solve(F, full, rows ? rows : 1, full, rows ? rows : 1, nrhs, NULL));
+    for (size_t r = 0; r < cols; r++) {
+        for (sl_int k = 0; k < q.nx; k++) {
+            q.wanted[(size_t)k + r * (size_t)q.nx] = full[(size_t)(q.xset ? q.xset[k] : k) + r * rows];
+        }
+    }
+    free(full);
+    return q;
+}
+
+static void forget(question_t *q) {
+    free(q->bset);
+    free(q->xset);
+    free(q->B);
+    free(q->wanted);
+}
+
+/* Both ways of asking give the same bits as the full solve, write nothing else, and say the same of their reach. */
+static void answer(const sl_symbolic *S, const sl_factor *F, const question_t *q, sl_work *W) {
+    size_t ldx = (size_t)q->nx + 3, ldb = (size_t)q->nb + 2, total = ldx * (size_t)(q->nrhs + 1);
+    double *X = test_reals(total);
+    sl_plan *P = NULL;
+    sl_stats planned, shot;
+    memset(&planned, 0, sizeof planned);
+    memset(&shot, 0, sizeof shot);
+    SL_CHECK(sl_plan_create(&P, S, q->bset, q->nb, q->xset, q->nx, NULL, &planned));
+    for (int way = 0; way < 2; way++) {
+        for (size_t k = 0; k < total; k++) {
+            X[k] = 4321.5;
+        }
+        if (way == 0) {
+            SL_CHECK(sl_plan_solve(P, F, X, ldx, q->B, ldb, q->nrhs, W));
+        } else {
+            SL_CHECK(sl_local_solve(F, X, ldx, q->xset, q->nx, q->B, ldb, q->bset, q->nb, q->nrhs, W, &shot));
+        }
+        for (size_t r = 0; r < (size_t)q->nrhs; r++) {
+            SAME_VALUES(X + r * ldx, q->wanted + r * (size_t)q->nx, (size_t)q->nx);
+        }
+        for (size_t k = 0; k < total; k++) {
+            if (k / ldx >= (size_t)q->nrhs || k % ldx >= (size_t)q->nx) {
+                assert_true(X[k] == 4321.5);
+            }
+        }
+    }
+    assert_int_equal(planned.b_supernodes, shot.b_supernodes);
+    assert_int_equal(planned.b_columns, shot.b_columns);
+    assert_int_equal(planned.b_entries, shot.b_entries);
+    assert_int_equal(planned.x_supernodes, shot.x_supernodes);
+    assert_int_equal(planned.x_columns, shot.x_columns);
+    assert_int_equal(planned.x_entries, shot.x_entries);
+    sl_plan_free(P);
+    free(X);
+}
+
+static void try_sets(const problem_t *y, sl_int nb, sl_int nx, sl_int nrhs, uint64_t seed, sl_work *W) {
+    question_t q = ask(y->F, y->M.view.n_cols, nb, nx, nrhs, seed);
+    answer(y->S, y->F, &q, W);
+    forget(&q);
+}
+
+static void local_equals_full_on_the_zoo(void **state) {
+    (void)state;
+    static const sl_int sizes[3] = {6, 40, 500};
+    isa_list_t isas = isas_present();
+    sl_work *W = NULL;
+    uint64_t seed = 1;
+    SL_CHECK(sl_work_create(&W, NULL));
+    for (int kind = 0; kind < GEN_REGULAR; kind++) {
+        for (int size = 0; size < 3; size++) {
+            for (int k = 0; k < 2 * isas.count; k++) {
+                sl_options opt = options_none();
+                opt.isa = isas.isa[k / 2];
+                opt.relaxation = (sl_relaxation)(k % 2);
+                problem_t y = problem_make((gen_kind_t)kind, sizes[size], size - 1, kind % GEN_STYLES, &opt);
+                sl_int n = y.M.view.n_cols;
+                for (sl_int nrhs = 0; nrhs <= 9; nrhs++) {
+                    try_sets(&y, -1, -1, nrhs, ++seed, W);
+                    try_sets(&y, 0, n, nrhs, ++seed, W);
+                    try_sets(&y, n, 0, nrhs, ++seed, W);
+                    if (n > 0) {
+                        try_sets(&y, 1, 1, nrhs, ++seed, nrhs % 2 ? W : NULL);
+                        try_sets(&y, 1, -1, nrhs, ++seed, W);
+                        try_sets(&y, -1, 1, nrhs, ++seed, W);
+                        try_sets(&y, 1 + gen_below(&seed, n), 1 + gen_below(&seed, n), nrhs, ++seed, W);
+                        try_sets(&y, 1 + gen_below(&seed, n / 8 + 1), 1 + gen_below(&seed, n / 8 + 1), nrhs, ++seed,
+                                 W);
+                    }
+                }
+                problem_free(&y);
+            }
+        }
+    }
+    sl_work_free(W);
+}
+
+/* Every pair of single rows of a grid and of a KKT system. */
+static void every_pair_of_rows(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    static const gen_kind_t kinds[2] = {GEN_GRID2, GEN_KKT};
+    for (int k = 0; k < 2 * isas.count; k++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[k / 2];
+        problem_t y = problem_make(kinds[k % 2], 64, 0, 0, &opt);
+        sl_int n = y.M.view.n_cols;
+        double *full = test_reals((size_t)n);
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, NULL));
+        for (sl_int b = 0; b < n; b++) {
+            memset(full, 0, (size_t)n * sizeof *full);
+            full[b] = 1.5;
+            SL_CHECK(sl_factor_solve(y.F, full, (size_t)n, full, (size_t)n, 1, W));
+            for (sl_int x = 0; x < n; x++) {
+                double one = 1.5;
+                SL_CHECK(sl_local_solve(y.F, &one, 1, &x, 1, &one, 1, &b, 1, 1, W, NULL)); /* in place, too */
+                SAME_VALUES(&one, full + x, 1);
+            }
+        }
+        free(full);
+        sl_work_free(W);
+        problem_free(&y);
+    }
+}
+
+static void in_place_when_the_sets_allow(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 100, 1, 0, NULL);
+    sl_plan *P = NULL;
+    for (int round = 0; round < 20; round++) {
+        sl_int nb = round % 2 ? 20 : 35, nx = round % 2 ? 35 : 20;
+        question_t q = ask(y.F, 100, nb, nx, 3, (uint64_t)round);
+        double V[3 * 40], V2[3 * 40];
+        gen_reals(V, 120, 4);
+        for (int r = 0; r < 3; r++) {
+            memcpy(V + 40 * r, q.B + (nb + 2) * r, (size_t)nb * sizeof *V);
+        }
+        memcpy(V2, V, sizeof V);
+        SL_CHECK(sl_plan_create(&P, y.S, q.bset, nb, q.xset, nx, NULL, NULL));
+        SL_CHECK(sl_plan_solve(P, y.F, V, 40, V, 40, 3, NULL));
+        SL_CHECK(sl_local_solve(y.F, V2, 40, q.xset, nx, V2, 40, q.bset, nb, 3, NULL, NULL));
+        for (int r = 0; r < 3; r++) {
+            SAME_VALUES(V + 40 * r, q.wanted + nx * r, (size_t)nx);
+            SAME_VALUES(V2 + 40 * r, q.wanted + nx * r, (size_t)nx);
+        }
+        sl_plan_free(P);
+        forget(&q);
+    }
+    problem_free(&y);
+}
+
+/* The plan holds patterns only: it serves every factor over its analysis, before and after a refactor. */
+static void one_plan_serves_many_factors(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    problem_t y = problem_make(GEN_GRID2, 300, 1, 0, NULL);
+    sl_int n = y.M.view.n_cols, nnz = y.M.p[n];
+    double *other = test_reals((size_t)nnz);
+    question_t first = ask(y.F, n, 30, 40, 4, 5);
+    sl_plan *P = NULL;
+    double *X = test_reals(40 * 4);
+    SL_CHECK(sl_plan_create(&P, y.S, first.bset, 30, first.xset, 40, NULL, NULL));
+    for (int k = 0; k < isas.count; k++) {
+        sl_options opt = options_none();
+        sl_factor *F = NULL;
+        opt.isa = isas.isa[k];
+        SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+        for (int round = 0; round < 4; round++) {
+            sl_csc A = y.M.view;
+            for (sl_int q = 0; q < nnz; q++) {
+                other[q] = y.M.x[q] * (1.0 + 0.25 * round) + (y.M.x[q] > 1 ? round : 0);
+            }
+            A.x = other;
+            SL_CHECK(sl_factor_refactor(F, &A, NULL));
+            question_t q = ask(F, n, 30, 40, 4, 5); /* the same sets: the same seed */
+            SL_CHECK(sl_plan_solve(P, F, X, 40, q.B, 32, 4, NULL));
+            SAME_VALUES(X, q.wanted, 160);
+            forget(&q);
+        }
+        sl_factor_free(F);
+    }
+    /* a factor over another analysis is refused, though its matrix be the same */
+    problem_t z = problem_make(GEN_GRID2, 300, 1, 0, NULL);
+    double keep = X[0];
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, z.F, X, 40, first.B, 32, 4, NULL));
+    assert_true(X[0] == keep);
+    problem_free(&z);
+    sl_plan_free(P);
+    forget(&first);
+    free(other);
+    free(X);
+    problem_free(&y);
+}
+
+static void companions_do_not_matter(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[k];
+        problem_t y = problem_make(GEN_GRID3, 343, 1, 0, &opt);
+        sl_plan *P = NULL;
+        for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+            question_t q = ask(y.F, y.M.view.n_cols, 25, 50, nrhs, 5);
+            double X[50 * 9];
+            SL_CHECK(sl_plan_create(&P, y.S, q.bset, 25, q.xset, 50, NULL, NULL));
+            for (sl_int r = 0; r < nrhs; r++) {
+                double B[27 * 9];
+                for (sl_int at = 0; at < 27 * 9; at++) {
+                    B[at] = at / 27 == r ? q.B[at] : at % 2 ? NAN : 1e300;
+                }
+                SL_CHECK(sl_plan_solve(P, y.F, X, 50, B, 27, nrhs, NULL));
+                SAME_VALUES(X + 50 * r, q.wanted + 50 * r, 50);
+            }
+            sl_plan_free(P);
+            forget(&q);
+        }
+        problem_free(&y);
+    }
+}
+
+static void wrong_sets_are_named(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 49, 1, 0, NULL);
+    const sl_int good[3] = {4, 48, 0}, twice[4] = {7, 3, 9, 3}, big[3] = {1, 49, 2}, low[3] = {1, 2, -5};
+    const sl_int *bad[3] = {twice, big, low};
+    const sl_int size[3] = {4, 3, 3}, named[3] = {3, 49, -5};
+    sl_work *W = NULL;
+    SL_CHECK(sl_work_create(&W, NULL));
+    for (int k = 0; k < 3; k++) {
+        for (int side = 0; side < 2; side++) {
+            sl_plan *P = (sl_plan *)(void *)&y;
+            sl_stats stats;
+            double X[4] = {5, 5, 5, 5}, B[4] = {1, 2, 3, 4};
+            const sl_int *b = side ? good : bad[k], *x = side ? bad[k] : good;
+            sl_int nb = side ? 3 : size[k], nx = side ? size[k] : 3;
+            memset(&stats, 0, sizeof stats);
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, b, nb, x, nx, NULL, &stats));
+            assert_null(P);
+            assert_int_equal(stats.error_row, named[k]);
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, b, nb, x, nx, NULL, NULL));
+            memset(&stats, 0, sizeof stats);
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 4, x, nx, B, 4, b, nb, 1, W, &stats));
+            assert_int_equal(stats.error_row, named[k]);
+            assert_true(X[0] == 5 && X[1] == 5 && X[2] == 5 && X[3] == 5);
+            /* the workspace is clean after the refusal */
+            question_t q = ask(y.F, 49, 5, 6, 2, 3);
+            answer(y.S, y.F, &q, W);
+            forget(&q);
+        }
+    }
+    sl_work_free(W);
+    problem_free(&y);
+}
+
+static void wrong_arguments(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 9, 1, 0, NULL);
+    const sl_int set[3] = {4, 8, 0};
+    double X[9] = {5, 5, 5}, B[9] = {1, 2, 3};
+    sl_plan *P = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(NULL, y.S, set, 3, set, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, NULL, set, 3, set, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, set, -1, set, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, set, 3, set, -1, NULL, NULL));
+    assert_null(P);
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, -1, set, 3, NULL, NULL)); /* nb is ignored without a set */
+    sl_plan_free(P);
+    SL_CHECK(sl_plan_create(&P, y.S, set, 3, NULL, 77, NULL, NULL));
+    sl_plan_free(P);
+    SL_CHECK(sl_plan_create(&P, y.S, set, 2, set, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(NULL, y.F, X, 3, B, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, NULL, X, 3, B, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, NULL, 3, B, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, 3, NULL, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, 2, B, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, 3, B, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, 3, B, 3, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, 3, X, 4, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(NULL, X, 3, set, 3, B, 3, set, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, NULL, 3, set, 3, B, 3, set, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, 3, NULL, 3, set, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 2, set, 3, B, 3, set, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, 3, B, 2, set, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, 3, B, 3, set, 3, -1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, -3, B, 3, set, 3, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 8, NULL, 0, B, 3, set, 3, 1, NULL, NULL)); /* ldx < n */
+    assert_true(X[0] == 5 && X[1] == 5 && X[2] == 5);
+    sl_plan_free(P);
+    sl_plan_free(NULL);
+    problem_free(&y);
+}
+
+/* ---- threads ---- */
+
+typedef struct worker_t {
+    const sl_plan *P;
+    const sl_symbolic *S;
+    const sl_factor *F;
+    const question_t *q;
+    int wrong; /* cmocka's asserts may not be used in a thread */
+} worker_t;
+
+static void *work(void *argument) {
+    worker_t *w = (worker_t *)argument;
+    const question_t *q = w->q;
+    size_t nx = (size_t)q->nx, ldb = (size_t)q->nb + 2;
+    double *X = test_reals(nx * (size_t)q->nrhs);
+    sl_work *W = NULL;
+    w->wrong = sl_work_create(&W, NULL) != SL_OK;
+    for (int round = 0; round < 200 && !w->wrong; round++) {
+        memset(X, 0, nx * (size_t)q->nrhs * sizeof *X);
+        sl_status status = round % 2
+                               ? sl_plan_solve(w->P, w->F, X, nx, q->B, ldb, q->nrhs, W)
+                               : sl_local_solve(w->F, X, nx, q->xset, q->nx, q->B, ldb, q->bset, q->nb, q->nrhs, W, NULL);
+        w->wrong = status != SL_OK || first_difference(X, q->wanted, nx * (size_t)q->nrhs) >= 0;
+    }
+    sl_work_free(W);
+    free(X);
+    return NULL;
+}
+
+static void threads_share_a_factor_and_a_plan(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 900, 1, 0, NULL);
+    question_t q[2] = {ask(y.F, 900, 60, 80, 3, 1), ask(y.F, 900, 60, 80, 3, 1)};
+    sl_plan *P = NULL;
+    pthread_t thread[2];
+    worker_t worker[2];
+    SL_CHECK(sl_plan_create(&P, y.S, q[0].bset, 60, q[0].xset, 80, NULL, NULL));
+    gen_reals(q[1].B, 62 * 3, 2); /* the second thread asks something else */
+    SL_CHECK(sl_plan_solve(P, y.F, q[1].wanted, 80, q[1].B, 62, 3, NULL));
+    for (int k = 0; k < 2; k++) {
+        worker_t w = {P, y.S, y.F, &q[k], 0};
+        worker[k] = w;
+        assert_int_equal(pthread_create(&thread[k], NULL, work, &worker[k]), 0);
+    }
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(pthread_join(thread[k], NULL), 0);
+        assert_int_equal(worker[k].wrong, 0);
+    }
+    sl_plan_free(P);
+    forget(&q[0]);
+    forget(&q[1]);
+    problem_free(&y);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(local_equals_full_on_the_zoo),
+        cmocka_unit_test(every_pair_of_rows),
+        cmocka_unit_test(in_place_when_the_sets_allow),
+        cmocka_unit_test(one_plan_serves_many_factors),
+        cmocka_unit_test(companions_do_not_matter),
+        cmocka_unit_test(wrong_sets_are_named),
+        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(threads_share_a_factor_and_a_plan),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,363 @@
+/* test_symbolic.c: orderings, elimination tree, counts, supernodes, rows and panels against dense elimination */
+#include "check.h"
+
+static sl_symbolic *analyse(const sl_csc *A, const sl_options *opt, sl_stats *stats) {
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, A, opt, stats));
+    assert_non_null(S);
+    return S;
+}
+
+/* everything that the analysis promises about one small matrix */
+static void check_all(const sl_csc *A, const sl_options *opt) {
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    sl_symbolic *S = analyse(A, opt, &stats);
+    sl_symbolic_view_t v = sl_symbolic_view(S);
+    sl_int n = A->n_cols, roots = 0, height = 0, *depth = test_ints((size_t)n);
+    sl_off nnz = 0;
+    double flops = 0;
+    assert_int_equal(v.n, n);
+    NOTHING_WRONG(check_permutation(n, v.perm, v.iperm));
+    NOTHING_WRONG(check_supernodes(&v));
+    NOTHING_WRONG(check_postorder(v.n_supers, v.super_parent));
+    NOTHING_WRONG(check_structure(&v, A, opt->relaxation == SL_RELAXATION_NONE));
+    for (sl_int k = n; k-- > 0;) {
+        depth[k] = v.parent[k] < 0 ? 1 : depth[v.parent[k]] + 1;
+        height = depth[k] > height ? depth[k] : height;
+        roots += v.parent[k] < 0;
+        nnz += v.counts[k];
+        flops += (double)v.counts[k] * (double)v.counts[k];
+    }
+    assert_int_equal(stats.n, n);
+    assert_int_equal(stats.nnz_l, nnz);
+    assert_true(stats.flops == flops);
+    assert_int_equal(stats.nnz_panels, v.panel_begin[v.n_supers]);
+    assert_int_equal(stats.supernodes, v.n_supers);
+    assert_true(stats.supernodes_fundamental >= v.n_supers);
+    if (opt->relaxation == SL_RELAXATION_NONE) {
+        assert_int_equal(stats.supernodes_fundamental, v.n_supers);
+    }
+    assert_int_equal(stats.tree_height, height);
+    assert_int_equal(stats.components, roots);
+    assert_true(stats.seconds_order >= 0 && stats.seconds_analyse >= 0);
+    assert_true(stats.bytes_symbolic > 0);
+    assert_int_equal(stats.error_row, -1);
+
+    sl_stats again;
+    memset(&again, 0, sizeof again);
+    again.positive = 77; /* another group: left alone */
+    sl_symbolic_stats(S, &again);
+    assert_int_equal(again.nnz_l, nnz);
+    assert_int_equal(again.nnz_a, stats.nnz_a);
+    assert_int_equal(again.triangle, stats.triangle);
+    assert_int_equal(again.positive, 77);
+    free(depth);
+    sl_symbolic_free(S);
+}
+
+static void the_zoo_in_every_style_and_ordering(void **state) {
+    (void)state;
+    static const sl_int sizes[3] = {3, 17, 60};
+    for (int kind = 0; kind < GEN_KINDS; kind++) {
+        for (int size = 0; size < 3; size++) {
+            gen_list_t t = gen_make((gen_kind_t)kind, sizes[size], 1, 12);
+            sl_int *perm = test_ints((size_t)t.n);
+            gen_permutation(perm, t.n, 3);
+            for (int which = 0; which < GEN_STYLES; which += sizes[size] > 20 ? 5 : 1) {
+                gen_matrix_t M = gen_store(&t, gen_style(which), 4);
+                M.view.x = NULL; /* values are not read */
+                for (int ordering = SL_ORDERING_DEFAULT; ordering <= SL_ORDERING_NATURAL; ordering++) {
+                    for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE; relaxation++) {
+                        sl_options opt = options_none();
+                        opt.ordering = (sl_ordering)ordering;
+                        opt.relaxation = (sl_relaxation)relaxation;
+                        opt.perm = perm;
+                        check_all(&M.view, &opt);
+                    }
+                }
+                gen_matrix_free(&M);
+            }
+            free(perm);
+            gen_list_free(&t);
+        }
+    }
+}
+
+static void many_random_patterns(void **state) {
+    (void)state;
+    uint64_t seed = 2024;
+    for (int round = 0; round < 300; round++) {
+        gen_list_t t = gen_list(1 + gen_below(&seed, 24));
+        gen_edges_random(&t, 20 + gen_below(&seed, 400), &seed);
+        if (round % 3) {
+            gen_dominate(&t, 1, &seed);
+        } /* else: no diagonal is stored */
+        gen_matrix_t M = gen_store(&t, gen_style(round % GEN_STYLES), seed);
+        for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE; relaxation++) {
+            sl_options opt = options_none();
+            opt.ordering = round % 2 ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
+            opt.relaxation = (sl_relaxation)relaxation;
+            check_all(&M.view, &opt);
+        }
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+}
+
+/* Equivalent reorderings are allowed to the library (postorder), others not: the fill is that of the given order. */
+static void a_given_order_is_followed(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    for (int round = 0; round < 60; round++) {
+        gen_matrix_t M = gen_matrix((gen_kind_t)(GEN_PATH + round % 10), 30, 1, (uint64_t)round);
+        sl_int n = M.view.n_cols, *perm = test_ints((size_t)n), *counts = test_ints((size_t)n);
+        sl_int *parent = test_ints((size_t)n);
+        gen_permutation(perm, n, gen_bits(&seed));
+        sl_options opt = options_none();
+        opt.ordering = SL_ORDERING_GIVEN;
+        opt.perm = perm;
+        sl_symbolic *S = analyse(&M.view, &opt, NULL);
+        sl_symbolic_view_t v = sl_symbolic_view(S);
+        char *P = ref_pattern(&M.view), *fill = ref_permute_pattern(n, P, perm);
+        ref_fill(n, fill);
+        ref_counts(n, fill, counts);
+        ref_etree(n, fill, parent);
+        for (sl_int k = 0; k < n; k++) { /* row perm[k] has the same count and the same parent row */
+            sl_int at = v.iperm[perm[k]];
+            assert_int_equal(v.counts[at], counts[k]);
+            assert_int_equal(v.parent[at] < 0 ? -1 : v.perm[v.parent[at]], parent[k] < 0 ? -1 : perm[parent[k]]);
+        }
+        free(P);
+        free(fill);
+        free(perm);
+        free(counts);
+        free(parent);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+static void every_style_gives_the_same_analysis(void **state) {
+    (void)state;
+    gen_list_t t = gen_make(GEN_COMPONENTS, 70, 1, 3);
+    gen_matrix_t first = gen_store(&t, gen_style(0), 1);
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    sl_symbolic *S = analyse(&first.view, NULL, &stats);
+    sl_symbolic_view_t v = sl_symbolic_view(S);
+    for (int which = 1; which < GEN_STYLES; which++) {
+        gen_matrix_t M = gen_store(&t, gen_style(which), 77);
+        sl_stats other;
+        memset(&other, 0, sizeof other);
+        sl_symbolic *T = analyse(&M.view, NULL, &other);
+        sl_symbolic_view_t w = sl_symbolic_view(T);
+        size_t ints = (size_t)v.n * sizeof(sl_int);
+        assert_memory_equal(v.perm, w.perm, ints);
+        assert_memory_equal(v.parent, w.parent, ints);
+        assert_memory_equal(v.counts, w.counts, ints);
+        assert_int_equal(v.n_supers, w.n_supers);
+        assert_memory_equal(v.rows, w.rows, (size_t)v.rows_begin[v.n_supers] * sizeof(sl_int));
+        assert_int_equal(other.triangle, gen_style(which).triangle);
+        if (!gen_style(which).duplicated) {
+            assert_int_equal(other.nnz_a, (sl_off)t.count); /* one triangle, whatever is stored */
+        }
+        sl_symbolic_free(T);
+        gen_matrix_free(&M);
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&first);
+    gen_list_free(&t);
+}
+
+static void relaxation_merges_and_stays_small(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_GRID3, GEN_PATH, GEN_FOREST};
+    for (int k = 0; k < 4; k++) {
+        gen_matrix_t M = gen_matrix(kinds[k], 2500, 1, 9);
+        sl_options opt = options_none();
+        sl_stats relaxed, exact;
+        memset(&relaxed, 0, sizeof relaxed);
+        memset(&exact, 0, sizeof exact);
+        sl_symbolic *S = analyse(&M.view, &opt, &relaxed);
+        opt.relaxation = SL_RELAXATION_NONE;
+        sl_symbolic *T = analyse(&M.view, &opt, &exact);
+        assert_true(relaxed.supernodes < exact.supernodes / 2);
+        assert_int_equal(relaxed.supernodes_fundamental, exact.supernodes);
+        assert_int_equal(relaxed.nnz_l, exact.nnz_l);
+        assert_true(exact.nnz_panels >= exact.nnz_l - exact.n);
+        sl_symbolic_view_t v = sl_symbolic_view(S), w = sl_symbolic_view(T);
+        NOTHING_WRONG(check_supernodes(&v));
+        NOTHING_WRONG(check_supernodes(&w));
+        NOTHING_WRONG(check_postorder(v.n_supers, v.super_parent));
+        NOTHING_WRONG(check_postorder(w.n_supers, w.super_parent));
+        sl_symbolic_free(S);
+        sl_symbolic_free(T);
+        gen_matrix_free(&M);
+    }
+}
+
+static void metis_options_are_handed_on(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 2);
+    sl_options opt = options_none();
+    opt.ordering = SL_ORDERING_METIS;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    sl_symbolic *S = NULL;
+    sl_status status = sl_symbolic_create(&S, &M.view, &opt, &stats);
+    if (status == SL_ERR_UNSUPPORTED) { /* built without METIS */
+        gen_matrix_free(&M);
+        skip();
+    }
+    SL_CHECK(status);
+    /* METIS on a 30 x 30 grid must beat the natural order, whose L has about 30 n entries */
+    assert_true(stats.nnz_l < 15 * (sl_off)stats.n);
+    sl_int metis[40];
+    for (int k = 0; k < 40; k++) {
+        metis[k] = -1; /* all default: the same as none */
+    }
+    opt.metis_options = metis;
+    sl_symbolic *T = analyse(&M.view, &opt, NULL);
+    sl_symbolic_view_t v = sl_symbolic_view(S), w = sl_symbolic_view(T);
+    assert_memory_equal(v.perm, w.perm, (size_t)v.n * sizeof(sl_int));
+    sl_symbolic_free(T);
+    /* some other seed (option 8 of METIS 5): still right, and another order */
+    metis[8] = 4711;
+    T = analyse(&M.view, &opt, NULL);
+    w = sl_symbolic_view(T);
+    NOTHING_WRONG(check_permutation(w.n, w.perm, w.iperm));
+    assert_int_not_equal(memcmp(v.perm, w.perm, (size_t)v.n * sizeof(sl_int)), 0);
+    sl_symbolic_free(T);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+static void wrong_arguments(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 9, 1, 2);
+    const sl_int twice[9] = {0, 1, 2, 3, 4, 5, 6, 7, 0}, big[9] = {0, 1, 2, 9, 4, 5, 6, 7, 8};
+    const sl_int low[9] = {0, -1, 2, 3, 4, 5, 6, 7, 8};
+    sl_symbolic *S = (sl_symbolic *)(void *)&M;
+    sl_options opt = options_none();
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    opt.ordering = SL_ORDERING_GIVEN;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, &stats)); /* no perm */
+    assert_null(S);
+    opt.perm = twice;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, &stats));
+    assert_int_equal(stats.error_row, 8);
+    opt.perm = big;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, &stats));
+    assert_int_equal(stats.error_row, 3);
+    opt.perm = low;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, &stats));
+    assert_int_equal(stats.error_row, 1);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, NULL));
+    opt.ordering = (sl_ordering)17;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(NULL, &M.view, NULL, NULL));
+    sl_csc bad = M.view;
+    bad.n_rows = 10;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &bad, NULL, NULL));
+    bad = M.view;
+    bad.p = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &bad, NULL, NULL));
+    bad = M.view;
+    M.i[3] = 9;
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &M.view, NULL, NULL));
+    M.i[3] = -1;
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &M.view, NULL, NULL));
+    M.p[4] = M.p[9] + 1;
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &M.view, NULL, NULL));
+    assert_null(S);
+    sl_symbolic_free(NULL);
+    gen_matrix_free(&M);
+
+    /* both triangles, one entry without its mirror image: named in the caller's rows */
+    const sl_int p[4] = {0, 2, 3, 3}, i[3] = {1, 2, 0};
+    sl_csc lonely = {3, 3, p, i, NULL};
+    memset(&stats, 0, sizeof stats);
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create(&S, &lonely, NULL, &stats));
+    assert_int_equal(stats.error_row, 2);
+    assert_int_equal(stats.error_column, 0);
+}
+
+/* Arbitrary bytes as positions and indices: a status, never a crash; what is accepted must hold all promises. */
+static void hostile_arrays(void **state) {
+    (void)state;
+    uint64_t seed = 31337;
+    int accepted = 0;
+    for (int round = 0; round < 20000; round++) {
+        sl_int n = gen_below(&seed, 5), p[6], i[12];
+        p[0] = gen_below(&seed, 12) ? 0 : gen_below(&seed, 5) - 2;
+        for (sl_int j = 0; j < n; j++) {
+            sl_int step = gen_below(&seed, 20) ? gen_below(&seed, 3) : gen_below(&seed, 2) ? -2 : INT32_MAX;
+            int64_t next = (int64_t)p[j] + step;
+            p[j + 1] = next > 12 && step != INT32_MAX ? 12 : next > INT32_MAX ? INT32_MAX : (sl_int)next;
+        }
+        if (p[n] > 12) { /* positions beyond the array would be the caller's lie, not a malformed view */
+            p[n] = 12;
+        }
+        for (int k = 0; k < 12; k++) {
+            i[k] = gen_below(&seed, 30) || n == 0 ? (n ? gen_below(&seed, n) : 0) : gen_below(&seed, 3) * n - 1;
+        }
+        sl_csc A = {n, n, p, i, NULL};
+        sl_options opt = options_none();
+        opt.ordering = round % 2 ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
+        sl_symbolic *S = NULL;
+        sl_status status = sl_symbolic_create(&S, &A, &opt, NULL);
+        assert_int_equal(S != NULL, status == SL_OK);
+        if (S) {
+            accepted++;
+            sl_symbolic_free(S);
+            SL_CHECK(sl_csc_check(&A, NULL));
+            check_all(&A, &opt);
+        } else {
+            assert_int_equal(status, SL_ERR_PATTERN);
+        }
+    }
+    assert_true(accepted > 1000 && accepted < 19000);
+}
+
+static void large_graphs_do_not_recurse(void **state) {
+    (void)state;
+    /* a path in natural order is a tree of height n: recursion would need the stack */
+    static const gen_kind_t kinds[3] = {GEN_PATH, GEN_ARROW, GEN_DIAGONAL};
+    for (int k = 0; k < 3; k++) {
+        gen_matrix_t M = gen_matrix(kinds[k], 200000, 1, 1);
+        sl_options opt = options_none();
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        opt.ordering = SL_ORDERING_NATURAL;
+        sl_symbolic *S = analyse(&M.view, &opt, &stats);
+        sl_symbolic_view_t v = sl_symbolic_view(S);
+        NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+        NOTHING_WRONG(check_supernodes(&v));
+        assert_int_equal(stats.tree_height, kinds[k] == GEN_PATH ? 200000 : kinds[k] == GEN_ARROW ? 2 : 1);
+        sl_symbolic_free(S);
+        if (kinds[k] == GEN_DIAGONAL) { /* METIS per component: 200000 of them, each alone */
+            S = analyse(&M.view, NULL, &stats);
+            assert_int_equal(stats.components, 200000);
+            sl_symbolic_free(S);
+        }
+        gen_matrix_free(&M);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_zoo_in_every_style_and_ordering),
+        cmocka_unit_test(many_random_patterns),
+        cmocka_unit_test(a_given_order_is_followed),
+        cmocka_unit_test(every_style_gives_the_same_analysis),
+        cmocka_unit_test(relaxation_merges_and_stays_small),
+        cmocka_unit_test(metis_options_are_handed_on),
+        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(hostile_arrays),
+        cmocka_unit_test(large_graphs_do_not_recurse),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,53 @@
+#!/bin/sh
+# deps.sh: looks for what a target needs and has apt-get install what is missing (make deps)
+#
+#     tools/deps.sh WHAT=PACKAGE ...
+#
+# WHAT is a header (metis.h), a command (g++) or the absolute path of a file (* allowed); PACKAGE is the Debian package
+# that has it.
+# Installs as root, or by sudo where that asks for no password; else prints the one command to run and fails.
+
+# one at a time, where make runs several
+mkdir -p build && exec 9>build/deps.lock
+if command -v flock >/dev/null 2>&1; then flock 9; fi
+
+missing=
+for pair in "$@"; do
+    what=${pair%%=*}
+    case $what in
+    /*) ls $what >/dev/null 2>&1 ;;
+    *.h) echo "#include <$what>" | ${CC:-cc} -E -x c - >/dev/null 2>&1 ;;
+    *) command -v "$what" >/dev/null 2>&1 ;;
+    esac || missing="$missing ${pair#*=}"
+done
+[ -z "$missing" ] && exit 0
+
+if ! command -v apt-get >/dev/null 2>&1; then
+    echo "missing here, by their Debian names:$missing" >&2
+    echo "fix: install them with this system's package manager" >&2
+    exit 1
+fi
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+    if ! sudo -n true 2>/dev/null; then
+        echo "missing:$missing" >&2
+        echo "fix: run: sudo apt-get install$missing" >&2
+        exit 1
+    fi
+    as_root="sudo -n"
+fi
+
+echo "installing:$missing"
+export DEBIAN_FRONTEND=noninteractive
+log=$(mktemp) || exit 1
+trap 'rm -f "$log"' EXIT
+{
+    case $missing in
+    *:arm64*) $as_root dpkg --add-architecture arm64 ;;
+    esac &&
+        $as_root apt-get update &&
+        $as_root apt-get install -y --no-install-recommends $missing
+} >"$log" 2>&1 && exit 0
+tail -n 20 "$log" >&2
+echo "fix: see above, then run: apt-get install$missing" >&2
+exit 1

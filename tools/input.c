@@ -1,0 +1,235 @@
+/* input.c: a whole file in memory, plain or gzipped, a place in it to read words and numbers, and what went wrong */
+#include "input.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zlib.h>
+
+/* Far above every mesh in use; it bounds what a small malicious .gz can unfold to. */
+#define INPUT_LIMIT ((size_t)1 << 31)
+
+bool input_refuse(input *in, const char *format, ...) {
+    if (in->message == NULL || in->message_size == 0) {
+        return false;
+    }
+    int used = in->line > 0 ? snprintf(in->message, in->message_size, "%s:%lld: ", in->path,
+                                       (long long)in->line)
+                            : snprintf(in->message, in->message_size, "%s: ", in->path);
+    if (used >= 0 && (size_t)used < in->message_size) {
+        va_list list;
+        va_start(list, format);
+        (void)vsnprintf(in->message + used, in->message_size - (size_t)used, format, list);
+        va_end(list);
+    }
+    return false;
+}
+
+static bool slurp(input *in, gzFile file) {
+    size_t length = 0;
+    size_t room = 0;
+    for (;;) {
+        if (length + 1 >= room) {
+            room = room == 0 ? 65536 : 2 * room;
+            char *larger = (char *)realloc(in->data, room);
+            if (larger == NULL) {
+                return input_refuse(in, "out of memory");
+            }
+            in->data = larger;
+        }
+        size_t want = room - length - 1;
+        int got =
+            gzread(file, in->data + length, (unsigned)(want < (1u << 30) ? want : (1u << 30)));
+        if (got < 0) {
+            int code = Z_OK;
+            const char *words = gzerror(file, &code);
+            return input_refuse(in, "cannot be read: %s",
+                                code == Z_ERRNO ? "not a readable file" : words);
+        }
+        if (got == 0) {
+            break;
+        }
+        length += (size_t)got;
+        if (length > INPUT_LIMIT) {
+            return input_refuse(in, "more than 2 GiB of content");
+        }
+    }
+    in->data[length] = '\0';
+    in->at = in->data;
+    in->end = in->data + length;
+    return true;
+}
+
+bool input_open(input *in, const char *path, char *message, size_t message_size) {
+    memset(in, 0, sizeof *in);
+    in->path = path != NULL ? path : "(null)";
+    in->message = message;
+    in->message_size = message_size;
+    if (message != NULL && message_size > 0) {
+        message[0] = '\0';
+    }
+    gzFile file = path != NULL ? gzopen(path, "rb") : NULL;
+    if (file == NULL) {
+        return input_refuse(in, "cannot be opened");
+    }
+    (void)gzbuffer(file, 1u << 17);
+    bool ok = slurp(in, file);
+    /* a gzip stream that stops early gives its bytes and tells of it only here */
+    if (gzclose_r(file) != Z_OK && ok) {
+        ok = input_refuse(in, "gzip stream is truncated");
+    }
+    in->line = 1;
+    if (!ok) {
+        input_close(in);
+    }
+    return ok;
+}
+
+void input_close(input *in) {
+    free(in->data);
+    in->data = NULL;
+    in->at = NULL;
+    in->end = NULL;
+}
+
+/* Length of the line end at s: 0 (none), 1 or 2. The content is followed by a zero, so s[1] may be read. */
+static size_t line_end_length(const char *s) {
+    return *s == '\n' ? 1 : *s != '\r' ? 0 : s[1] == '\n' ? 2 : 1;
+}
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+/* Length of a backslash and the line end behind it, where these count as blank; else 0. */
+static size_t joint_length(const input *in) {
+    size_t behind = in->continuation && *in->at == '\\' ? line_end_length(in->at + 1) : 0;
+    return behind > 0 ? 1 + behind : 0;
+}
+
+bool input_at_word_end(const input *in) {
+    return in->at >= in->end || is_blank(*in->at) || line_end_length(in->at) > 0 ||
+           joint_length(in) > 0 || (in->comment != 0 && *in->at == in->comment);
+}
+
+/* Moves to the end of the line, not behind it. */
+static void skip_line(input *in) {
+    while (in->at < in->end && line_end_length(in->at) == 0) {
+        in->at++;
+    }
+}
+
+bool input_more_in_line(input *in) {
+    for (;;) {
+        while (in->at < in->end && is_blank(*in->at)) {
+            in->at++;
+        }
+        if (in->at >= in->end) {
+            return false;
+        }
+        if (in->comment != 0 && *in->at == in->comment) {
+            skip_line(in);
+            return false;
+        }
+        size_t joint = joint_length(in);
+        if (joint == 0) {
+            return line_end_length(in->at) == 0;
+        }
+        in->at += joint;
+        in->line++;
+    }
+}
+
+bool input_next_line(input *in) {
+    skip_line(in);
+    if (in->at >= in->end) {
+        return false;
+    }
+    in->at += line_end_length(in->at);
+    in->line++;
+    return true;
+}
+
+bool input_more(input *in) {
+    while (!input_more_in_line(in)) {
+        if (!input_next_line(in)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool input_number(input *in, double *x) {
+    if (!input_more_in_line(in)) {
+        return false;
+    }
+    char *after = NULL;
+    double value = strtod(in->at, &after);
+    if (after == in->at || after > in->end) {
+        return false;
+    }
+    in->at = after;
+    *x = value;
+    return true;
+}
+
+bool input_integer(input *in, int64_t *k) {
+    if (!input_more_in_line(in)) {
+        return false;
+    }
+    const char *s = in->at;
+    bool negative = *s == '-';
+    s += *s == '-' || *s == '+';
+    if (*s < '0' || *s > '9') {
+        return false;
+    }
+    int64_t value = 0;
+    for (; *s >= '0' && *s <= '9'; s++) {
+        if (value > (INT64_MAX - 9) / 10) {
+            return false;
+        }
+        value = 10 * value + (*s - '0');
+    }
+    in->at = s;
+    *k = negative ? -value : value;
+    return true;
+}
+
+void input_word(input *in, char *word, size_t size) {
+    size_t length = 0;
+    if (input_more_in_line(in)) {
+        for (; !input_at_word_end(in); in->at++) {
+            if (length + 1 < size) {
+                word[length++] = *in->at;
+            }
+        }
+    }
+    word[length] = '\0';
+}
+
+static char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+static bool ends_with(const char *s, size_t length, const char *ending) {
+    size_t tail = strlen(ending);
+    if (length < tail) {
+        return false;
+    }
+    for (size_t k = 0; k < tail; k++) {
+        if (lower(s[length - tail + k]) != ending[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool input_path_ends(const char *path, const char *ending) {
+    size_t length = path != NULL ? strlen(path) : 0;
+    if (length > 0 && ends_with(path, length, ".gz")) {
+        length -= 3;
+    }
+    return length > 0 && ends_with(path, length, ending);
+}

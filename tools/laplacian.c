@@ -1,0 +1,192 @@
+/* laplacian.c: Laplacians and masses of a triangle mesh, and the systems M + t L made of them */
+#include "laplacian.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "patch.h"
+#include "triplets.h"
+
+#define FLATTEST 1.5e-8    /* square root of the double epsilon */
+#define LARGEST_AREA 1e290 /* 2^31 of them still sum to a finite mass */
+#define LARGEST_STEP 1e200 /* times a weight, plus a mass: finite */
+
+/* What one face gives: its area, and the weight of the edge opposite to each corner (half a cotangent). */
+typedef struct face_measure {
+    double area;
+    double weight[3];
+} face_measure;
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Cotangents do not depend on the scale, so all is computed on edges scaled to at most 1: no square of a coordinate
+ * can overflow or vanish. */
+static face_measure measure_face(const mesh *m, const sl_int *face) {
+    face_measure result = {0, {0, 0, 0}};
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
+        return result;
+    }
+    double edge[3][3]; /* edge k runs from corner k+1 to corner k+2: opposite to corner k */
+    double scale = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *from = m->xyz + 3 * (size_t)face[(k + 1) % 3];
+        const double *to = m->xyz + 3 * (size_t)face[(k + 2) % 3];
+        for (int c = 0; c < 3; c++) {
+            edge[k][c] = to[c] - from[c];
+            if (!isfinite(edge[k][c])) {
+                return result;
+            }
+            scale = fmax(scale, fabs(edge[k][c]));
+        }
+    }
+    if (scale == 0) {
+        return result;
+    }
+    double longest = 0;
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < 3; c++) {
+            edge[k][c] /= scale;
+        }
+        longest = fmax(longest, dot(edge[k], edge[k]));
+    }
+    double normal[3] = {edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1],
+                        edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
+                        edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]};
+    double twice_area = sqrt(dot(normal, normal));
+    double area = 0.5 * twice_area * scale * scale;
+    if (!(area <= LARGEST_AREA)) {
+        return result;
+    }
+    result.area = area;
+    if (twice_area > FLATTEST * longest) {
+        for (int k = 0; k < 3; k++) {
+            /* the edges at corner k are edge k+1, that runs to it, and edge k+2, that runs from it */
+            result.weight[k] = -0.5 * dot(edge[(k + 1) % 3], edge[(k + 2) % 3]) / twice_area;
+        }
+    }
+    return result;
+}
+
+static bool faces_in_range(const mesh *m) {
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void laplacian_mass(double *mass, const mesh *m) {
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        mass[v] = 0;
+    }
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const sl_int *face = m->faces + 3 * f;
+        double third = measure_face(m, face).area / 3;
+        for (int k = 0; k < 3; k++) {
+            mass[face[k]] += third;
+        }
+    }
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        mass[v] = mass[v] > 0 ? mass[v] : 1;
+    }
+}
+
+/* diagonal + t L; diagonal (n_vertices) is overwritten on the way. */
+static bool assemble(sl_matrix **out, const mesh *m, double *diagonal, double t) {
+    triplets list = {0, 0, NULL, NULL, NULL};
+    bool ok = triplets_reserve(&list, (size_t)m->n_vertices + 3 * (size_t)m->n_faces);
+    for (size_t f = 0; f < (size_t)m->n_faces && ok; f++) {
+        const sl_int *face = m->faces + 3 * f;
+        face_measure measure = measure_face(m, face);
+        for (int k = 0; k < 3 && ok; k++) {
+            sl_int u = face[(k + 1) % 3];
+            sl_int v = face[(k + 2) % 3];
+            /* u = v only in faces with a repeated vertex, whose weights are 0: the diagonal stays */
+            double weight = t * measure.weight[k];
+            diagonal[u] += weight;
+            diagonal[v] += weight;
+            ok = triplets_add(&list, u > v ? u : v, u > v ? v : u, -weight);
+        }
+    }
+    for (sl_int v = 0; v < m->n_vertices && ok; v++) {
+        ok = triplets_add(&list, v, v, diagonal[v]);
+    }
+    if (!ok) {
+        triplets_free(&list);
+        return false;
+    }
+    return triplets_finish(out, m->n_vertices, m->n_vertices, &list, true) == SL_OK;
+}
+
+static bool assemble_system(sl_matrix **out, const mesh *m, double t, bool with_mass) {
+    *out = NULL;
+    if (!faces_in_range(m)) {
+        return false;
+    }
+    double *diagonal = (double *)calloc((size_t)m->n_vertices + 1, sizeof *diagonal);
+    if (diagonal == NULL) {
+        return false;
+    }
+    if (with_mass) {
+        laplacian_mass(diagonal, m);
+    }
+    bool ok = assemble(out, m, diagonal, t);
+    free(diagonal);
+    return ok;
+}
+
+bool laplacian_cotangent(sl_matrix **out, const mesh *m) {
+    return assemble_system(out, m, 1.0, false);
+}
+
+bool laplacian_system(sl_matrix **out, const mesh *m, double t) {
+    if (!(t >= 0 && t <= LARGEST_STEP)) {
+        *out = NULL;
+        return false;
+    }
+    return assemble_system(out, m, t, true);
+}
+
+bool laplacian_uniform(sl_matrix **out, const mesh *m, double shift) {
+    adjacency a;
+    *out = NULL;
+    if (!adjacency_from_mesh(&a, m)) {
+        return false;
+    }
+    triplets list = {0, 0, NULL, NULL, NULL};
+    bool ok = triplets_reserve(&list, (size_t)a.n + (size_t)(a.begin[a.n] / 2));
+    for (sl_int v = 0; v < a.n && ok; v++) {
+        ok = triplets_add(&list, v, v, (double)(a.begin[v + 1] - a.begin[v]) + shift);
+        for (sl_off p = a.begin[v]; p < a.begin[v + 1] && ok; p++) {
+            ok = a.neighbour[p] < v || triplets_add(&list, a.neighbour[p], v, -1.0);
+        }
+    }
+    sl_int n = a.n;
+    adjacency_free(&a);
+    if (!ok) {
+        triplets_free(&list);
+        return false;
+    }
+    return triplets_finish(out, n, n, &list, true) == SL_OK;
+}
+
+double mesh_mean_edge_length(const mesh *m) {
+    adjacency a;
+    if (!adjacency_from_mesh(&a, m)) {
+        return 0;
+    }
+    double sum = 0;
+    for (sl_int v = 0; v < a.n; v++) {
+        for (sl_off p = a.begin[v]; p < a.begin[v + 1]; p++) {
+            const double *x = m->xyz + 3 * (size_t)v;
+            const double *y = m->xyz + 3 * (size_t)a.neighbour[p];
+            sum += hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]);
+        }
+    }
+    double mean = a.begin[a.n] > 0 ? sum / (double)a.begin[a.n] : 0;
+    adjacency_free(&a);
+    return mean;
+}

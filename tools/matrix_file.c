@@ -1,0 +1,93 @@
+/* matrix_file.c: reads matrices: chooses the format, makes the matrix of what was read */
+#include "matrix_file.h"
+
+#include <string.h>
+
+#include "matrix_read.h"
+
+bool matrix_read_check_size(matrix_read *r, int64_t n_rows, int64_t n_cols) {
+    /* a row takes memory even when it is empty, a digit in the header does not: so the file's length is the limit */
+    int64_t limit = r->in->end - r->in->data;
+    limit = limit < INT32_MAX ? limit : INT32_MAX;
+    if (n_rows < 0 || n_cols < 0 || n_rows > limit || n_cols > limit) {
+        return input_refuse(r->in,
+                            "%lld x %lld is out of range, or too large for a file of this length",
+                            (long long)n_rows, (long long)n_cols);
+    }
+    r->n_rows = n_rows;
+    r->n_cols = n_cols;
+    return true;
+}
+
+/* Replaces a pattern without values by a matrix of ones. */
+static sl_status give_values(sl_matrix **M) {
+    sl_csc A = sl_matrix_view(*M);
+    triplets ones = {0, 0, NULL, NULL, NULL};
+    bool ok = triplets_reserve(&ones, (size_t)A.p[A.n_cols] + 1);
+    for (sl_int j = 0; j < A.n_cols && ok; j++) {
+        for (sl_int p = A.p[j]; p < A.p[j + 1] && ok; p++) {
+            ok = triplets_add(&ones, A.i[p], j, 1.0);
+        }
+    }
+    sl_matrix *made = NULL;
+    sl_status status = ok ? triplets_finish(&made, A.n_rows, A.n_cols, &ones, true) : SL_ERR_MEMORY;
+    triplets_free(&ones);
+    sl_matrix_free(*M);
+    *M = made;
+    return status;
+}
+
+static bool hand_over(sl_matrix **out, input *in, sl_status status) {
+    if (status == SL_OK && sl_matrix_view(*out).x == NULL) {
+        status = give_values(out);
+    }
+    return status == SL_OK || input_refuse(in, "%s", sl_status_string(status));
+}
+
+static bool read_matrix_market(sl_matrix **out, input *in) {
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    sl_status status = sl_matrix_parse(out, in->data, (size_t)(in->end - in->data), NULL, &stats);
+    in->line = status != SL_OK && stats.error_line > 0 ? stats.error_line : 0;
+    return hand_over(out, in, status);
+}
+
+static bool read_triplets(sl_matrix **out, input *in, bool (*read)(matrix_read *r)) {
+    matrix_read r;
+    memset(&r, 0, sizeof r);
+    r.in = in;
+    if (!read(&r)) {
+        triplets_free(&r.entries);
+        return false;
+    }
+    in->line = 0;
+    return hand_over(
+        out, in, triplets_finish(out, (sl_int)r.n_rows, (sl_int)r.n_cols, &r.entries, !r.pattern));
+}
+
+bool matrix_file_read(sl_matrix **out, const char *path, char *message, size_t message_size) {
+    static const struct {
+        const char *ending;
+        bool (*read)(matrix_read *r);
+    } formats[] = {{".rb", matrix_read_rb},
+                   {"_csparse.txt", matrix_read_csparse},
+                   {"_cholmod.txt", matrix_read_cholmod}};
+    *out = NULL;
+    input in;
+    if (!input_open(&in, path, message, message_size)) {
+        return false;
+    }
+    bool known = input_path_ends(path, ".mtx");
+    bool ok = known && read_matrix_market(out, &in);
+    for (size_t k = 0; k < sizeof formats / sizeof formats[0] && !known; k++) {
+        known = input_path_ends(path, formats[k].ending);
+        ok = known && read_triplets(out, &in, formats[k].read);
+    }
+    if (!known) {
+        in.line = 0;
+        (void)input_refuse(
+            &in, "not a name of a matrix (.mtx .rb _csparse.txt _cholmod.txt, or one with .gz)");
+    }
+    input_close(&in);
+    return ok;
+}

@@ -1,0 +1,63 @@
+/* mesh_read_obj.c: reads the vertices and faces of a Wavefront OBJ file */
+#include <string.h>
+
+#include "mesh_build.h"
+
+static bool read_vertex(mesh_build *b) {
+    double x[3];
+    for (int k = 0; k < 3; k++) {
+        if (!input_number(b->in, &x[k]) || !input_at_word_end(b->in)) {
+            return input_refuse(b->in, "v: needs three numbers");
+        }
+    }
+    return mesh_build_vertex(b, x[0], x[1], x[2]);
+}
+
+/* v, v/vt, v//vn or v/vt/vn: only the first number matters, the rest must be of digits, signs and slashes. */
+static bool read_corner(mesh_build *b) {
+    input *in = b->in;
+    int64_t index = 0;
+    if (!input_integer(in, &index) || !(input_at_word_end(in) || *in->at == '/')) {
+        return input_refuse(in, "f: a corner that is not an index");
+    }
+    for (; !input_at_word_end(in); in->at++) {
+        if (strchr("0123456789-/", *in->at) == NULL || *in->at == '\0') {
+            return input_refuse(in, "f: a corner that is not v, v/vt, v//vn or v/vt/vn");
+        }
+    }
+    int64_t vertex = index > 0 ? index - 1 : b->made.n_vertices + index;
+    if (index == 0 || vertex < 0) {
+        return input_refuse(in, "f: index %lld is out of range", (long long)index);
+    }
+    return mesh_build_corner(b, vertex);
+}
+
+static bool read_face(mesh_build *b) {
+    while (input_more_in_line(b->in)) {
+        if (!read_corner(b)) {
+            return false;
+        }
+    }
+    return mesh_build_polygon(b);
+}
+
+bool mesh_read_obj(mesh_build *b) {
+    input *in = b->in;
+    in->comment = '#';
+    in->continuation = true;
+    while (input_more(in)) {
+        char word[4]; /* longer keywords are cut, and still none of the two below */
+        input_word(in, word, sizeof word);
+        if (strcmp(word, "v") == 0 ? !read_vertex(b) : strcmp(word, "f") == 0 && !read_face(b)) {
+            return false;
+        }
+        if (!input_next_line(in)) {
+            break;
+        }
+    }
+    if (b->made.n_vertices == 0) {
+        in->line = 0;
+        return input_refuse(in, "no vertices: not an OBJ mesh");
+    }
+    return true;
+}

@@ -1,0 +1,314 @@
+/* mesh_read_ply.c: reads the vertices and faces of a PLY file: ascii, binary little-endian and big-endian */
+#include <string.h>
+
+#include "mesh_build.h"
+
+#define PLY_MAX_ELEMENTS 32
+#define PLY_MAX_PROPERTIES 256
+
+/* Scalar types; the order is that of type_names and type_bytes. */
+typedef enum ply_type {
+    PLY_INT8,
+    PLY_UINT8,
+    PLY_INT16,
+    PLY_UINT16,
+    PLY_INT32,
+    PLY_UINT32,
+    PLY_FLOAT,
+    PLY_DOUBLE
+} ply_type;
+
+static const char *const type_names[2][8] = {
+    {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
+    {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"},
+};
+static const int type_bytes[8] = {1, 1, 2, 2, 4, 4, 4, 8};
+
+/* What a property is to the mesh: the coordinates are 0, 1, 2. */
+enum { ROLE_NONE = -1, ROLE_CORNERS = 3 };
+
+typedef struct ply_property {
+    bool list;
+    ply_type count_type; /* of a list's count */
+    ply_type type;
+    int role;
+} ply_property;
+
+typedef struct ply_element {
+    char name[16]; /* cut: only "vertex" and "face" matter, and messages */
+    int64_t count;
+    int first; /* properties first .. past-1 */
+    int past;
+} ply_element;
+
+typedef struct ply {
+    mesh_build *b;
+    bool ascii;
+    bool big_endian;
+    int n_elements;
+    int n_properties;
+    ply_element elements[PLY_MAX_ELEMENTS];
+    ply_property properties[PLY_MAX_PROPERTIES];
+} ply;
+
+static bool read_type(input *in, ply_type *type) {
+    char word[16];
+    input_word(in, word, sizeof word);
+    for (int k = 0; k < 8; k++) {
+        if (strcmp(word, type_names[0][k]) == 0 || strcmp(word, type_names[1][k]) == 0) {
+            *type = (ply_type)k;
+            return true;
+        }
+    }
+    return input_refuse(in, "'%s' is not a PLY type", word);
+}
+
+static bool read_format(ply *f) {
+    input *in = f->b->in;
+    char word[24];
+    input_word(in, word, sizeof word);
+    f->ascii = strcmp(word, "ascii") == 0;
+    f->big_endian = strcmp(word, "binary_big_endian") == 0;
+    if (!f->ascii && !f->big_endian && strcmp(word, "binary_little_endian") != 0) {
+        return input_refuse(in, "'%s' is not a PLY format", word);
+    }
+    return true;
+}
+
+static bool read_element(ply *f) {
+    input *in = f->b->in;
+    if (f->n_elements == PLY_MAX_ELEMENTS) {
+        return input_refuse(in, "more than %d elements", PLY_MAX_ELEMENTS);
+    }
+    ply_element *e = &f->elements[f->n_elements++];
+    input_word(in, e->name, sizeof e->name);
+    e->first = f->n_properties;
+    e->past = f->n_properties;
+    if (!input_integer(in, &e->count) || !input_at_word_end(in) || e->count < 0) {
+        return input_refuse(in, "element %s needs a count", e->name);
+    }
+    return true;
+}
+
+static int role_of(const char *element, const char *property, bool list) {
+    if (list) {
+        bool corners =
+            strcmp(property, "vertex_indices") == 0 || strcmp(property, "vertex_index") == 0;
+        return corners && strcmp(element, "face") == 0 ? ROLE_CORNERS : ROLE_NONE;
+    }
+    bool coordinate = property[0] >= 'x' && property[0] <= 'z' && property[1] == '\0';
+    return coordinate && strcmp(element, "vertex") == 0 ? property[0] - 'x' : ROLE_NONE;
+}
+
+static bool read_property(ply *f) {
+    input *in = f->b->in;
+    if (f->n_elements == 0) {
+        return input_refuse(in, "a property before the first element");
+    }
+    if (f->n_properties == PLY_MAX_PROPERTIES) {
+        return input_refuse(in, "more than %d properties", PLY_MAX_PROPERTIES);
+    }
+    ply_element *e = &f->elements[f->n_elements - 1];
+    ply_property *p = &f->properties[f->n_properties++];
+    e->past = f->n_properties;
+    p->count_type = PLY_UINT8;
+    p->list = input_more_in_line(in) && strncmp(in->at, "list", 4) == 0;
+    char word[24];
+    if (p->list) {
+        input_word(in, word, sizeof word);
+        if (!read_type(in, &p->count_type)) {
+            return false;
+        }
+    }
+    if (!read_type(in, &p->type)) {
+        return false;
+    }
+    input_word(in, word, sizeof word);
+    p->role = role_of(e->name, word, p->list);
+    return true;
+}
+
+/* Each of the roles first .. last must be there exactly once. */
+static bool has_roles(const ply *f, const ply_element *e, int first, int last) {
+    for (int role = first; role <= last; role++) {
+        int times = 0;
+        for (int k = e->first; k < e->past; k++) {
+            times += f->properties[k].role == role;
+        }
+        if (times != 1) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_header(const ply *f) {
+    bool vertices = false;
+    for (int k = 0; k < f->n_elements; k++) {
+        const ply_element *e = &f->elements[k];
+        bool vertex = strcmp(e->name, "vertex") == 0;
+        if (vertex && !has_roles(f, e, 0, 2)) {
+            return input_refuse(f->b->in, "element vertex needs x, y and z, each once");
+        }
+        if (strcmp(e->name, "face") == 0 && e->count > 0 &&
+            !has_roles(f, e, ROLE_CORNERS, ROLE_CORNERS)) {
+            return input_refuse(f->b->in, "element face needs one list vertex_indices");
+        }
+        vertices = vertices || vertex;
+    }
+    return vertices || input_refuse(f->b->in, "no element vertex: not a mesh");
+}
+
+/* Leaves the reading place at the first byte of the data. */
+static bool read_header(ply *f) {
+    input *in = f->b->in;
+    char word[16];
+    input_word(in, word, sizeof word);
+    if (strcmp(word, "ply") != 0) {
+        return input_refuse(in, "does not begin with ply: not a PLY mesh");
+    }
+    /* where lines end in a single \r, a \n after the header's last one is already a byte of data */
+    bool single_return = *in->at == '\r' && in->at[1] != '\n';
+    bool formatted = false;
+    while (input_next_line(in)) {
+        input_word(in, word, sizeof word);
+        bool ok = true;
+        if (strcmp(word, "format") == 0) {
+            ok = read_format(f);
+            formatted = true;
+        } else if (strcmp(word, "element") == 0) {
+            ok = read_element(f);
+        } else if (strcmp(word, "property") == 0) {
+            ok = read_property(f);
+        } else if (strcmp(word, "end_header") == 0) {
+            if (single_return && *in->at == '\r') {
+                in->at++;
+            } else {
+                (void)input_next_line(in);
+            }
+            return formatted ? check_header(f) : input_refuse(in, "the header has no format");
+        } else if (word[0] != '\0' && strcmp(word, "comment") != 0 &&
+                   strcmp(word, "obj_info") != 0) {
+            ok = input_refuse(in, "'%s' is no word of a PLY header", word);
+        }
+        if (!ok) {
+            return false;
+        }
+    }
+    return input_refuse(in, "truncated in the header");
+}
+
+/* The bytes of one scalar, most significant first once collected; every PLY type fits a double exactly. */
+static double decode(const ply *f, ply_type type, const char *at) {
+    int bytes = type_bytes[type];
+    uint64_t bits = 0;
+    for (int k = 0; k < bytes; k++) {
+        bits = bits << 8 | (unsigned char)at[f->big_endian ? k : bytes - 1 - k];
+    }
+    uint32_t low = (uint32_t)bits;
+    float single;
+    double result;
+    switch (type) {
+    case PLY_INT8:
+        return (int8_t)low;
+    case PLY_INT16:
+        return (int16_t)low;
+    case PLY_INT32:
+        return (int32_t)low;
+    case PLY_FLOAT:
+        memcpy(&single, &low, sizeof single);
+        return (double)single;
+    case PLY_DOUBLE:
+        memcpy(&result, &bits, sizeof result);
+        return result;
+    default:
+        return (double)low;
+    }
+}
+
+static bool read_scalar(ply *f, ply_type type, double *x) {
+    input *in = f->b->in;
+    if (f->ascii) {
+        return input_more(in) && input_number(in, x) && input_at_word_end(in);
+    }
+    if (in->end - in->at < type_bytes[type]) {
+        return false;
+    }
+    *x = decode(f, type, in->at);
+    in->at += type_bytes[type];
+    return true;
+}
+
+static bool is_index(double x) {
+    return x >= 0 && x <= 4294967295.0 && x == (double)(int64_t)x;
+}
+
+/* A scalar goes to xyz, a list of corners to the polygon at hand, everything else nowhere. */
+static bool read_value(ply *f, const ply_property *p, const char *element, int64_t number,
+                       double xyz[3]) {
+    input *in = f->b->in;
+    double x = 0;
+    double count = 1;
+    if (p->list && (!read_scalar(f, p->count_type, &count) || !is_index(count))) {
+        return input_refuse(in, "%s %lld: truncated, or a list without a count", element,
+                            (long long)number);
+    }
+    for (int64_t k = 0; k < (int64_t)count; k++) {
+        if (!read_scalar(f, p->type, &x)) {
+            return input_refuse(in, "%s %lld: truncated, or not a number", element,
+                                (long long)number);
+        }
+        if (p->role == ROLE_CORNERS) {
+            if (!is_index(x)) {
+                return input_refuse(in, "%s %lld: %g is not the index of a vertex", element,
+                                    (long long)number, x);
+            }
+            if (!mesh_build_corner(f->b, (int64_t)x)) {
+                return false;
+            }
+        } else if (p->role != ROLE_NONE) {
+            xyz[p->role] = x;
+        }
+    }
+    return true;
+}
+
+static bool read_instances(ply *f, const ply_element *e) {
+    bool vertex = strcmp(e->name, "vertex") == 0;
+    bool face = strcmp(e->name, "face") == 0;
+    /* without properties there is nothing to read, however many the header claims */
+    int64_t count = e->past > e->first ? e->count : 0;
+    for (int64_t number = 0; number < count; number++) {
+        double xyz[3] = {0, 0, 0};
+        for (int k = e->first; k < e->past; k++) {
+            if (!read_value(f, &f->properties[k], e->name, number, xyz)) {
+                return false;
+            }
+        }
+        if (vertex && !mesh_build_vertex(f->b, xyz[0], xyz[1], xyz[2])) {
+            return false;
+        }
+        if (face && !mesh_build_polygon(f->b)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool mesh_read_ply(mesh_build *b) {
+    ply f;
+    memset(&f, 0, sizeof f);
+    f.b = b;
+    if (!read_header(&f)) {
+        return false;
+    }
+    if (!f.ascii) {
+        b->in->line = 0;
+    }
+    for (int k = 0; k < f.n_elements; k++) {
+        if (!read_instances(&f, &f.elements[k])) {
+            return false;
+        }
+    }
+    return true;
+}
