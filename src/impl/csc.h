@@ -294,36 +294,40 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     return sli_csc_triangle(A, out, opt, stats);
 }
 
+/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a diagonal matrix. */
+static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y, const double *x) {
+    sl_int j, p;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            const sl_int i = A->i[p];
+            if (sli_is_read(triangle, i, j)) {
+                y[i] += sign * A->x[p] * x[j];
+                if (triangle != SL_TRIANGLE_NONE && i != j) {
+                    y[j] += sign * A->x[p] * x[i];
+                }
+            }
+        }
+    }
+}
+
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy, const double *X, size_t ldx,
                                  sl_int nrhs) {
     sl_triangle triangle;
-    sl_int r, j, p;
+    sl_int r;
     if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
         return SL_ERR_ARGUMENT;
     }
     if (nrhs == 0 || A->n_rows == 0) {
         return SL_OK;
     }
-    if (Y == NULL || (nrhs > 1 && (ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols)) ||
-        (A->n_cols > 0 && X == NULL) || (sli_nnz(A) > 0 && A->x == NULL)) {
+    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols || (A->n_cols > 0 && X == NULL) ||
+        (sli_nnz(A) > 0 && A->x == NULL)) {
         return SL_ERR_ARGUMENT;
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
     for (r = 0; r < nrhs; r++) {
-        const double *x = X + (size_t)r * ldx;
-        double *y = Y + (size_t)r * ldy;
-        memset(y, 0, (size_t)A->n_rows * sizeof(double));
-        for (j = 0; j < A->n_cols; j++) {
-            for (p = A->p[j]; p < A->p[j + 1]; p++) {
-                const sl_int i = A->i[p];
-                if (sli_is_read(triangle, i, j)) {
-                    y[i] += A->x[p] * x[j];
-                    if (triangle != SL_TRIANGLE_NONE && i != j) {
-                        y[j] += A->x[p] * x[i];
-                    }
-                }
-            }
-        }
+        memset(Y + (size_t)r * ldy, 0, (size_t)A->n_rows * sizeof(double));
+        sli_add_product(A, triangle, 1.0, Y + (size_t)r * ldy, X + (size_t)r * ldx);
     }
     return SL_OK;
 }
@@ -362,31 +366,41 @@ static double sli_largest(const double *x, sl_int n) {
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error, const double *X,
                                  size_t ldx, const double *B, size_t ldb, sl_int nrhs) {
     double norm = 0.0;
-    sl_int r, i, n;
-    sl_status status;
+    sl_int r, n;
+    size_t rows;
+    sl_triangle triangle;
     if (A == NULL || A->n_rows != A->n_cols || nrhs < 0) {
         return SL_ERR_ARGUMENT;
     }
     n = A->n_cols;
-    if (nrhs > 0 && n > 0 && (B == NULL || R == NULL || (nrhs > 1 && ldb < (size_t)n) || (sli_nnz(A) > 0 && A->x == NULL))) {
+    rows = (size_t)n;
+    if (nrhs == 0 || n == 0) {
+        for (r = 0; r < nrhs && backward_error != NULL; r++) {
+            backward_error[r] = 0.0;
+        }
+        return SL_OK;
+    }
+    if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
+        (sli_nnz(A) > 0 && A->x == NULL) || (backward_error != NULL && R == B)) {
         return SL_ERR_ARGUMENT;
     }
-    if (nrhs > 0 && n > 0 && backward_error != NULL) {
+    triangle = sli_triangle_scan(A);
+    if (backward_error != NULL) {
         norm = sli_csc_norm(A, R);
     }
-    status = sl_csc_multiply(A, SL_AS_SYMMETRIC, R, ldr, X, ldx, nrhs);
-    for (r = 0; r < nrhs && status == SL_OK; r++) {
-        const double *x = n > 0 ? X + (size_t)r * ldx : NULL, *b = n > 0 ? B + (size_t)r * ldb : NULL;
-        double *res = n > 0 ? R + (size_t)r * ldr : NULL, largest;
-        for (i = 0; i < n; i++) {
-            res[i] = b[i] - res[i];
+    for (r = 0; r < nrhs; r++) {
+        const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
+        double *res = R + (size_t)r * ldr, largest;
+        if (res != b) {
+            memcpy(res, b, rows * sizeof(double));
         }
+        sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
             largest = sli_largest(res, n);
             backward_error[r] = largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
         }
     }
-    return status;
+    return SL_OK;
 }
 
 #endif

@@ -42,6 +42,32 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
     G->begin[0] = 0;
 }
 
+/* Whether every list of neighbours ascends, as it does when the rows of A do. */
+SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
+    sl_int v;
+    sl_off e;
+    for (v = 0; v < G->n; v++) {
+        for (e = G->begin[v] + 1; e < G->begin[v + 1]; e++) {
+            if (G->to[e - 1] > G->to[e]) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Sorts every list into `to`: a symmetric graph handed out vertex by vertex arrives sorted. at: n of scratch. */
+SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
+    sl_int v;
+    sl_off e;
+    memcpy(at, G->begin, (size_t)G->n * sizeof(sl_off));
+    for (v = 0; v < G->n; v++) {
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            to[at[G->to[e]]++] = v;
+        }
+    }
+}
+
 /* Counts to starting positions. */
 static void sli_half_starts(sli_half *h, sl_int n) {
     sl_int k, total = 0;

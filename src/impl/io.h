@@ -98,8 +98,20 @@ static int sli_token_is(const char *token, const char *word) {
     return *token == *word;
 }
 
-/* "%%MatrixMarket matrix coordinate <field> <symmetry>" */
+/* Whether the word is one of a list that ends in NULL. */
+static int sli_token_in(const char *token, const char *const *words) {
+    while (*words != NULL && !sli_token_is(token, *words)) {
+        words++;
+    }
+    return *words != NULL;
+}
+
+/* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library does not read is told
+ * apart from what is no such file. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
+    static const char *const formats[] = {"coordinate", "array", NULL};
+    static const char *const fields[] = {"real", "integer", "pattern", "complex", NULL};
+    static const char *const symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
@@ -111,12 +123,13 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
             return SL_ERR_IO;
         }
     }
-    if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix")) {
+    if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
+        !sli_token_in(token[2], formats) || !sli_token_in(token[3], fields) || !sli_token_in(token[4], symmetries)) {
         return SL_ERR_IO;
     }
-    *has_values = sli_token_is(token[3], "real") || sli_token_is(token[3], "integer");
+    *has_values = !sli_token_is(token[3], "pattern");
     *symmetric = sli_token_is(token[4], "symmetric");
-    return sli_token_is(token[2], "coordinate") && (*has_values || sli_token_is(token[3], "pattern")) &&
+    return sli_token_is(token[2], "coordinate") && !sli_token_is(token[3], "complex") &&
                    (*symmetric || sli_token_is(token[4], "general"))
                ? SL_OK
                : SL_ERR_UNSUPPORTED;
@@ -207,7 +220,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
     r.line = 0;
     status = sli_parse(out, &r, &a);
     if (status != SL_OK && stats != NULL) {
-        stats->error_line = r.line;
+        stats->error_line = r.line > 0 ? r.line : 1;
     }
     errno = saved;
     return status;
@@ -272,7 +285,7 @@ static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *
     if (value == NULL) {
         return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
     }
-    sprintf(number, "%.17g", *value);
+    snprintf(number, sizeof number, "%.17g", *value);
     point = strchr(number, *localeconv()->decimal_point);
     if (point != NULL) {
         *point = '.';
@@ -306,17 +319,18 @@ static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangl
 
 SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
     const int saved = errno;
-    sl_status status = sl_csc_check(A, NULL);
+    sl_triangle triangle = SL_TRIANGLE_NONE;
+    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL) : sl_csc_check(A, NULL);
     FILE *file;
     int ok;
     if (status != SL_OK) {
         return status;
     }
-    if (path == NULL || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+    if (path == NULL) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "wb");
-    ok = file != NULL && sli_write(file, A, reading, reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE);
+    ok = file != NULL && sli_write(file, A, reading, triangle);
     if (file != NULL) {
         ok = fclose(file) == 0 && ok;
     }

@@ -63,6 +63,30 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
     return status;
 }
 
+/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is stored. */
+static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
+    const sl_off edges = G->begin[G->n];
+    sli_block b = {NULL, 0, 0};
+    sl_int *to = NULL;
+    sl_off *at = NULL;
+    sl_status status = SL_OK;
+    int pass;
+    if (sli_graph_is_sorted(G)) {
+        return SL_OK;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        to = SLI_TAKE(&b, sl_int, edges);
+        at = SLI_TAKE(&b, sl_off, G->n);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_graph_sort(G, to, at);
+        memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+        sli_free(a, b.base);
+    }
+    return status;
+}
+
 static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm,
                                       sl_int *local, const sl_allocator *a) {
     sli_graph G;
@@ -78,7 +102,10 @@ static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, con
     }
     if (status == SL_OK) {
         sli_graph_fill(&G, A, triangle);
-        status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, local, a);
+        status = sli_order_canonical(&G, a);
+        if (status == SL_OK) {
+            status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, local, a);
+        }
         sli_free(a, b.base);
     }
     return status;

@@ -240,8 +240,8 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
             continue; /* the reaches would run over the end: nothing is written yet */
         }
         sli_query_fill(&q, S, bset, xset);
-        vectors = nrhs > 0 ? sli_vectors_bytes(&q, nrhs) : 1;
-        if (vectors == 0 || vectors > SIZE_MAX - bytes) {
+        vectors = nrhs > 0 ? sli_vectors_bytes(&q, nrhs) : 0;
+        if (vectors > SIZE_MAX - bytes) {
             return SL_ERR_TOO_LARGE;
         }
         if (bytes + vectors <= W->size) {
@@ -282,7 +282,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
     if (!F->is_good) {
         return SL_ERR_STATE;
     }
-    own.allocator = sli_allocator(NULL);
+    own.allocator = F->allocator;
     own.block = NULL;
     own.size = 0;
     status = sli_local(F, X, ldx, &b, &x, B, ldb, nrhs, W == NULL ? &own : W, stats);

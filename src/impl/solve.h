@@ -24,8 +24,8 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
 
 /* Room for the blocks of a query. */
 static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-    const size_t bytes = nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 1;
-    return bytes == 0 ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+    const size_t bytes = nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0;
+    return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
 }
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {

@@ -46,14 +46,14 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 
-/* Bytes for any block of up to nrhs right-hand sides; 0 if they cannot be counted. One lane keeps partial sums that
+/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One lane keeps partial sums that
  * more lanes do not need, so both ends are looked at. */
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
     sli_block one = {NULL, 0, 0}, many = {NULL, 0, 0};
     sli_vectors v;
     sli_vectors_layout(&v, &one, q, 1);
     sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
-    return one.overflow || many.overflow ? 0 : one.used > many.used ? one.used : many.used;
+    return one.overflow || many.overflow ? SIZE_MAX : one.used > many.used ? one.used : many.used;
 }
 
 /* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of columns: moving rows in
@@ -154,8 +154,8 @@ static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, size_t 
 /* What every solve asks of its dense arguments. */
 static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B, size_t ldb, sl_int nb,
                                  sl_int nrhs) {
-    const int bad_x = nx > 0 && (X == NULL || (nrhs > 1 && ldx < (size_t)nx));
-    const int bad_b = nb > 0 && (B == NULL || (nrhs > 1 && ldb < (size_t)nb));
+    const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)nx);
+    const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)nb);
     return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b)) ? SL_ERR_ARGUMENT : SL_OK;
 }
 
@@ -168,12 +168,12 @@ static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, s
     if (nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
-    own.allocator = sli_allocator(NULL);
+    own.allocator = F->allocator;
     own.block = NULL;
     own.size = 0;
     W = W == NULL ? &own : W;
     bytes = sli_vectors_bytes(q, nrhs);
-    status = bytes == 0 ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+    status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
     if (status == SL_OK) {
         sli_sweep(F, q, X, ldx, B, ldb, nrhs, W->block);
     }

@@ -89,7 +89,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
- *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; must not overlap X or B.
+ *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; without backward_error it may be B itself
+ *                         (then ldr = ldb).
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
  *                         0 where r = 0, NaN where r has one; may be NULL.
@@ -101,7 +102,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_IO.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or unsymmetric where symmetry is claimed; SL_ERR_IO;
+ *           SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 

@@ -87,7 +87,7 @@ typedef struct sl_options {
     sl_relaxation relaxation;
     sl_isa isa;
     double null_tolerance;  /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
-                               it); 0: 64 epsilon; negative: only an exact zero is null */
+                               it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
 } sl_options;
 
