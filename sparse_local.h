@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: a79c91015c129cb9
+ * FNV-1a of all that follows this comment, license aside: da8e19428f8d7495
  *
  * Contents
  *         (what a user reads)
@@ -49,10 +49,10 @@
  *   6351  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
  *   6570  impl/work.h                the workspace: one block of a thread's scratch that only grows
  *   6626  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   6808  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   6848  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6809  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   6849  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7141  impl/leave.h               takes every internal macro away again
+ *   7142  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4800,9 +4800,9 @@ static int sli_token_in(const char *token, const char *const *words) {
 /* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library does not read is told
  * apart from what is no such file. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
-    static const char *const formats[] = {"coordinate", "array", NULL};
-    static const char *const fields[] = {"real", "integer", "pattern", "complex", NULL};
-    static const char *const symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
+    static const char *const sli_formats[] = {"coordinate", "array", NULL};
+    static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
+    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
@@ -4815,7 +4815,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
         }
     }
     if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
-        !sli_token_in(token[2], formats) || !sli_token_in(token[3], fields) || !sli_token_in(token[4], symmetries)) {
+        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) || !sli_token_in(token[4], sli_symmetries)) {
         return SL_ERR_IO;
     }
     *has_values = !sli_token_is(token[3], "pattern");
@@ -6778,7 +6778,8 @@ static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const d
                                  sl_int nrhs) {
     const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)nx);
     const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)nb);
-    return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b)) ? SL_ERR_ARGUMENT : SL_OK;
+    const int torn = X == B && ldx != ldb && nx > 0 && nb > 0; /* in place, yet column upon other column */
+    return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || torn)) ? SL_ERR_ARGUMENT : SL_OK;
 }
 
 /* A query answered in the caller's workspace, or in one of this call's own. */

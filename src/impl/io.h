@@ -109,9 +109,9 @@ static int sli_token_in(const char *token, const char *const *words) {
 /* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library does not read is told
  * apart from what is no such file. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
-    static const char *const formats[] = {"coordinate", "array", NULL};
-    static const char *const fields[] = {"real", "integer", "pattern", "complex", NULL};
-    static const char *const symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
+    static const char *const sli_formats[] = {"coordinate", "array", NULL};
+    static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
+    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
@@ -124,7 +124,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
         }
     }
     if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
-        !sli_token_in(token[2], formats) || !sli_token_in(token[3], fields) || !sli_token_in(token[4], symmetries)) {
+        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) || !sli_token_in(token[4], sli_symmetries)) {
         return SL_ERR_IO;
     }
     *has_values = !sli_token_is(token[3], "pattern");

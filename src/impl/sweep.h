@@ -156,7 +156,8 @@ static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const d
                                  sl_int nrhs) {
     const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)nx);
     const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)nb);
-    return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b)) ? SL_ERR_ARGUMENT : SL_OK;
+    const int torn = X == B && ldx != ldb && nx > 0 && nb > 0; /* in place, yet column upon other column */
+    return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || torn)) ? SL_ERR_ARGUMENT : SL_OK;
 }
 
 /* A query answered in the caller's workspace, or in one of this call's own. */
