@@ -1,58 +1,59 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: da8e19428f8d7495
+ * FNV-1a of all that follows this comment, license aside: 0507910d75a64374
  *
  * Contents
  *         (what a user reads)
- *     60  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    104  public/config.h            what a user may set before including the header, the version, and the integer types
- *    150  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    294  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    404  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    463  public/factor.h            the numbers: P A P' = L D L'
- *    527  public/solve.h             full solves, and the workspace that every solve writes to
- *    568  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     61  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    105  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    151  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    295  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    405  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    464  public/factor.h            the numbers: P A P' = L D L'
+ *    528  public/solve.h             full solves, and the workspace that every solve writes to
+ *    569  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    640  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    706  impl/status.h              status codes in words, and the error fields of stats
- *    750  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    845  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    903  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    641  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    707  impl/status.h              status codes in words, and the error fields of stats
+ *    751  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    846  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    904  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    940  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1033  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1102  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1615  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1663  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1836  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1854  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2626  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3386  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4187  impl/select.h              the kernel table for an instruction set
+ *    941  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1034  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1103  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1616  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1664  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1837  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1861  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2281  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2650  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3426  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4235  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4219  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4623  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   4693  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4267  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4671  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   4741  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5035  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5072  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5201  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5281  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5419  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5501  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5569  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   5721  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   5797  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6067  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5083  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5120  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5249  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5329  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5467  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5549  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5617  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   5769  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   5845  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6115  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6202  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6351  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6570  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   6626  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   6809  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   6849  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6250  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6399  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   6618  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   6674  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   6857  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   6897  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7142  impl/leave.h               takes every internal macro away again
+ *   7190  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1005,10 +1006,10 @@ typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const s
 typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows, const double *D,
                                double *x_super, double *x, double *scratch, double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for a
- * single lane the 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for one
+ * or two lanes 8 partial sums of every column. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes == 1 ? (size_t)SLI_TILE * (size_t)width : 0);
+    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
 }
 
 /* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves from the last down. */
@@ -1068,7 +1069,7 @@ typedef struct sli_kernels {
         } \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
-
+/* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2
 #define SLW_ROWS 4
@@ -1847,6 +1848,12 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_DOT
 #undef SLV_SUM
 #undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_TWICE_LOW
+#undef SLV_TWICE_HIGH
+#undef SLV_TWICE_AT
+#undef SLV_PAIR
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -1882,171 +1889,12 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
                          a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
 #define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)), \
                                 _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
-
-#define SLW_NAME(f) sli_##f##2_avx2
-#define SLW_LANES 2
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) __m128d a;
-#define SLW_ZERO(a) a = _mm_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
-#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
-/* begin src/impl/lanes.inl.h */
-/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
-
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
-#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
-#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
-    }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
-    }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
-    }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
-
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
-    for (; count > 0; count--, s++) {
-        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
-        ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
-        for (row = first; row < height; row += SLW_ROWS) {
-            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
-            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
-            SLW_EACH(SLI_DECLARE, 0)
-            SLW_DECLARE(b)
-            SLW_EACH(SLI_LOAD, p)
-            for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_EACH(SLI_APPLY, l)
-            }
-            SLW_EACH(SLI_COLUMN, 0)
-            SLW_EACH(SLI_STORE, p)
-            if (lane + SLW_ROWS == SLI_TILE) {
-                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-            }
-        }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
-    }
-}
-
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
-        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
-        ptrdiff_t row;
-        sl_int i, j;
-        SLW_DECLARE(b)
-        SLW_DECLARE(c)
-        rows_end -= s->below;
-        for (i = first; i < w; i++) {
-            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
-            SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
-        }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
-        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
-            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
-            const double *l;
-            SLW_EACH(SLI_DECLARE, 0)
-            if (lane + SLW_ROWS == SLI_TILE) {
-                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-            }
-            SLW_EACH(SLI_LOAD, p)
-            if (inner > 0) {
-                l = tile + SLI_TILE * row + lane;
-                SLW_HIGH(SLI_ROW, 0)
-                SLW_LOW(SLI_ROW, 0)
-                SLW_EACH(SLI_STORE, p)
-            }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
-            for (j = final - 1; j >= first; j--) {
-                l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_ZERO(c)
-                SLW_HIGH(SLI_GATHER, l)
-                SLW_LOW(SLI_GATHER2, l)
-                SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
-            }
-        }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
-    }
-}
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_APPLY
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
-#undef SLW_NAME
-#undef SLW_LANES
-#undef SLW_ROWS
-#undef SLW_EACH
-#undef SLW_EACH_AGAIN
-#undef SLW_HIGH
-#undef SLW_LOW
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_ADD
-#undef SLW_FNMA
-#undef SLW_DIVIDE
-/* end src/impl/lanes.inl.h */
+#define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLV_FNMA(a, b, c) a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_TWICE_AT(e, l) { const __m256d l_ = _mm256_load_pd(l); e##_0 = _mm256_permute4x64_pd(l_, 0x50); e##_1 = _mm256_permute4x64_pd(l_, 0xfa); }
+#define SLV_TWICE_LOW(e, l) SLV_TWICE_AT(e, l)
+#define SLV_TWICE_HIGH(e, l) SLV_TWICE_AT(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_LANES 4
@@ -2430,6 +2278,176 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 #undef SLI_XT
 /* end src/impl/tile.inl.h */
 
+/* begin src/impl/pairs.inl.h */
+/* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
+
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
+ * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+#define SLI_PAIR_AXPY(e, l, p)                                                                     \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_PAIR(b, p)                                                                                 \
+    SLV_FNMA(e##0, t0, b)                                                                          \
+    SLV_FNMA(e##1, t1, b)
+
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+#define SLI_PAIR_TILE(solve, l, p)                                                                 \
+    {                                                                                              \
+        double r[2][SLI_TILE];                                                                     \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            r[0][k] = (p)[2 * k];                                                                  \
+            r[1][k] = (p)[2 * k + 1];                                                              \
+        }                                                                                          \
+        solve((l), r[0]);                                                                          \
+        solve((l), r[1]);                                                                          \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            (p)[2 * k] = r[0][k];                                                                  \
+            (p)[2 * k + 1] = r[1][k];                                                              \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
+                                            const double *L, double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const size_t columns = 2 * (size_t)(w - first);
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + 2 * (ptrdiff_t)s->base;
+        sl_int row, i, j, k;
+        memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
+        memset(buf + 2 * (ptrdiff_t)w, 0,
+               2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
+        for (row = first; row < height; row += SLI_TILE) {
+            const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first;
+            double *p = buf + 2 * (ptrdiff_t)row;
+            SLV_DECLARE(e0)
+            SLV_DECLARE(e1)
+            SLV_DECLARE(f0)
+            SLV_DECLARE(f1)
+            SLV_DECLARE(t0)
+            SLV_DECLARE(t1)
+            SLV_DECLARE(b)
+            SLV_LOAD(e0, p)
+            SLV_LOAD(e1, p + SLI_TILE)
+            SLV_ZERO(f0)
+            SLV_ZERO(f1)
+            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+                SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
+            }
+            if (j < final) {
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+            }
+            SLV_ADD(e0, f0)
+            SLV_ADD(e1, f1)
+            SLV_STORE(p, e0)
+            SLV_STORE(p + SLI_TILE, e1)
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
+            } else {
+                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                    SLI_PAIR_AXPY(e, l, p + 2 * k)
+                    SLV_STORE(p, e0)
+                    SLV_STORE(p + SLI_TILE, e1)
+                }
+            }
+            tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+        }
+        memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + 2 * (ptrdiff_t)rows[i];
+            to[0] += buf[2 * (ptrdiff_t)(w + i)];
+            to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
+        }
+        rows += s->below;
+    }
+}
+
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+#define SLI_PAIR_DOT(a, l)                                                                         \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_FNMA(a, t0, v0)                                                                            \
+    SLV_FNMA(a, t1, v1)
+
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                             const double *L, const double *D, double *x,
+                                             double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
+        sl_int row, i, j, k;
+        SLV_DECLARE(a)
+        SLV_DECLARE(v0)
+        SLV_DECLARE(v1)
+        SLV_DECLARE(t0)
+        SLV_DECLARE(t1)
+        SLV_ZERO(a)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+            buf[2 * i] = buf[2 * i + 1] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
+            buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
+        }
+        memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
+        for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            double *p = buf + 2 * (ptrdiff_t)row;
+            const double *l;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            SLV_LOAD(v0, p) /* 0 on the columns: only rows below count here */
+            SLV_LOAD(v1, p + SLI_TILE)
+            for (k = 0; k < inner; k++) {
+                double part[SLI_TILE];
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
+                if (inner < SLI_TILE) {
+                    SLI_PAIR_DOT(a, l + SLI_TILE * k)
+                }
+                SLV_STORE_ANY(part, a)
+                for (j = 0; j < 2; j++) {
+                    p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
+                                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+                }
+            }
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        const double lkj = l[SLI_TILE * j + k];
+                        p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
+                        p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
+                    }
+                }
+            }
+            SLV_LOAD(v0, p)
+            SLV_LOAD(v1, p + SLI_TILE)
+            l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+            for (j = sli_min(row, w) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+                l -= SLI_TILE;
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+                SLI_PAIR_DOT(a, l)
+                SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+            }
+        }
+        memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
+               2 * (size_t)(w - first) * sizeof(double));
+    }
+}
+
+#undef SLI_PAIR_AXPY
+#undef SLI_PAIR_TILE
+#undef SLI_PAIR_DOT
+/* end src/impl/pairs.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -2617,6 +2635,12 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_DOT
 #undef SLV_SUM
 #undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_TWICE_LOW
+#undef SLV_TWICE_HIGH
+#undef SLV_TWICE_AT
+#undef SLV_PAIR
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -2645,171 +2669,11 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_HALVES(a) \
     _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0), _mm512_maskz_extractf64x4_pd(0xff, a, 1))
 #define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
-
-#define SLW_NAME(f) sli_##f##2_avx512
-#define SLW_LANES 2
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) __m128d a;
-#define SLW_ZERO(a) a = _mm_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
-#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
-/* begin src/impl/lanes.inl.h */
-/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
-
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
-#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
-#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
-    }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
-    }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
-    }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
-
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
-    for (; count > 0; count--, s++) {
-        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
-        ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
-        for (row = first; row < height; row += SLW_ROWS) {
-            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
-            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
-            SLW_EACH(SLI_DECLARE, 0)
-            SLW_DECLARE(b)
-            SLW_EACH(SLI_LOAD, p)
-            for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_EACH(SLI_APPLY, l)
-            }
-            SLW_EACH(SLI_COLUMN, 0)
-            SLW_EACH(SLI_STORE, p)
-            if (lane + SLW_ROWS == SLI_TILE) {
-                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-            }
-        }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
-    }
-}
-
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
-        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
-        ptrdiff_t row;
-        sl_int i, j;
-        SLW_DECLARE(b)
-        SLW_DECLARE(c)
-        rows_end -= s->below;
-        for (i = first; i < w; i++) {
-            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
-            SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
-        }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
-        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
-            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
-            const double *l;
-            SLW_EACH(SLI_DECLARE, 0)
-            if (lane + SLW_ROWS == SLI_TILE) {
-                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-            }
-            SLW_EACH(SLI_LOAD, p)
-            if (inner > 0) {
-                l = tile + SLI_TILE * row + lane;
-                SLW_HIGH(SLI_ROW, 0)
-                SLW_LOW(SLI_ROW, 0)
-                SLW_EACH(SLI_STORE, p)
-            }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
-            for (j = final - 1; j >= first; j--) {
-                l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_ZERO(c)
-                SLW_HIGH(SLI_GATHER, l)
-                SLW_LOW(SLI_GATHER2, l)
-                SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
-            }
-        }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
-    }
-}
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_APPLY
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
-#undef SLW_NAME
-#undef SLW_LANES
-#undef SLW_ROWS
-#undef SLW_EACH
-#undef SLW_EACH_AGAIN
-#undef SLW_HIGH
-#undef SLW_LOW
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_ADD
-#undef SLW_FNMA
-#undef SLW_DIVIDE
-/* end src/impl/lanes.inl.h */
+#define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
+#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_TWICE_LOW(e, l) e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), _mm512_load_pd(l));
+#define SLV_TWICE_HIGH(e, l) e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), _mm512_load_pd(l));
+#define SLV_PAIR(b, p) b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
 #define SLW_NAME(f) sli_##f##4_avx512
 #define SLW_LANES 4
@@ -3189,6 +3053,176 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 #undef SLI_XT
 /* end src/impl/tile.inl.h */
 
+/* begin src/impl/pairs.inl.h */
+/* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
+
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
+ * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+#define SLI_PAIR_AXPY(e, l, p)                                                                     \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_PAIR(b, p)                                                                                 \
+    SLV_FNMA(e##0, t0, b)                                                                          \
+    SLV_FNMA(e##1, t1, b)
+
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+#define SLI_PAIR_TILE(solve, l, p)                                                                 \
+    {                                                                                              \
+        double r[2][SLI_TILE];                                                                     \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            r[0][k] = (p)[2 * k];                                                                  \
+            r[1][k] = (p)[2 * k + 1];                                                              \
+        }                                                                                          \
+        solve((l), r[0]);                                                                          \
+        solve((l), r[1]);                                                                          \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            (p)[2 * k] = r[0][k];                                                                  \
+            (p)[2 * k + 1] = r[1][k];                                                              \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
+                                            const double *L, double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const size_t columns = 2 * (size_t)(w - first);
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + 2 * (ptrdiff_t)s->base;
+        sl_int row, i, j, k;
+        memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
+        memset(buf + 2 * (ptrdiff_t)w, 0,
+               2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
+        for (row = first; row < height; row += SLI_TILE) {
+            const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first;
+            double *p = buf + 2 * (ptrdiff_t)row;
+            SLV_DECLARE(e0)
+            SLV_DECLARE(e1)
+            SLV_DECLARE(f0)
+            SLV_DECLARE(f1)
+            SLV_DECLARE(t0)
+            SLV_DECLARE(t1)
+            SLV_DECLARE(b)
+            SLV_LOAD(e0, p)
+            SLV_LOAD(e1, p + SLI_TILE)
+            SLV_ZERO(f0)
+            SLV_ZERO(f1)
+            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+                SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
+            }
+            if (j < final) {
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+            }
+            SLV_ADD(e0, f0)
+            SLV_ADD(e1, f1)
+            SLV_STORE(p, e0)
+            SLV_STORE(p + SLI_TILE, e1)
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
+            } else {
+                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                    SLI_PAIR_AXPY(e, l, p + 2 * k)
+                    SLV_STORE(p, e0)
+                    SLV_STORE(p + SLI_TILE, e1)
+                }
+            }
+            tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+        }
+        memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + 2 * (ptrdiff_t)rows[i];
+            to[0] += buf[2 * (ptrdiff_t)(w + i)];
+            to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
+        }
+        rows += s->below;
+    }
+}
+
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+#define SLI_PAIR_DOT(a, l)                                                                         \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_FNMA(a, t0, v0)                                                                            \
+    SLV_FNMA(a, t1, v1)
+
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                             const double *L, const double *D, double *x,
+                                             double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
+        sl_int row, i, j, k;
+        SLV_DECLARE(a)
+        SLV_DECLARE(v0)
+        SLV_DECLARE(v1)
+        SLV_DECLARE(t0)
+        SLV_DECLARE(t1)
+        SLV_ZERO(a)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+            buf[2 * i] = buf[2 * i + 1] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
+            buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
+        }
+        memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
+        for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            double *p = buf + 2 * (ptrdiff_t)row;
+            const double *l;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            SLV_LOAD(v0, p) /* 0 on the columns: only rows below count here */
+            SLV_LOAD(v1, p + SLI_TILE)
+            for (k = 0; k < inner; k++) {
+                double part[SLI_TILE];
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
+                if (inner < SLI_TILE) {
+                    SLI_PAIR_DOT(a, l + SLI_TILE * k)
+                }
+                SLV_STORE_ANY(part, a)
+                for (j = 0; j < 2; j++) {
+                    p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
+                                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+                }
+            }
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        const double lkj = l[SLI_TILE * j + k];
+                        p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
+                        p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
+                    }
+                }
+            }
+            SLV_LOAD(v0, p)
+            SLV_LOAD(v1, p + SLI_TILE)
+            l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+            for (j = sli_min(row, w) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+                l -= SLI_TILE;
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+                SLI_PAIR_DOT(a, l)
+                SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+            }
+        }
+        memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
+               2 * (size_t)(w - first) * sizeof(double));
+    }
+}
+
+#undef SLI_PAIR_AXPY
+#undef SLI_PAIR_TILE
+#undef SLI_PAIR_DOT
+/* end src/impl/pairs.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -3376,6 +3410,12 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_DOT
 #undef SLV_SUM
 #undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_TWICE_LOW
+#undef SLV_TWICE_HIGH
+#undef SLV_TWICE_AT
+#undef SLV_PAIR
 /* end src/impl/words_end.inl.h */
 #undef SLV_HALVES
 
@@ -3415,179 +3455,11 @@ static const sli_kernels SLV_NAME(kernels) = {
     a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
     a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
 #define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
-
-#define SLW_NAME(f) sli_##f##2_neon
-#define SLW_LANES 2
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) float64x2_t a##_0;
-#define SLW_ZERO(a) a##_0 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0);
-#define SLW_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0);
-#define SLW_FNMA(a, s, b) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-    }
-#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0);
-#define SLW_DIVIDE(a, s) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vdivq_f64(a##_0, s_); \
-    }
-/* begin src/impl/lanes.inl.h */
-/* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
-
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
-#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
-#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
-    }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
-    }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
-    }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
-
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
-    for (; count > 0; count--, s++) {
-        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
-        ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
-        for (row = first; row < height; row += SLW_ROWS) {
-            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
-            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
-            SLW_EACH(SLI_DECLARE, 0)
-            SLW_DECLARE(b)
-            SLW_EACH(SLI_LOAD, p)
-            for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_EACH(SLI_APPLY, l)
-            }
-            SLW_EACH(SLI_COLUMN, 0)
-            SLW_EACH(SLI_STORE, p)
-            if (lane + SLW_ROWS == SLI_TILE) {
-                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-            }
-        }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
-    }
-}
-
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
-        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
-        ptrdiff_t row;
-        sl_int i, j;
-        SLW_DECLARE(b)
-        SLW_DECLARE(c)
-        rows_end -= s->below;
-        for (i = first; i < w; i++) {
-            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
-            SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
-        }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
-        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
-            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
-            const double *l;
-            SLW_EACH(SLI_DECLARE, 0)
-            if (lane + SLW_ROWS == SLI_TILE) {
-                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-            }
-            SLW_EACH(SLI_LOAD, p)
-            if (inner > 0) {
-                l = tile + SLI_TILE * row + lane;
-                SLW_HIGH(SLI_ROW, 0)
-                SLW_LOW(SLI_ROW, 0)
-                SLW_EACH(SLI_STORE, p)
-            }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
-            for (j = final - 1; j >= first; j--) {
-                l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
-                SLW_ZERO(c)
-                SLW_HIGH(SLI_GATHER, l)
-                SLW_LOW(SLI_GATHER2, l)
-                SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
-            }
-        }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
-    }
-}
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_APPLY
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
-#undef SLW_NAME
-#undef SLW_LANES
-#undef SLW_ROWS
-#undef SLW_EACH
-#undef SLW_EACH_AGAIN
-#undef SLW_HIGH
-#undef SLW_LOW
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_ADD
-#undef SLW_FNMA
-#undef SLW_DIVIDE
-/* end src/impl/lanes.inl.h */
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_FNMA(a, b, c) a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_TWICE_LOW(e, l) e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1), e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
+#define SLV_TWICE_HIGH(e, l) SLV_TWICE_LOW(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_LANES 4
@@ -3991,6 +3863,176 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 #undef SLI_XT
 /* end src/impl/tile.inl.h */
 
+/* begin src/impl/pairs.inl.h */
+/* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
+
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
+ * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+#define SLI_PAIR_AXPY(e, l, p)                                                                     \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_PAIR(b, p)                                                                                 \
+    SLV_FNMA(e##0, t0, b)                                                                          \
+    SLV_FNMA(e##1, t1, b)
+
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+#define SLI_PAIR_TILE(solve, l, p)                                                                 \
+    {                                                                                              \
+        double r[2][SLI_TILE];                                                                     \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            r[0][k] = (p)[2 * k];                                                                  \
+            r[1][k] = (p)[2 * k + 1];                                                              \
+        }                                                                                          \
+        solve((l), r[0]);                                                                          \
+        solve((l), r[1]);                                                                          \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            (p)[2 * k] = r[0][k];                                                                  \
+            (p)[2 * k + 1] = r[1][k];                                                              \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
+                                            const double *L, double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const size_t columns = 2 * (size_t)(w - first);
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + 2 * (ptrdiff_t)s->base;
+        sl_int row, i, j, k;
+        memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
+        memset(buf + 2 * (ptrdiff_t)w, 0,
+               2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
+        for (row = first; row < height; row += SLI_TILE) {
+            const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first;
+            double *p = buf + 2 * (ptrdiff_t)row;
+            SLV_DECLARE(e0)
+            SLV_DECLARE(e1)
+            SLV_DECLARE(f0)
+            SLV_DECLARE(f1)
+            SLV_DECLARE(t0)
+            SLV_DECLARE(t1)
+            SLV_DECLARE(b)
+            SLV_LOAD(e0, p)
+            SLV_LOAD(e1, p + SLI_TILE)
+            SLV_ZERO(f0)
+            SLV_ZERO(f1)
+            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+                SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
+            }
+            if (j < final) {
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+            }
+            SLV_ADD(e0, f0)
+            SLV_ADD(e1, f1)
+            SLV_STORE(p, e0)
+            SLV_STORE(p + SLI_TILE, e1)
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
+            } else {
+                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                    SLI_PAIR_AXPY(e, l, p + 2 * k)
+                    SLV_STORE(p, e0)
+                    SLV_STORE(p + SLI_TILE, e1)
+                }
+            }
+            tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+        }
+        memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + 2 * (ptrdiff_t)rows[i];
+            to[0] += buf[2 * (ptrdiff_t)(w + i)];
+            to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
+        }
+        rows += s->below;
+    }
+}
+
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+#define SLI_PAIR_DOT(a, l)                                                                         \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_FNMA(a, t0, v0)                                                                            \
+    SLV_FNMA(a, t1, v1)
+
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                             const double *L, const double *D, double *x,
+                                             double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
+        sl_int row, i, j, k;
+        SLV_DECLARE(a)
+        SLV_DECLARE(v0)
+        SLV_DECLARE(v1)
+        SLV_DECLARE(t0)
+        SLV_DECLARE(t1)
+        SLV_ZERO(a)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+            buf[2 * i] = buf[2 * i + 1] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
+            buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
+        }
+        memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
+        for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            double *p = buf + 2 * (ptrdiff_t)row;
+            const double *l;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            SLV_LOAD(v0, p) /* 0 on the columns: only rows below count here */
+            SLV_LOAD(v1, p + SLI_TILE)
+            for (k = 0; k < inner; k++) {
+                double part[SLI_TILE];
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
+                if (inner < SLI_TILE) {
+                    SLI_PAIR_DOT(a, l + SLI_TILE * k)
+                }
+                SLV_STORE_ANY(part, a)
+                for (j = 0; j < 2; j++) {
+                    p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
+                                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+                }
+            }
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        const double lkj = l[SLI_TILE * j + k];
+                        p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
+                        p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
+                    }
+                }
+            }
+            SLV_LOAD(v0, p)
+            SLV_LOAD(v1, p + SLI_TILE)
+            l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+            for (j = sli_min(row, w) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+                l -= SLI_TILE;
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+                SLI_PAIR_DOT(a, l)
+                SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+            }
+        }
+        memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
+               2 * (size_t)(w - first) * sizeof(double));
+    }
+}
+
+#undef SLI_PAIR_AXPY
+#undef SLI_PAIR_TILE
+#undef SLI_PAIR_DOT
+/* end src/impl/pairs.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -4178,6 +4220,12 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_DOT
 #undef SLV_SUM
 #undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_TWICE_LOW
+#undef SLV_TWICE_HIGH
+#undef SLV_TWICE_AT
+#undef SLV_PAIR
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -6668,14 +6716,14 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 
-/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One lane keeps partial sums that
- * more lanes do not need, so both ends are looked at. */
+/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One and two
+ * lanes keep partial sums that more lanes do not need, so both ends are looked at. */
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
-    sli_block one = {NULL, 0, 0}, many = {NULL, 0, 0};
+    sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
     sli_vectors v;
-    sli_vectors_layout(&v, &one, q, 1);
+    sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
     sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
-    return one.overflow || many.overflow ? SIZE_MAX : one.used > many.used ? one.used : many.used;
+    return few.overflow || many.overflow ? SIZE_MAX : few.used > many.used ? few.used : many.used;
 }
 
 /* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of columns: moving rows in

@@ -30,22 +30,12 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
                          a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
 #define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)), \
                                 _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
-
-#define SLW_NAME(f) sli_##f##2_avx2
-#define SLW_LANES 2
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) __m128d a;
-#define SLW_ZERO(a) a = _mm_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
-#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_loaddup_pd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
-#include "lanes.inl.h"
+#define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLV_FNMA(a, b, c) a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_TWICE_AT(e, l) { const __m256d l_ = _mm256_load_pd(l); e##_0 = _mm256_permute4x64_pd(l_, 0x50); e##_1 = _mm256_permute4x64_pd(l_, 0xfa); }
+#define SLV_TWICE_LOW(e, l) SLV_TWICE_AT(e, l)
+#define SLV_TWICE_HIGH(e, l) SLV_TWICE_AT(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_LANES 4
@@ -84,6 +74,8 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #include "lanes.inl.h"
 
 #include "tile.inl.h"
+
+#include "pairs.inl.h"
 
 #include "body.inl.h"
 

@@ -31,30 +31,11 @@
     a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
     a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
 #define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
-
-#define SLW_NAME(f) sli_##f##2_neon
-#define SLW_LANES 2
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) float64x2_t a##_0;
-#define SLW_ZERO(a) a##_0 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0);
-#define SLW_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0);
-#define SLW_FNMA(a, s, b) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-    }
-#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0);
-#define SLW_DIVIDE(a, s) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vdivq_f64(a##_0, s_); \
-    }
-#include "lanes.inl.h"
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_FNMA(a, b, c) a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_TWICE_LOW(e, l) e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1), e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
+#define SLV_TWICE_HIGH(e, l) SLV_TWICE_LOW(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_LANES 4
@@ -113,6 +94,8 @@
 #include "lanes.inl.h"
 
 #include "tile.inl.h"
+
+#include "pairs.inl.h"
 
 #include "body.inl.h"
 

@@ -37,7 +37,7 @@
         } \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
-
+/* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2
 #define SLW_ROWS 4

@@ -68,10 +68,10 @@ typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const s
 typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows, const double *D,
                                double *x_super, double *x, double *scratch, double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for a
- * single lane the 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for one
+ * or two lanes 8 partial sums of every column. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes == 1 ? (size_t)SLI_TILE * (size_t)width : 0);
+    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
 }
 
 /* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves from the last down. */

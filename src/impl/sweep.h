@@ -46,14 +46,14 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 
-/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One lane keeps partial sums that
- * more lanes do not need, so both ends are looked at. */
+/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One and two
+ * lanes keep partial sums that more lanes do not need, so both ends are looked at. */
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
-    sli_block one = {NULL, 0, 0}, many = {NULL, 0, 0};
+    sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
     sli_vectors v;
-    sli_vectors_layout(&v, &one, q, 1);
+    sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
     sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
-    return one.overflow || many.overflow ? SIZE_MAX : one.used > many.used ? one.used : many.used;
+    return few.overflow || many.overflow ? SIZE_MAX : few.used > many.used ? few.used : many.used;
 }
 
 /* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of columns: moving rows in

@@ -11,3 +11,9 @@
 #undef SLV_DOT
 #undef SLV_SUM
 #undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_TWICE_LOW
+#undef SLV_TWICE_HIGH
+#undef SLV_TWICE_AT
+#undef SLV_PAIR

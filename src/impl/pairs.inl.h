@@ -1,0 +1,167 @@
+/* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
+
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
+ * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+#define SLI_PAIR_AXPY(e, l, p)                                                                     \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_PAIR(b, p)                                                                                 \
+    SLV_FNMA(e##0, t0, b)                                                                          \
+    SLV_FNMA(e##1, t1, b)
+
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+#define SLI_PAIR_TILE(solve, l, p)                                                                 \
+    {                                                                                              \
+        double r[2][SLI_TILE];                                                                     \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            r[0][k] = (p)[2 * k];                                                                  \
+            r[1][k] = (p)[2 * k + 1];                                                              \
+        }                                                                                          \
+        solve((l), r[0]);                                                                          \
+        solve((l), r[1]);                                                                          \
+        for (k = 0; k < SLI_TILE; k++) {                                                           \
+            (p)[2 * k] = r[0][k];                                                                  \
+            (p)[2 * k + 1] = r[1][k];                                                              \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
+                                            const double *L, double *x, double *buf) {
+    for (; count > 0; count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const size_t columns = 2 * (size_t)(w - first);
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + 2 * (ptrdiff_t)s->base;
+        sl_int row, i, j, k;
+        memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
+        memset(buf + 2 * (ptrdiff_t)w, 0,
+               2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
+        for (row = first; row < height; row += SLI_TILE) {
+            const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+            const double *l = tile + SLI_TILE * (ptrdiff_t)first;
+            double *p = buf + 2 * (ptrdiff_t)row;
+            SLV_DECLARE(e0)
+            SLV_DECLARE(e1)
+            SLV_DECLARE(f0)
+            SLV_DECLARE(f1)
+            SLV_DECLARE(t0)
+            SLV_DECLARE(t1)
+            SLV_DECLARE(b)
+            SLV_LOAD(e0, p)
+            SLV_LOAD(e1, p + SLI_TILE)
+            SLV_ZERO(f0)
+            SLV_ZERO(f1)
+            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+                SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
+            }
+            if (j < final) {
+                SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
+            }
+            SLV_ADD(e0, f0)
+            SLV_ADD(e1, f1)
+            SLV_STORE(p, e0)
+            SLV_STORE(p + SLI_TILE, e1)
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
+            } else {
+                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                    SLI_PAIR_AXPY(e, l, p + 2 * k)
+                    SLV_STORE(p, e0)
+                    SLV_STORE(p + SLI_TILE, e1)
+                }
+            }
+            tile += SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+        }
+        memcpy(xs, buf + 2 * (ptrdiff_t)first, columns * sizeof(double));
+        for (i = 0; i < s->below; i++) {
+            double *to = x + 2 * (ptrdiff_t)rows[i];
+            to[0] += buf[2 * (ptrdiff_t)(w + i)];
+            to[1] += buf[2 * (ptrdiff_t)(w + i) + 1];
+        }
+        rows += s->below;
+    }
+}
+
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+#define SLI_PAIR_DOT(a, l)                                                                         \
+    SLV_TWICE_LOW(t0, l)                                                                           \
+    SLV_TWICE_HIGH(t1, l)                                                                          \
+    SLV_FNMA(a, t0, v0)                                                                            \
+    SLV_FNMA(a, t1, v1)
+
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                             const double *L, const double *D, double *x,
+                                             double *buf) {
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
+        sl_int row, i, j, k;
+        SLV_DECLARE(a)
+        SLV_DECLARE(v0)
+        SLV_DECLARE(v1)
+        SLV_DECLARE(t0)
+        SLV_DECLARE(t1)
+        SLV_ZERO(a)
+        rows_end -= s->below;
+        for (i = first; i < w; i++) {
+            SLV_STORE(sums + SLI_TILE * (ptrdiff_t)i, a)
+            buf[2 * i] = buf[2 * i + 1] = 0.0;
+        }
+        for (i = 0; i < s->below; i++) {
+            buf[2 * (w + i)] = x[2 * (ptrdiff_t)rows_end[i]];
+            buf[2 * (w + i) + 1] = x[2 * (ptrdiff_t)rows_end[i] + 1];
+        }
+        memset(buf + 2 * (ptrdiff_t)height, 0, 2 * (size_t)(padded - height) * sizeof(double));
+        for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            double *p = buf + 2 * (ptrdiff_t)row;
+            const double *l;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            l = tile + SLI_TILE * (ptrdiff_t)row;
+            SLV_LOAD(v0, p) /* 0 on the columns: only rows below count here */
+            SLV_LOAD(v1, p + SLI_TILE)
+            for (k = 0; k < inner; k++) {
+                double part[SLI_TILE];
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)(row + k))
+                if (inner < SLI_TILE) {
+                    SLI_PAIR_DOT(a, l + SLI_TILE * k)
+                }
+                SLV_STORE_ANY(part, a)
+                for (j = 0; j < 2; j++) {
+                    p[2 * k + j] = xs[2 * (ptrdiff_t)(row + k) + j] / d[row + k] +
+                                   ((part[j] + part[2 + j]) + (part[4 + j] + part[6 + j]));
+                }
+            }
+            if (inner == SLI_TILE) {
+                SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
+            } else {
+                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+                    for (j = 0; j < k; j++) {
+                        const double lkj = l[SLI_TILE * j + k];
+                        p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
+                        p[2 * j + 1] = SLV_FNMA1(lkj, p[2 * k + 1], p[2 * j + 1]);
+                    }
+                }
+            }
+            SLV_LOAD(v0, p)
+            SLV_LOAD(v1, p + SLI_TILE)
+            l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
+            for (j = sli_min(row, w) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+                l -= SLI_TILE;
+                SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+                SLI_PAIR_DOT(a, l)
+                SLV_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+            }
+        }
+        memcpy(xs + 2 * (ptrdiff_t)first, buf + 2 * (ptrdiff_t)first,
+               2 * (size_t)(w - first) * sizeof(double));
+    }
+}
+
+#undef SLI_PAIR_AXPY
+#undef SLI_PAIR_TILE
+#undef SLI_PAIR_DOT
