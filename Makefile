@@ -194,11 +194,11 @@ test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 test-cxx: deps deps-cxx sparse_local.h ## the tests, over bodies compiled as C++11
 	@$(MAKE) --no-print-directory run-tests B=build/cxx LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
 
-test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, under emulation
+test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, emulated and so without DATA
 	@mkdir -p build/aarch64/include
 	@for h in metis cmocka cmocka_pbc cmocka_version zlib zconf; do \
 	if [ -e /usr/include/$$h.h ]; then cp -p /usr/include/$$h.h build/aarch64/include; fi; done
-	@$(MAKE) --no-print-directory run-tests B=build/aarch64 CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
+	@$(MAKE) --no-print-directory run-tests B=build/aarch64 SL_DATA= CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
 	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
 	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
 

@@ -1,59 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 0507910d75a64374
+ * FNV-1a of all that follows this comment, license aside: d9d4cc4dc5c836f4
  *
  * Contents
  *         (what a user reads)
- *     61  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    105  public/config.h            what a user may set before including the header, the version, and the integer types
- *    151  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    295  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    405  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    464  public/factor.h            the numbers: P A P' = L D L'
- *    528  public/solve.h             full solves, and the workspace that every solve writes to
- *    569  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     63  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    107  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    153  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    300  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    415  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    474  public/factor.h            the numbers: P A P' = L D L'
+ *    541  public/solve.h             full solves, and the workspace that every solve writes to
+ *    583  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    641  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    707  impl/status.h              status codes in words, and the error fields of stats
- *    751  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    846  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    904  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    659  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    726  impl/status.h              status codes in words, and the error fields of stats
+ *    782  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    879  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    940  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    941  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1034  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1103  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1616  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1664  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1837  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1861  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2281  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2650  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3426  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4235  impl/select.h              the kernel table for an instruction set
+ *    978  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1080  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1125  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1155  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1723  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1768  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1947  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1971  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2019  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2428  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2807  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3625  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4479  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4267  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4671  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   4741  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4512  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4929  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5002  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5083  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5120  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5249  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5329  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5467  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5549  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5617  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   5769  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   5845  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6115  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5356  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5393  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5525  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5611  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5752  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5837  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5910  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6070  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6146  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6420  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6250  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6399  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6618  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   6674  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   6857  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   6897  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6563  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6713  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   6936  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   6992  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7201  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7241  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7190  impl/leave.h               takes every internal macro away again
+ *   7543  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -81,12 +83,12 @@
  *     sl_plan_solve(P, F, x, nx, b, nb, 1, NULL);        local solve, any number of times
  *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
  *
- * Notation     n rows of A; perm[k] is the row of A that is pivot k, iperm its inverse; parent is the elimination tree,
- *              -1 at a root; L is unit lower triangular in supernodal panels, D diagonal; a reach is a set of columns
- *              closed under parent.
- * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and stats
- *              may be NULL. Dense arguments are column-major with a leading dimension in elements. Row numbers, also
- *              those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
+ * Notation     n rows of A; perm[k] is the row of A that is pivot k, iperm its inverse; parent is the elimination
+ *              tree, -1 at a root; L is unit lower triangular in supernodal panels, D diagonal; a reach is
+ *              a set of columns closed under parent.
+ * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and
+ *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements.
+ *              Row numbers, also those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
  * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
  *              solve on one factor, each with its own sl_work.
  *
@@ -156,16 +158,16 @@ extern "C" {
 /** What a call came to. Everything that can fail returns one; SL_OK is 0. */
 typedef enum sl_status {
     SL_OK = 0,
-    SL_ERR_ARGUMENT,    /* NULL, negative size, leading dimension too small, index out of range or given twice */
-    SL_ERR_MEMORY,      /* the allocator returned NULL */
-    SL_ERR_PATTERN,     /* the matrix is malformed, or both triangles are stored and differ in pattern */
-    SL_ERR_PIVOT,       /* a null pivot: the matrix is singular, or needs pivoting; stats name the row */
-    SL_ERR_NOT_FINITE,  /* a NaN or an infinity in the values, or one that arose; stats name the row */
-    SL_ERR_TOO_LARGE,   /* a count does not fit its type */
+    SL_ERR_ARGUMENT, /* NULL, negative size, leading dimension too small, index out of range or given twice */
+    SL_ERR_MEMORY,  /* the allocator returned NULL */
+    SL_ERR_PATTERN, /* the matrix is malformed, or both triangles are stored and differ in pattern */
+    SL_ERR_PIVOT, /* a null pivot: the matrix is singular, or needs pivoting; stats name the row */
+    SL_ERR_NOT_FINITE, /* a NaN or an infinity in the values, or one that arose; stats name the row */
+    SL_ERR_TOO_LARGE, /* a count does not fit its type */
     SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
-    SL_ERR_IO,          /* a file could not be opened, read, parsed or written; stats name the line */
-    SL_ERR_ORDERING,    /* the ordering library failed */
-    SL_ERR_STATE        /* a failed factor, or objects that do not belong together */
+    SL_ERR_IO,       /* a file could not be opened, read, parsed or written; stats name the line */
+    SL_ERR_ORDERING, /* the ordering library failed */
+    SL_ERR_STATE     /* a failed factor, or objects that do not belong together */
 } sl_status;
 
 /** A name for a status, in words, static storage. Any value is accepted. */
@@ -231,11 +233,14 @@ typedef struct sl_allocator {
 /** Wishes, the same struct for every call. All zero (or a NULL pointer) = defaults. */
 typedef struct sl_options {
     sl_ordering ordering;
-    const sl_int *perm;          /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
-    const sl_int *metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+    const sl_int
+        *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *
+        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
     sl_relaxation relaxation;
     sl_isa isa;
-    double null_tolerance;  /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
+    double
+        null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
 } sl_options;
@@ -252,24 +257,24 @@ typedef struct sl_stats {
     /* sl_symbolic_create */
     sl_int n;
     sl_triangle triangle;
-    sl_off nnz_a;         /* entries of A that are read (one triangle with diagonal, duplicates counted) */
-    sl_off nnz_l;         /* entries of L with its unit diagonal, without relaxation */
-    sl_off nnz_panels;    /* doubles stored for L, padding and relaxation included */
-    double flops;         /* sum over columns of (entries)^2, without relaxation */
+    sl_off nnz_a; /* entries of A that are read (one triangle with diagonal, duplicates counted) */
+    sl_off nnz_l; /* entries of L with its unit diagonal, without relaxation */
+    sl_off nnz_panels; /* doubles stored for L, padding and relaxation included */
+    double flops;      /* sum over columns of (entries)^2, without relaxation */
     sl_int supernodes;
     sl_int supernodes_fundamental; /* before relaxation */
-    sl_int tree_height;   /* columns on the longest path of the elimination tree */
-    sl_int components;    /* roots of the elimination tree */
-    double seconds_order; /* processor seconds in the ordering */
-    double seconds_analyse; /* processor seconds in everything else of the analysis */
+    sl_int tree_height;            /* columns on the longest path of the elimination tree */
+    sl_int components;             /* roots of the elimination tree */
+    double seconds_order;          /* processor seconds in the ordering */
+    double seconds_analyse;        /* processor seconds in everything else of the analysis */
     size_t bytes_symbolic;
 
     /* sl_factor_create, sl_factor_refactor */
     sl_isa isa;
     sl_int positive; /* pivots by sign: the inertia of A */
     sl_int negative;
-    sl_int null;            /* pivots refused (0 or 1) */
-    double pivot_min;       /* smallest and largest |d| */
+    sl_int null;      /* pivots refused (0 or 1) */
+    double pivot_min; /* smallest and largest |d| */
     double pivot_max;
     double seconds_factor;
     size_t bytes_factor;
@@ -277,7 +282,7 @@ typedef struct sl_stats {
     /* sl_plan_create, sl_local_solve */
     sl_int b_supernodes; /* visited by the forward sweep */
     sl_int b_columns;
-    sl_off b_entries; /* doubles of L that the forward sweep reads */
+    sl_off b_entries;    /* doubles of L that the forward sweep reads */
     sl_int x_supernodes; /* the same for the backward sweep */
     sl_int x_columns;
     sl_off x_entries;
@@ -309,9 +314,11 @@ typedef struct sl_work sl_work;         /* scratch of one thread */
  *  Cost     O(count + n_rows + n_cols).
  *  Threads  any number on distinct outputs.
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_off count,
-                                                        const sl_int *i, const sl_int *j, const double *x,
-                                                        const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
+                                                        sl_int n_cols, sl_off count,
+                                                        const sl_int *i, const sl_int *j,
+                                                        const double *x, const sl_options *opt,
+                                                        sl_stats *stats);
 
 /** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
  *
@@ -324,8 +331,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
  *           skew-symmetric or hermitian; SL_ERR_NOT_FINITE is not raised here; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(file size + n_rows + n_cols).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
-                                               sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path,
+                                               const sl_options *opt, sl_stats *stats);
 
 /** The same from memory: length bytes of text, no terminating zero needed. */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
@@ -335,7 +342,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n_rows + n_cols + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
+                                                    const sl_options *opt);
 
 /** The symmetric permutation C = P A P' of a square matrix: C(k, l) = A(perm[k], perm[l]).
  *
@@ -345,8 +353,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm,
-                                                  const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
+                                                  const sl_int *perm, const sl_options *opt);
 
 /** The arrays of an owned matrix; valid as long as M lives. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);
@@ -367,8 +375,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
-                                                sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
+                                                const sl_options *opt, sl_stats *stats);
 
 /** Y = A X.
  *
@@ -377,20 +385,22 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted (sl_csc_check).  Cost  O(nnz nrhs).
  */
-SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
-                                                const double *X, size_t ldx, sl_int nrhs);
+SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
+                                                size_t ldy, const double *X, size_t ldx,
+                                                sl_int nrhs);
 
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
- *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; without backward_error it may be B itself
- *                         (then ldr = ldb).
+ *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; it may be B itself (then
+ *                         ldr = ldb) where backward_error is NULL.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
  *                         0 where r = 0, NaN where r has one; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
  */
-SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
-                                                const double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs);
+SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
+                                                double *backward_error, const double *X, size_t ldx,
+                                                const double *B, size_t ldb, sl_int nrhs);
 
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
@@ -425,8 +435,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
  *  Example  tests/test_symbolic.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                                                   sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
+                                                   const sl_options *opt, sl_stats *stats);
 
 /** Releases an analysis; NULL is fine. Factors and plans over it must be gone or never used again. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
@@ -445,10 +455,10 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
 typedef struct sl_symbolic_view_t {
     sl_int n;
     sl_int n_supers;
-    const sl_int *perm;         /* n: perm[k] = row of A that is pivot k */
-    const sl_int *iperm;        /* n: its inverse */
-    const sl_int *parent;       /* n: elimination tree of P A P', -1 at a root */
-    const sl_int *counts;       /* n: entries of column k of L, diagonal included, without relaxation */
+    const sl_int *perm;   /* n: perm[k] = row of A that is pivot k */
+    const sl_int *iperm;  /* n: its inverse */
+    const sl_int *parent; /* n: elimination tree of P A P', -1 at a root */
+    const sl_int *counts; /* n: entries of column k of L, diagonal included, without relaxation */
     const sl_int *super_first;  /* n_supers + 1 */
     const sl_int *super_of;     /* n: supernode of column k */
     const sl_int *super_parent; /* n_supers: -1 at a root */
@@ -468,8 +478,8 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
 
 /** Factors P A P' = L D L' with unit lower triangular L and diagonal D of any sign, without pivoting.
  *
- *  Positive definite, negative definite and quasi-definite matrices always work; a symmetric indefinite one works
- *  if no pivot comes out null.
+ *  Definite and quasi-definite matrices work in any order unless rounding loses a pivot: one that comes out below
+ *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -484,8 +494,9 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
  *  Example  tests/test_factor.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                                                 const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
+                                                 const sl_csc *A, const sl_options *opt,
+                                                 sl_stats *stats);
 
 /** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
  *
@@ -505,14 +516,16 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign);
+SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
+                                                 double *sign);
 
 /** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
  *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
+                                                const sl_options *opt);
 
 /** A look inside; the pointers live as long as F. */
 typedef struct sl_factor_view_t {
@@ -554,15 +567,16 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
  *                (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, each as fast as about one or two alone.
+ *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of about two alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY: W had to grow and could not.
  *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb,
-                                                sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,
+                                                const double *B, size_t ldb, sl_int nrhs,
+                                                sl_work *W);
 
 #endif
 /* end src/public/solve.h */
@@ -588,8 +602,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
  *  Example  tests/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
-                                               const sl_int *xset, sl_int nx, const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S,
+                                               const sl_int *bset, sl_int nb, const sl_int *xset,
+                                               sl_int nx, const sl_options *opt, sl_stats *stats);
 
 /** Releases a plan; NULL is fine. */
 SL_API void sl_plan_free(sl_plan *P);
@@ -612,8 +627,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-                                              const double *B, size_t ldb, sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
+                                              size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                                              sl_work *W);
 
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
@@ -623,8 +639,9 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset,
-                                               sl_int nx, const double *B, size_t ldb, const sl_int *bset, sl_int nb,
+SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx,
+                                               const sl_int *xset, sl_int nx, const double *B,
+                                               size_t ldb, const sl_int *bset, sl_int nb,
                                                sl_int nrhs, sl_work *W, sl_stats *stats);
 
 #endif
@@ -635,7 +652,8 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #endif /* SPARSE_LOCAL_H */
 
 /* ---- bodies, in one source file ---- */
-#if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && !defined(SPARSE_LOCAL_IMPLEMENTED)
+#if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) &&                                \
+    !defined(SPARSE_LOCAL_IMPLEMENTED)
 #define SPARSE_LOCAL_IMPLEMENTED
 /* L0 ground */
 /* begin src/impl/base.h */
@@ -652,7 +670,8 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #include <string.h>
 #include <time.h>
 
-/* AVX tables need per-function targets and correctly aligned vector spills: MSVC has no attribute, MinGW misaligns. */
+/* AVX tables need per-function targets and correctly aligned vector spills: MSVC has no attribute,
+ * MinGW misaligns. */
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__) && !defined(_WIN32)
 #define SLI_X86 1
 #include <cpuid.h>
@@ -711,17 +730,28 @@ SLI_INLINE double sli_seconds(void) {
 
 SL_API const char *sl_status_string(sl_status status) {
     switch (status) {
-    case SL_OK: return "ok";
-    case SL_ERR_ARGUMENT: return "invalid argument";
-    case SL_ERR_MEMORY: return "out of memory";
-    case SL_ERR_PATTERN: return "malformed or unsymmetric pattern";
-    case SL_ERR_PIVOT: return "null pivot: singular matrix, or one that needs pivoting";
-    case SL_ERR_NOT_FINITE: return "not a finite number";
-    case SL_ERR_TOO_LARGE: return "too large for the integer type";
-    case SL_ERR_UNSUPPORTED: return "not supported";
-    case SL_ERR_IO: return "file cannot be read, parsed or written";
-    case SL_ERR_ORDERING: return "ordering failed";
-    case SL_ERR_STATE: return "failed factor, or objects that do not belong together";
+    case SL_OK:
+        return "ok";
+    case SL_ERR_ARGUMENT:
+        return "invalid argument";
+    case SL_ERR_MEMORY:
+        return "out of memory";
+    case SL_ERR_PATTERN:
+        return "malformed or unsymmetric pattern";
+    case SL_ERR_PIVOT:
+        return "null pivot: singular matrix, or one that needs pivoting";
+    case SL_ERR_NOT_FINITE:
+        return "not a finite number";
+    case SL_ERR_TOO_LARGE:
+        return "too large for the integer type";
+    case SL_ERR_UNSUPPORTED:
+        return "not supported";
+    case SL_ERR_IO:
+        return "file cannot be read, parsed or written";
+    case SL_ERR_ORDERING:
+        return "ordering failed";
+    case SL_ERR_STATE:
+        return "failed factor, or objects that do not belong together";
     }
     return "unknown status";
 }
@@ -737,7 +767,8 @@ SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
 }
 
 /* Names the entry at fault and passes the status on. */
-SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column, double value) {
+SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column,
+                                 double value) {
     if (stats != NULL) {
         stats->error_row = row;
         stats->error_column = column;
@@ -777,7 +808,8 @@ SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     return a;
 }
 
-/* bytes > 0 of aligned memory, or NULL. The pointer that the allocator gave stands just before the block. */
+/* bytes > 0 of aligned memory, or NULL. The pointer that the allocator gave stands just before the
+ * block. */
 SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
     unsigned char *raw, *block;
     if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
@@ -801,8 +833,8 @@ SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
     }
 }
 
-/* A block to be cut into arrays. A layout function runs twice over it: with base NULL it only counts, with the block
- * allocated it hands out the pointers, so that sizes are written once. */
+/* A block to be cut into arrays. A layout function runs twice over it: with base NULL it only
+ * counts, with the block allocated it hands out the pointers, so that sizes are written once. */
 typedef struct sli_block {
     unsigned char *base;
     size_t used;
@@ -825,7 +857,8 @@ SLI_INLINE void *sli_take(sli_block *b, size_t count, size_t size) {
     return b->base == NULL ? NULL : b->base + at;
 }
 
-/* Allocates what was counted and rewinds for the second run; at least one byte, so that NULL means failure. */
+/* Allocates what was counted and rewinds for the second run; at least one byte, so that NULL means
+ * failure. */
 SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
     if (b->overflow) {
         return SL_ERR_TOO_LARGE;
@@ -848,7 +881,8 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 #ifndef SLI_SORT_H
 #define SLI_SORT_H
 
-/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move. */
+/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move.
+ */
 SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
     return (uint64_t)(uint32_t)key << 32 | (uint32_t)value;
 }
@@ -861,9 +895,11 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
     return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
-#define SLI_SORT_SMALL 48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
+#define SLI_SORT_SMALL                                                                             \
+    48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
 
-/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more. O(count) a byte. */
+/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more.
+ * O(count) a byte. */
 static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     sl_int i, k;
     sl_int largest = 0;
@@ -915,7 +951,8 @@ SLI_INLINE unsigned sli_xcr0(void) {
 }
 #endif
 
-/* The best instruction set here. CPUID traps under a hypervisor (microseconds), so this runs once a factor. */
+/* The best instruction set here. CPUID traps under a hypervisor (microseconds), so this runs once a
+ * factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
     unsigned a, b, c, d, xcr0;
@@ -943,16 +980,18 @@ static sl_isa sli_cpu_best(void) {
 #ifndef SLI_KERNELS_H
 #define SLI_KERNELS_H
 
-/* Panels. Supernode s, w columns and u rows below them, is stored as row tiles of 8, [tile][column][8], whatever the
- * ISA: local row r of column j stands in tile r/8, lane r%8. Tiles of the diagonal block keep only their first
- * 8 (tile + 1) columns; the unit diagonal, what is above it, and the padding of the last tile are 0.
- */
+/* Panels. Supernode s, w columns and u rows below them, is stored as row tiles of 8,
+ * [tile][column][8], whatever the ISA: local row r of column j stands in tile r/8, lane r%8. Tiles
+ * of the diagonal block keep only their first 8 (tile + 1) columns; the unit diagonal, what is
+ * above it, and the padding of the last tile are 0. */
 #define SLI_TILE 8
 
-/* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w columns wide. */
+/* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
+ * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
     sl_off whole = w / SLI_TILE, tile = t;
-    return tile <= whole ? 32 * tile * (tile + 1) : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
+    return tile <= whole ? 32 * tile * (tile + 1)
+                         : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
 }
 
 /* Tiles that hold a number of rows. */
@@ -970,9 +1009,10 @@ SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
     return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;
 }
 
-/* One supernode of a reach. A sweep's vector x holds only the columns of its reach, closely packed; a whole analysis
- * is the reach in which base is the column itself. A supernode is entered at a whole tile, so that a local sweep does
- * the same operations in the same order as the full one, which computes with zeros where the local one has nothing. */
+/* One supernode of a reach. A sweep's vector x holds only the columns of its reach, closely packed;
+ * a whole analysis is the reach in which base is the column itself. A supernode is entered at a
+ * whole tile, so that a local sweep does the same operations in the same order as the full one,
+ * which computes with zeros where the local one has nothing. */
 typedef struct sli_step {
     sl_off panel;      /* position of the panel in L */
     sl_int column;     /* first column needed: 8 first_tile columns into the supernode */
@@ -988,31 +1028,37 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
     return s->width - SLI_TILE * s->first_tile;
 }
 
-/* Right-hand sides are interleaved: row i of x is x[i lanes] .. x[i lanes + lanes - 1], lanes = 1, 2, 4 or 8. */
+/* Right-hand sides are interleaved: row i of x is x[i lanes] .. x[i lanes + lanes - 1], lanes = 1,
+ * 2, 4 or 8. */
 enum { SLI_LANES_1, SLI_LANES_2, SLI_LANES_4, SLI_LANES_8, SLI_LANES_COUNT };
 
 /* x := L^-1 x over the steps, ascending. rows: places of the rows below, in step order.
  * scratch: sli_scratch_size doubles for the tallest step, 64-byte aligned. */
-typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows, const double *L, double *x,
-                                   double *scratch);
+typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
+                                   const double *L, double *x, double *scratch);
 
-/* x := L'^-1 D^-1 x over the steps, descending. rows_end: one past the last place of the last step. */
-typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end, const double *L,
-                                    const double *D, double *x, double *scratch);
+/* x := L'^-1 D^-1 x over the steps, descending. rows_end: one past the last place of the last step.
+ */
+typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
+                                    const double *L, const double *D, double *x, double *scratch);
 
-/* Row q of a panel, up-looking: on entry the panel holds A there and x minus the updates so far; turns the row into L,
- * passes its updates on to the rows above q in x, clears x on the supernode's columns. D: the supernode's pivots.
- * *pivot loses the row's share l' D l of the pivot; *magnitude gains its absolute value. */
-typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows, const double *D,
-                               double *x_super, double *x, double *scratch, double *pivot, double *magnitude);
+/* Row q of a panel, up-looking: on entry the panel holds A there and x minus the updates so far;
+ * turns the row into L, passes its updates on to the rows above q in x, clears x on the supernode's
+ * columns. D: the supernode's pivots. *pivot loses the row's share l' D l of the pivot; *magnitude
+ * gains its absolute value. */
+typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
+                               const double *D, double *x_super, double *x, double *scratch,
+                               double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for one
- * or two lanes 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all
+ * lanes, and for one or two lanes 8 partial sums of every column. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
+    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes +
+           (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
 }
 
-/* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves from the last down. */
+/* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves
+ * from the last down. */
 #define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
 #define SLI_EACH4_AGAIN(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
@@ -1041,94 +1087,114 @@ typedef struct sli_kernels {
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
 #define SLV_DECLARE(a) double a[SLI_TILE];
-#define SLV_ZERO(a) { \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] = 0.0; \
-        } \
+#define SLV_ZERO(a)                                                                                \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = 0.0;                                                                           \
+        }                                                                                          \
     }
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] += b[i_]; \
-        } \
+#define SLV_ADD(a, b)                                                                              \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] += b[i_];                                                                        \
+        }                                                                                          \
     }
-#define SLV_AXPY(a, l, p) { \
-        const double s_ = *(p); \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] -= (l)[i_] * s_; \
-        } \
+#define SLV_AXPY(a, l, p)                                                                          \
+    {                                                                                              \
+        const double s_ = *(p);                                                                    \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] -= (l)[i_] * s_;                                                                 \
+        }                                                                                          \
     }
-#define SLV_DOT(a, l, v) { \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] -= (l)[i_] * v[i_]; \
-        } \
+#define SLV_DOT(a, l, v)                                                                           \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] -= (l)[i_] * v[i_];                                                              \
+        }                                                                                          \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
 /* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2
+/* begin src/impl/lanes_array.inl.h */
+/* lanes_array.inl.h: a row of right-hand sides as an array, for plain C */
+
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) double a[SLW_LANES];
 #define SLW_ZERO(a) memset(a, 0, sizeof a);
 #define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) { \
-        const double s_ = (s); \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] -= s_ * b[i_]; \
-        } \
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const double s_ = (s);                                                                     \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] -= s_ * b[i_];                                                                   \
+        }                                                                                          \
     }
-#define SLW_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] += b[i_]; \
-        } \
+#define SLW_ADD(a, b)                                                                              \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] += b[i_];                                                                        \
+        }                                                                                          \
     }
-#define SLW_DIVIDE(a, s) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] /= (s); \
-        } \
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] /= (s);                                                                          \
+        }                                                                                          \
     }
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -1171,8 +1237,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -1192,7 +1259,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -1209,7 +1277,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -1250,66 +1318,83 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_FNMA
 #undef SLW_DIVIDE
 /* end src/impl/lanes.inl.h */
+/* end src/impl/lanes_array.inl.h */
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_LANES 4
+/* begin src/impl/lanes_array.inl.h */
+/* lanes_array.inl.h: a row of right-hand sides as an array, for plain C */
+
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) double a[SLW_LANES];
 #define SLW_ZERO(a) memset(a, 0, sizeof a);
 #define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) { \
-        const double s_ = (s); \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] -= s_ * b[i_]; \
-        } \
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const double s_ = (s);                                                                     \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] -= s_ * b[i_];                                                                   \
+        }                                                                                          \
     }
-#define SLW_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] += b[i_]; \
-        } \
+#define SLW_ADD(a, b)                                                                              \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] += b[i_];                                                                        \
+        }                                                                                          \
     }
-#define SLW_DIVIDE(a, s) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] /= (s); \
-        } \
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] /= (s);                                                                          \
+        }                                                                                          \
     }
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -1352,8 +1437,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -1373,7 +1459,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -1390,7 +1477,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -1431,66 +1518,83 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_FNMA
 #undef SLW_DIVIDE
 /* end src/impl/lanes.inl.h */
+/* end src/impl/lanes_array.inl.h */
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_LANES 8
+/* begin src/impl/lanes_array.inl.h */
+/* lanes_array.inl.h: a row of right-hand sides as an array, for plain C */
+
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) double a[SLW_LANES];
 #define SLW_ZERO(a) memset(a, 0, sizeof a);
 #define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) { \
-        const double s_ = (s); \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] -= s_ * b[i_]; \
-        } \
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const double s_ = (s);                                                                     \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] -= s_ * b[i_];                                                                   \
+        }                                                                                          \
     }
-#define SLW_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] += b[i_]; \
-        } \
+#define SLW_ADD(a, b)                                                                              \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] += b[i_];                                                                        \
+        }                                                                                          \
     }
-#define SLW_DIVIDE(a, s) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] /= (s); \
-        } \
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLW_LANES; i_++) {                                                       \
+            a[i_] /= (s);                                                                          \
+        }                                                                                          \
     }
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -1533,8 +1637,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -1554,7 +1659,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -1571,7 +1677,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -1612,24 +1718,23 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_FNMA
 #undef SLW_DIVIDE
 /* end src/impl/lanes.inl.h */
+/* end src/impl/lanes_array.inl.h */
 
 /* begin src/impl/tile.inl.h */
 /* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
 
-#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);  /* r(k) -= L(k, j) r(j) */
 #define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
 
 /* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
-    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
-    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
-    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
-    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
-    SLI_X(6, 5) SLI_X(7, 5)
-    SLI_X(7, 6)
-    r[1] = r1;
+    SLI_X(1, 0)
+    SLI_X(2, 0)
+    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
+        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
+            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
+                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -1641,14 +1746,13 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
 /* r := L'^-1 r */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
-    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
-    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
-    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
-    SLI_XT(1, 2) SLI_XT(0, 2)
-    SLI_XT(0, 1)
-    r[0] = r0;
+    SLI_XT(6, 7)
+    SLI_XT(5, 7)
+    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
+        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
+            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
+                    r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -1664,15 +1768,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
- * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
- * alone, so that a sweep that starts later, over zeros, gives the same bits. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
-                                                      sl_int rows, double *buf) {
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied
+ * in ascending order. tile points at tile t0. Four partial sums hide the latency of the FMA; their
+ * grouping depends on the column number alone, so that a sweep that starts later, over zeros, gives
+ * the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
+                                                     sl_int columns, sl_int rows, double *buf) {
     const sl_int first = SLI_TILE * t0;
     sl_int t, j, k;
     for (t = t0; SLI_TILE * t < rows; t++) {
-        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
+        const sl_int inner = sli_clamp(columns - row, SLI_TILE);
         SLV_DECLARE(a0)
         SLV_DECLARE(a1)
         SLV_DECLARE(a2)
@@ -1707,17 +1813,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
         memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
@@ -1726,10 +1833,12 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
- * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
-                                                       const double *z, double *buf, double *sums) {
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
+ * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
+ * each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
+                                                      sl_int height, const double *z, double *buf,
+                                                      double *sums) {
     const sl_int first = SLI_TILE * t0;
     const double *tile = end;
     sl_int t, j, k;
@@ -1775,13 +1884,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         double *xs = x + s->base - first;
-        const double *d = D + s->column - first;
+        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
         for (i = first; i < w; i++) {
@@ -1794,14 +1904,14 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         for (i = height; i < padded; i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
-                                 buf + padded);
+        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
         memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
-                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
+                                       const double *D, double *xs, double *x, double *buf,
+                                       double *pivot, double *magnitude) {
     const sl_int columns = sli_min(q, w);
     double *lq = panel + sli_panel_at(w, q, 0);
     double d = *pivot, size = *magnitude;
@@ -1880,29 +1990,37 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
 #define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
 #define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLV_AXPY(a, l, p) { \
-        const __m256d s_ = _mm256_broadcast_sd(p); \
-        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0); \
-        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1); \
+#define SLV_AXPY(a, l, p)                                                                          \
+    {                                                                                              \
+        const __m256d s_ = _mm256_broadcast_sd(p);                                                 \
+        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0);                                    \
+        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1);                              \
     }
-#define SLV_DOT(a, l, v) a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0), \
-                         a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
-#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)), \
-                                _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
+#define SLV_DOT(a, l, v)                                                                           \
+    a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0),                                     \
+    a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
+#define SLV_SUM(a)                                                                                 \
+    sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)),                                  \
+             _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLV_FNMA(a, b, c) a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
-#define SLV_TWICE_AT(e, l) { const __m256d l_ = _mm256_load_pd(l); e##_0 = _mm256_permute4x64_pd(l_, 0x50); e##_1 = _mm256_permute4x64_pd(l_, 0xfa); }
+#define SLV_FNMA(a, b, c)                                                                          \
+    a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_TWICE_AT(e, l)                                                                         \
+    {                                                                                              \
+        const __m256d l_ = _mm256_load_pd(l);                                                      \
+        e##_0 = _mm256_permute4x64_pd(l_, 0x50);                                                   \
+        e##_1 = _mm256_permute4x64_pd(l_, 0xfa);                                                   \
+    }
 #define SLV_TWICE_LOW(e, l) SLV_TWICE_AT(e, l)
 #define SLV_TWICE_HIGH(e, l) SLV_TWICE_AT(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 
 #define SLW_NAME(f) sli_##f##4_avx2
+/* begin src/impl/lanes_ymm.inl.h */
+/* lanes_ymm.inl.h: four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike */
+
 #define SLW_LANES 4
 #define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m256d a;
 #define SLW_ZERO(a) a = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
@@ -1913,32 +2031,46 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -1981,8 +2113,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -2002,7 +2135,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -2019,7 +2153,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -2060,54 +2194,68 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_FNMA
 #undef SLW_DIVIDE
 /* end src/impl/lanes.inl.h */
+/* end src/impl/lanes_ymm.inl.h */
 
 #define SLW_NAME(f) sli_##f##8_avx2
 #define SLW_LANES 8
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) __m256d a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
 #define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLW_FNMA(a, s, b) { \
-        const __m256d s_ = _mm256_broadcast_sd(&(s)); \
-        a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
-        a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const __m256d s_ = _mm256_broadcast_sd(&(s));                                              \
+        a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0);                                                \
+        a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1);                                                \
     }
 #define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#define SLW_DIVIDE(a, s)                                                                           \
+    a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)),                                               \
+    a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -2150,8 +2298,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -2171,7 +2320,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -2188,7 +2338,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -2233,20 +2383,18 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 /* begin src/impl/tile.inl.h */
 /* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
 
-#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);  /* r(k) -= L(k, j) r(j) */
 #define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
 
 /* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
-    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
-    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
-    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
-    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
-    SLI_X(6, 5) SLI_X(7, 5)
-    SLI_X(7, 6)
-    r[1] = r1;
+    SLI_X(1, 0)
+    SLI_X(2, 0)
+    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
+        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
+            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
+                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -2258,14 +2406,13 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
 /* r := L'^-1 r */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
-    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
-    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
-    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
-    SLI_XT(1, 2) SLI_XT(0, 2)
-    SLI_XT(0, 1)
-    r[0] = r0;
+    SLI_XT(6, 7)
+    SLI_XT(5, 7)
+    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
+        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
+            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
+                    r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -2281,8 +2428,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 /* begin src/impl/pairs.inl.h */
 /* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
 
-/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
- * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so
+ * that every number of L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
 #define SLI_PAIR_AXPY(e, l, p)                                                                     \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
@@ -2290,7 +2437,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     SLV_FNMA(e##0, t0, b)                                                                          \
     SLV_FNMA(e##1, t1, b)
 
-/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is
+ * one. */
 #define SLI_PAIR_TILE(solve, l, p)                                                                 \
     {                                                                                              \
         double r[2][SLI_TILE];                                                                     \
@@ -2332,7 +2480,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             SLV_LOAD(e1, p + SLI_TILE)
             SLV_ZERO(f0)
             SLV_ZERO(f1)
-            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+            for (j = first; j + 2 <= final;
+                 j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
                 SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
                 SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
             }
@@ -2347,7 +2496,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             if (inner == SLI_TILE) {
                 SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
             } else {
-                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                for (k = 0; k < inner;
+                     k++, l += SLI_TILE) { /* columns inside the tile, one by one */
                     SLI_PAIR_AXPY(e, l, p + 2 * k)
                     SLV_STORE(p, e0)
                     SLV_STORE(p + SLI_TILE, e1)
@@ -2365,16 +2515,17 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
     }
 }
 
-/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in
+ * one octet. */
 #define SLI_PAIR_DOT(a, l)                                                                         \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
     SLV_FNMA(a, t0, v0)                                                                            \
     SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                             const double *L, const double *D, double *x,
-                                             double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
+                                             const sl_int *rows_end, const double *L,
+                                             const double *D, double *x, double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -2451,15 +2602,17 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, co
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
- * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
- * alone, so that a sweep that starts later, over zeros, gives the same bits. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
-                                                      sl_int rows, double *buf) {
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied
+ * in ascending order. tile points at tile t0. Four partial sums hide the latency of the FMA; their
+ * grouping depends on the column number alone, so that a sweep that starts later, over zeros, gives
+ * the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
+                                                     sl_int columns, sl_int rows, double *buf) {
     const sl_int first = SLI_TILE * t0;
     sl_int t, j, k;
     for (t = t0; SLI_TILE * t < rows; t++) {
-        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
+        const sl_int inner = sli_clamp(columns - row, SLI_TILE);
         SLV_DECLARE(a0)
         SLV_DECLARE(a1)
         SLV_DECLARE(a2)
@@ -2494,17 +2647,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
         memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
@@ -2513,10 +2667,12 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
- * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
-                                                       const double *z, double *buf, double *sums) {
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
+ * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
+ * each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
+                                                      sl_int height, const double *z, double *buf,
+                                                      double *sums) {
     const sl_int first = SLI_TILE * t0;
     const double *tile = end;
     sl_int t, j, k;
@@ -2562,13 +2718,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         double *xs = x + s->base - first;
-        const double *d = D + s->column - first;
+        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
         for (i = first; i < w; i++) {
@@ -2581,14 +2738,14 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         for (i = height; i < padded; i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
-                                 buf + padded);
+        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
         memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
-                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
+                                       const double *D, double *xs, double *x, double *buf,
+                                       double *pivot, double *magnitude) {
     const sl_int columns = sli_min(q, w);
     double *lq = panel + sli_panel_at(w, q, 0);
     double d = *pivot, size = *magnitude;
@@ -2666,22 +2823,28 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
 /* the masked extraction keeps gcc's own headers from warning in C++ */
-#define SLV_HALVES(a) \
-    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0), _mm512_maskz_extractf64x4_pd(0xff, a, 1))
-#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
+#define SLV_HALVES(a)                                                                              \
+    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0),                                        \
+                  _mm512_maskz_extractf64x4_pd(0xff, a, 1))
+#define SLV_SUM(a)                                                                                 \
+    sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
-#define SLV_TWICE_LOW(e, l) e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), _mm512_load_pd(l));
-#define SLV_TWICE_HIGH(e, l) e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), _mm512_load_pd(l));
-#define SLV_PAIR(b, p) b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
+#define SLV_TWICE_LOW(e, l)                                                                        \
+    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),                \
+                                    _mm512_load_pd(l));
+#define SLV_TWICE_HIGH(e, l)                                                                       \
+    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4),                \
+                                    _mm512_load_pd(l));
+#define SLV_PAIR(b, p)                                                                             \
+    b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
 #define SLW_NAME(f) sli_##f##4_avx512
+/* begin src/impl/lanes_ymm.inl.h */
+/* lanes_ymm.inl.h: four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike */
+
 #define SLW_LANES 4
 #define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m256d a;
 #define SLW_ZERO(a) a = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
@@ -2692,32 +2855,46 @@ static const sli_kernels SLV_NAME(kernels) = {
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -2760,8 +2937,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -2781,7 +2959,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -2798,7 +2977,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -2839,14 +3018,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_FNMA
 #undef SLW_DIVIDE
 /* end src/impl/lanes.inl.h */
+/* end src/impl/lanes_ymm.inl.h */
 
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_LANES 8
 #define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m512d a;
 #define SLW_ZERO(a) a = _mm512_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
@@ -2857,32 +3033,46 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -2925,8 +3115,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -2946,7 +3137,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -2963,7 +3155,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -3008,20 +3200,18 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 /* begin src/impl/tile.inl.h */
 /* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
 
-#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);  /* r(k) -= L(k, j) r(j) */
 #define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
 
 /* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
-    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
-    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
-    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
-    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
-    SLI_X(6, 5) SLI_X(7, 5)
-    SLI_X(7, 6)
-    r[1] = r1;
+    SLI_X(1, 0)
+    SLI_X(2, 0)
+    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
+        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
+            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
+                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -3033,14 +3223,13 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
 /* r := L'^-1 r */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
-    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
-    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
-    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
-    SLI_XT(1, 2) SLI_XT(0, 2)
-    SLI_XT(0, 1)
-    r[0] = r0;
+    SLI_XT(6, 7)
+    SLI_XT(5, 7)
+    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
+        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
+            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
+                    r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -3056,8 +3245,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 /* begin src/impl/pairs.inl.h */
 /* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
 
-/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
- * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so
+ * that every number of L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
 #define SLI_PAIR_AXPY(e, l, p)                                                                     \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
@@ -3065,7 +3254,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     SLV_FNMA(e##0, t0, b)                                                                          \
     SLV_FNMA(e##1, t1, b)
 
-/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is
+ * one. */
 #define SLI_PAIR_TILE(solve, l, p)                                                                 \
     {                                                                                              \
         double r[2][SLI_TILE];                                                                     \
@@ -3107,7 +3297,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             SLV_LOAD(e1, p + SLI_TILE)
             SLV_ZERO(f0)
             SLV_ZERO(f1)
-            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+            for (j = first; j + 2 <= final;
+                 j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
                 SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
                 SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
             }
@@ -3122,7 +3313,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             if (inner == SLI_TILE) {
                 SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
             } else {
-                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                for (k = 0; k < inner;
+                     k++, l += SLI_TILE) { /* columns inside the tile, one by one */
                     SLI_PAIR_AXPY(e, l, p + 2 * k)
                     SLV_STORE(p, e0)
                     SLV_STORE(p + SLI_TILE, e1)
@@ -3140,16 +3332,17 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
     }
 }
 
-/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in
+ * one octet. */
 #define SLI_PAIR_DOT(a, l)                                                                         \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
     SLV_FNMA(a, t0, v0)                                                                            \
     SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                             const double *L, const double *D, double *x,
-                                             double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
+                                             const sl_int *rows_end, const double *L,
+                                             const double *D, double *x, double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -3226,15 +3419,17 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, co
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
- * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
- * alone, so that a sweep that starts later, over zeros, gives the same bits. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
-                                                      sl_int rows, double *buf) {
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied
+ * in ascending order. tile points at tile t0. Four partial sums hide the latency of the FMA; their
+ * grouping depends on the column number alone, so that a sweep that starts later, over zeros, gives
+ * the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
+                                                     sl_int columns, sl_int rows, double *buf) {
     const sl_int first = SLI_TILE * t0;
     sl_int t, j, k;
     for (t = t0; SLI_TILE * t < rows; t++) {
-        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
+        const sl_int inner = sli_clamp(columns - row, SLI_TILE);
         SLV_DECLARE(a0)
         SLV_DECLARE(a1)
         SLV_DECLARE(a2)
@@ -3269,17 +3464,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
         memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
@@ -3288,10 +3484,12 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
- * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
-                                                       const double *z, double *buf, double *sums) {
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
+ * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
+ * each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
+                                                      sl_int height, const double *z, double *buf,
+                                                      double *sums) {
     const sl_int first = SLI_TILE * t0;
     const double *tile = end;
     sl_int t, j, k;
@@ -3337,13 +3535,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         double *xs = x + s->base - first;
-        const double *d = D + s->column - first;
+        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
         for (i = first; i < w; i++) {
@@ -3356,14 +3555,14 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         for (i = height; i < padded; i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
-                                 buf + padded);
+        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
         memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
-                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
+                                       const double *D, double *xs, double *x, double *buf,
+                                       double *pivot, double *magnitude) {
     const sl_int columns = sli_min(q, w);
     double *lq = panel + sli_panel_at(w, q, 0);
     double d = *pivot, size = *magnitude;
@@ -3436,84 +3635,102 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
 #define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
 #define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
-#define SLV_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
-#define SLV_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), vst1q_f64((p) + 6, a##_3);
-#define SLV_ADD(a, b)  \
-    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
-#define SLV_AXPY(a, l, p) { \
-        const float64x2_t s_ = vld1q_dup_f64(p); \
-        a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_); \
-        a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_); \
-        a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_); \
-        a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_); \
+#define SLV_LOAD(a, p)                                                                             \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4),            \
+    a##_3 = vld1q_f64((p) + 6);
+#define SLV_STORE(p, a)                                                                            \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2),               \
+        vst1q_f64((p) + 6, a##_3);
+#define SLV_ADD(a, b)                                                                              \
+    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1),                              \
+    a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLV_AXPY(a, l, p)                                                                          \
+    {                                                                                              \
+        const float64x2_t s_ = vld1q_dup_f64(p);                                                   \
+        a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_);                                          \
+        a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_);                                          \
+        a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_);                                          \
+        a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_);                                          \
     }
-#define SLV_DOT(a, l, v)  \
-    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0), \
-    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1), \
-    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
+#define SLV_DOT(a, l, v)                                                                           \
+    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0),                                           \
+    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1),                                           \
+    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2),                                           \
     a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
 #define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_FNMA(a, b, c) a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
-#define SLV_TWICE_LOW(e, l) e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1), e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
+#define SLV_FNMA(a, b, c)                                                                          \
+    a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
+    a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_TWICE_LOW(e, l)                                                                        \
+    e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1),                                \
+    e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
 #define SLV_TWICE_HIGH(e, l) SLV_TWICE_LOW(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_LANES 4
 #define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
-#define SLW_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
-#define SLW_FNMA(a, s, b) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-        a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+#define SLW_LOAD(a, p) a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
+#define SLW_STORE(p, a) vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0);                                                       \
+        a##_1 = vfmsq_f64(a##_1, s_, b##_1);                                                       \
     }
 #define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vdivq_f64(a##_0, s_); \
-        a##_1 = vdivq_f64(a##_1, s_); \
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vdivq_f64(a##_0, s_);                                                              \
+        a##_1 = vdivq_f64(a##_1, s_);                                                              \
     }
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -3556,8 +3773,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -3577,7 +3795,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -3594,7 +3813,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -3639,60 +3858,76 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #define SLW_NAME(f) sli_##f##8_neon
 #define SLW_LANES 8
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
 #define SLW_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
-#define SLW_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), vst1q_f64((p) + 6, a##_3);
-#define SLW_FNMA(a, s, b) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-        a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
-        a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
-        a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
+#define SLW_LOAD(a, p)                                                                             \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4),            \
+    a##_3 = vld1q_f64((p) + 6);
+#define SLW_STORE(p, a)                                                                            \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2),               \
+        vst1q_f64((p) + 6, a##_3);
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0);                                                       \
+        a##_1 = vfmsq_f64(a##_1, s_, b##_1);                                                       \
+        a##_2 = vfmsq_f64(a##_2, s_, b##_2);                                                       \
+        a##_3 = vfmsq_f64(a##_3, s_, b##_3);                                                       \
     }
-#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
-#define SLW_DIVIDE(a, s) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vdivq_f64(a##_0, s_); \
-        a##_1 = vdivq_f64(a##_1, s_); \
-        a##_2 = vdivq_f64(a##_2, s_); \
-        a##_3 = vdivq_f64(a##_3, s_); \
+#define SLW_ADD(a, b)                                                                              \
+    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1),                              \
+    a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vdivq_f64(a##_0, s_);                                                              \
+        a##_1 = vdivq_f64(a##_1, s_);                                                              \
+        a##_2 = vdivq_f64(a##_2, s_);                                                              \
+        a##_3 = vdivq_f64(a##_3, s_);                                                              \
     }
 /* begin src/impl/lanes.inl.h */
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -3735,8 +3970,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -3756,7 +3992,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -3773,7 +4010,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
@@ -3818,20 +4055,18 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 /* begin src/impl/tile.inl.h */
 /* tile.inl.h: the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7 */
 
-#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k); /* r(k) -= L(k, j) r(j) */
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);  /* r(k) -= L(k, j) r(j) */
 #define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
 
 /* r := L^-1 r, l the tile's 8 x 8 diagonal part by columns */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
-    SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
-    SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
-    SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3)
-    SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
-    SLI_X(6, 5) SLI_X(7, 5)
-    SLI_X(7, 6)
-    r[1] = r1;
+    SLI_X(1, 0)
+    SLI_X(2, 0)
+    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
+        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
+            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
+                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -3843,14 +4078,13 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
 /* r := L'^-1 r */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
-    SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
-    SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
-    SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
-    SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-    SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3)
-    SLI_XT(1, 2) SLI_XT(0, 2)
-    SLI_XT(0, 1)
-    r[0] = r0;
+    SLI_XT(6, 7)
+    SLI_XT(5, 7)
+    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
+        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
+            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
+                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
+                    r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -3866,8 +4100,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 /* begin src/impl/pairs.inl.h */
 /* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
 
-/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
- * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so
+ * that every number of L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
 #define SLI_PAIR_AXPY(e, l, p)                                                                     \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
@@ -3875,7 +4109,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     SLV_FNMA(e##0, t0, b)                                                                          \
     SLV_FNMA(e##1, t1, b)
 
-/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is
+ * one. */
 #define SLI_PAIR_TILE(solve, l, p)                                                                 \
     {                                                                                              \
         double r[2][SLI_TILE];                                                                     \
@@ -3917,7 +4152,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             SLV_LOAD(e1, p + SLI_TILE)
             SLV_ZERO(f0)
             SLV_ZERO(f1)
-            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+            for (j = first; j + 2 <= final;
+                 j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
                 SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
                 SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
             }
@@ -3932,7 +4168,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             if (inner == SLI_TILE) {
                 SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
             } else {
-                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                for (k = 0; k < inner;
+                     k++, l += SLI_TILE) { /* columns inside the tile, one by one */
                     SLI_PAIR_AXPY(e, l, p + 2 * k)
                     SLV_STORE(p, e0)
                     SLV_STORE(p + SLI_TILE, e1)
@@ -3950,16 +4187,17 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
     }
 }
 
-/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in
+ * one octet. */
 #define SLI_PAIR_DOT(a, l)                                                                         \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
     SLV_FNMA(a, t0, v0)                                                                            \
     SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                             const double *L, const double *D, double *x,
-                                             double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
+                                             const sl_int *rows_end, const double *L,
+                                             const double *D, double *x, double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -4036,15 +4274,17 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, co
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
- * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
- * alone, so that a sweep that starts later, over zeros, gives the same bits. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
-                                                      sl_int rows, double *buf) {
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied
+ * in ascending order. tile points at tile t0. Four partial sums hide the latency of the FMA; their
+ * grouping depends on the column number alone, so that a sweep that starts later, over zeros, gives
+ * the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
+                                                     sl_int columns, sl_int rows, double *buf) {
     const sl_int first = SLI_TILE * t0;
     sl_int t, j, k;
     for (t = t0; SLI_TILE * t < rows; t++) {
-        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
+        const sl_int inner = sli_clamp(columns - row, SLI_TILE);
         SLV_DECLARE(a0)
         SLV_DECLARE(a1)
         SLV_DECLARE(a2)
@@ -4079,17 +4319,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
         memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
@@ -4098,10 +4339,12 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
- * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
-                                                       const double *z, double *buf, double *sums) {
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
+ * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
+ * each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
+                                                      sl_int height, const double *z, double *buf,
+                                                      double *sums) {
     const sl_int first = SLI_TILE * t0;
     const double *tile = end;
     sl_int t, j, k;
@@ -4147,13 +4390,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         double *xs = x + s->base - first;
-        const double *d = D + s->column - first;
+        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
         for (i = first; i < w; i++) {
@@ -4166,14 +4410,14 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         for (i = height; i < padded; i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
-                                 buf + padded);
+        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
         memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
-                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
+                                       const double *D, double *xs, double *x, double *buf,
+                                       double *pivot, double *magnitude) {
     const sl_int columns = sli_min(q, w);
     double *lq = panel + sli_panel_at(w, q, 0);
     double d = *pivot, size = *magnitude;
@@ -4237,7 +4481,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #ifndef SLI_SELECT_H
 #define SLI_SELECT_H
 
-/* The table of an ISA, the best one for SL_ISA_AUTO; NULL where it is not compiled in or this processor lacks it. */
+/* The table of an ISA, the best one for SL_ISA_AUTO; NULL where it is not compiled in or this
+ * processor lacks it. */
 static const sli_kernels *sli_kernels_select(sl_isa isa) {
     const sl_isa best = sli_cpu_best();
     if (isa == SL_ISA_AUTO) {
@@ -4321,10 +4566,14 @@ static sl_triangle sli_triangle_scan(const sl_csc *A) {
             upper |= A->i[p] < j;
         }
     }
-    return lower && upper ? SL_TRIANGLE_BOTH : lower ? SL_TRIANGLE_LOWER : upper ? SL_TRIANGLE_UPPER : SL_TRIANGLE_NONE;
+    return lower && upper ? SL_TRIANGLE_BOTH
+           : lower        ? SL_TRIANGLE_LOWER
+           : upper        ? SL_TRIANGLE_UPPER
+                          : SL_TRIANGLE_NONE;
 }
 
-/* Whether an entry is one of those that stand for the symmetric matrix: of both triangles only the lower is read. */
+/* Whether an entry is one of those that stand for the symmetric matrix: of both triangles only the
+ * lower is read. */
 SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
     return triangle != SL_TRIANGLE_BOTH || row >= column;
 }
@@ -4337,8 +4586,8 @@ static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_va
     M->x = has_values ? SLI_TAKE(b, double, nnz) : NULL;
 }
 
-static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz, int has_values,
-                                const sl_allocator *a) {
+static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
+                                int has_values, const sl_allocator *a) {
     sl_matrix draft;
     sli_block b = {NULL, 0, 0};
     sl_status status;
@@ -4374,7 +4623,8 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
     return A;
 }
 
-/* start[k] := number of keys before k, start[n] := all; then start[key]++ places entries one after the other. */
+/* start[k] := number of keys before k, start[n] := all; then start[key]++ places entries one after
+ * the other. */
 static void sli_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
     sl_int k, total = 0;
     memset(start, 0, ((size_t)n + 1) * sizeof(sl_int));
@@ -4411,10 +4661,11 @@ static void sli_matrix_sum_duplicates(sl_matrix *M) {
     }
 }
 
-/* Triplets in range into columns: sorted by row, then stably by column, so that rows ascend and duplicates keep their
- * order; both sorts are by counting. */
-static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count, const sl_int *i,
-                                   const sl_int *j, const double *x, const sl_allocator *a) {
+/* Triplets in range into columns: sorted by row, then stably by column, so that rows ascend and
+ * duplicates keep their order; both sorts are by counting. */
+static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count,
+                                   const sl_int *i, const sl_int *j, const double *x,
+                                   const sl_allocator *a) {
     sl_matrix *M = NULL;
     sli_block b = {NULL, 0, 0};
     sl_int *start = NULL, *order = NULL, k;
@@ -4448,8 +4699,9 @@ static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols
     return SL_OK;
 }
 
-SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_off count, const sl_int *i,
-                                         const sl_int *j, const double *x, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols,
+                                         sl_off count, const sl_int *i, const sl_int *j,
+                                         const double *x, const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sl_off k;
     sli_stats_clear_error(stats);
@@ -4524,7 +4776,8 @@ static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark
 }
 
 /* The triangle of a checked square matrix. */
-static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt, sl_stats *stats) {
+static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                  sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
@@ -4546,7 +4799,8 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
     return status;
 }
 
-SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                 sl_stats *stats) {
     sl_status status = sl_csc_check(A, stats);
     if (status != SL_OK) {
         return status;
@@ -4557,8 +4811,10 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     return sli_csc_triangle(A, out, opt, stats);
 }
 
-/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a diagonal matrix. */
-static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y, const double *x) {
+/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a
+ * diagonal matrix. */
+static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
+                            const double *x) {
     sl_int j, p;
     for (j = 0; j < A->n_cols; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
@@ -4573,8 +4829,8 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
     }
 }
 
-SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy, const double *X, size_t ldx,
-                                 sl_int nrhs) {
+SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
+                                 const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
     if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
@@ -4583,8 +4839,8 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (nrhs == 0 || A->n_rows == 0) {
         return SL_OK;
     }
-    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols || (A->n_cols > 0 && X == NULL) ||
-        (sli_nnz(A) > 0 && A->x == NULL)) {
+    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols ||
+        (A->n_cols > 0 && X == NULL) || (sli_nnz(A) > 0 && A->x == NULL)) {
         return SL_ERR_ARGUMENT;
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
@@ -4626,8 +4882,9 @@ static double sli_largest(const double *x, sl_int n) {
     return largest;
 }
 
-SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error, const double *X,
-                                 size_t ldx, const double *B, size_t ldb, sl_int nrhs) {
+SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
+                                 const double *X, size_t ldx, const double *B, size_t ldb,
+                                 sl_int nrhs) {
     double norm = 0.0;
     sl_int r, n;
     size_t rows;
@@ -4660,7 +4917,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
             largest = sli_largest(res, n);
-            backward_error[r] = largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+            backward_error[r] =
+                largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
         }
     }
     return SL_OK;
@@ -4673,7 +4931,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
 #ifndef SLI_PERMUTE_H
 #define SLI_PERMUTE_H
 
-/* iperm := the inverse of perm. Returns the first position that makes perm no permutation, or -1. */
+/* iperm := the inverse of perm. Returns the first position that makes perm no permutation, or -1.
+ */
 static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
     sl_int k;
     for (k = 0; k < n; k++) {
@@ -4701,7 +4960,8 @@ static void sli_permute_entries(const sl_csc *A, const sl_int *iperm, sl_int *ro
     }
 }
 
-SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm, const sl_options *opt) {
+SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm,
+                                   const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     sli_block b = {NULL, 0, 0};
     sl_int *iperm = NULL, *row = NULL, *column = NULL;
@@ -4729,7 +4989,8 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
             status = SL_ERR_ARGUMENT;
         } else {
             sli_permute_entries(A, iperm, row, column);
-            status = sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
+            status =
+                sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
         }
         sli_free(&a, b.base);
     }
@@ -4751,7 +5012,8 @@ typedef struct sli_reader {
     sl_off line; /* lines taken so far */
 } sli_reader;
 
-/* Takes the next line that is neither blank nor a comment; *stop is its end. 0 at the end of the text. */
+/* Takes the next line that is neither blank nor a comment; *stop is its end. 0 at the end of the
+ * text. */
 static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
     while (r->at < r->end) {
         const char *s = r->at, *e = s;
@@ -4845,12 +5107,13 @@ static int sli_token_in(const char *token, const char *const *words) {
     return *words != NULL;
 }
 
-/* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library does not read is told
- * apart from what is no such file. */
+/* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library
+ * does not read is told apart from what is no such file. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
     static const char *const sli_formats[] = {"coordinate", "array", NULL};
     static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
-    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
+    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
+                                                 "hermitian", NULL};
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
@@ -4863,7 +5126,8 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
         }
     }
     if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
-        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) || !sli_token_in(token[4], sli_symmetries)) {
+        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
+        !sli_token_in(token[4], sli_symmetries)) {
         return SL_ERR_IO;
     }
     *has_values = !sli_token_is(token[3], "pattern");
@@ -4882,14 +5146,16 @@ static int sli_line_ends(const char *s, const char *e) {
     return s == e;
 }
 
-/* count lines "row column [value]", 1-based; entries of a symmetric file go to the lower triangle. */
-static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int symmetric, sl_int *i, sl_int *j, double *x) {
+/* count lines "row column [value]", 1-based; entries of a symmetric file go to the lower triangle.
+ */
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int symmetric, sl_int *i,
+                                  sl_int *j, double *x) {
     const char *s, *e;
     sl_off k, row, column;
     for (k = 0; k < size[2]; k++) {
         if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
-            !sli_token_int(&s, e, 1, size[1], &column) || (x != NULL && !sli_token_double(&s, e, &x[k])) ||
-            !sli_line_ends(s, e)) {
+            !sli_token_int(&s, e, 1, size[1], &column) ||
+            (x != NULL && !sli_token_double(&s, e, &x[k])) || !sli_line_ends(s, e)) {
             return SL_ERR_IO;
         }
         i[k] = (sl_int)(symmetric && row < column ? column : row) - 1;
@@ -4920,8 +5186,10 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
             return SL_ERR_TOO_LARGE;
         }
     }
-    /* an entry takes four bytes at least: a count that the file cannot hold is refused before memory is asked for */
-    if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) || size[2] > (r->end - r->at) / 4 + 1) {
+    /* an entry takes four bytes at least: a count that the file cannot hold is refused before
+     * memory is asked for */
+    if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
+        size[2] > (r->end - r->at) / 4 + 1) {
         return SL_ERR_IO;
     }
     for (k = 0; k < 2 && status == SL_OK; k++) {
@@ -4933,15 +5201,16 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     if (status == SL_OK) {
         status = sli_read_entries(r, size, symmetric, i, j, x);
         if (status == SL_OK) {
-            status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], i, j, x, a);
+            status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], i, j,
+                                       x, a);
         }
         sli_free(a, b.base);
     }
     return status;
 }
 
-SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length, const sl_options *opt,
-                                 sl_stats *stats) {
+SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                                 const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const int saved = errno; /* strtod may set it */
     sli_reader r;
@@ -4988,7 +5257,8 @@ static sl_status sli_load(FILE *file, char **text, size_t *length, const sl_allo
     return SL_ERR_MEMORY;
 }
 
-SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
+                                sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const int saved = errno;
     char *text = NULL;
@@ -5041,15 +5311,17 @@ static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangl
             count += sli_is_read(triangle, A->i[p], j);
         }
     }
-    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n", A->x != NULL ? "real" : "pattern",
-                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows, (long)A->n_cols,
-                 (long)count) > 0;
+    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
+                 A->x != NULL ? "real" : "pattern",
+                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
+                 (long)A->n_cols, (long)count) > 0;
     for (j = 0; j < A->n_cols && ok; j++) {
         for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
             const sl_int i = A->i[p];
             if (sli_is_read(triangle, i, j)) {
                 const int flip = reading == SL_AS_SYMMETRIC && i < j;
-                ok = sli_write_entry(file, flip ? j : i, flip ? i : j, A->x != NULL ? A->x + p : NULL);
+                ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
+                                     A->x != NULL ? A->x + p : NULL);
             }
         }
     }
@@ -5059,7 +5331,8 @@ static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangl
 SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
     const int saved = errno;
     sl_triangle triangle = SL_TRIANGLE_NONE;
-    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL) : sl_csc_check(A, NULL);
+    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
+                                                  : sl_csc_check(A, NULL);
     FILE *file;
     int ok;
     if (status != SL_OK) {
@@ -5087,25 +5360,25 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
 
 struct sl_symbolic {
     sl_allocator allocator;
-    sl_stats stats;          /* the symbolic group */
-    sl_int n;                /* rows of A */
-    sl_int n_supers;         /* supernodes, in postorder */
-    sl_int nnz_input;        /* entries of A as handed in, read or not */
-    uint64_t fingerprint;    /* of A's arrays p and i: a refactorization must bring the same */
-    sl_int tallest, widest;  /* largest height (columns + rows below) and width of a supernode */
-    sl_int *perm, *iperm;    /* n */
-    sl_int *parent;          /* n: elimination tree, -1 at a root */
-    sl_int *counts;          /* n: entries of each column of L without relaxation */
-    sl_int *super_of;        /* n */
-    sl_int *super_first;     /* n_supers + 1 */
-    sl_int *super_parent;    /* n_supers, -1 at a root */
-    sl_off *rows_begin;      /* n_supers + 1 */
-    sl_int *rows;            /* rows_begin[n_supers]: rows below each supernode, ascending */
-    sl_off *panel_begin;     /* n_supers + 1, in doubles */
-    sli_step *steps;         /* n_supers: the reach of everything */
-    sl_off *map_begin;       /* n_supers + 1 */
-    sl_int *map_from;        /* map_begin[n_supers]: positions in A, grouped by supernode */
-    sl_off *map_to;          /* the same: positions in L; several may share one (duplicates) */
+    sl_stats stats;         /* the symbolic group */
+    sl_int n;               /* rows of A */
+    sl_int n_supers;        /* supernodes, in postorder */
+    sl_int nnz_input;       /* entries of A as handed in, read or not */
+    uint64_t fingerprint;   /* of A's arrays p and i: a refactorization must bring the same */
+    sl_int tallest, widest; /* largest height (columns + rows below) and width of a supernode */
+    sl_int *perm, *iperm;   /* n */
+    sl_int *parent;         /* n: elimination tree, -1 at a root */
+    sl_int *counts;         /* n: entries of each column of L without relaxation */
+    sl_int *super_of;       /* n */
+    sl_int *super_first;    /* n_supers + 1 */
+    sl_int *super_parent;   /* n_supers, -1 at a root */
+    sl_off *rows_begin;     /* n_supers + 1 */
+    sl_int *rows;           /* rows_begin[n_supers]: rows below each supernode, ascending */
+    sl_off *panel_begin;    /* n_supers + 1, in doubles */
+    sli_step *steps;        /* n_supers: the reach of everything */
+    sl_off *map_begin;      /* n_supers + 1 */
+    sl_int *map_from;       /* map_begin[n_supers]: positions in A, grouped by supernode */
+    sl_off *map_to;         /* the same: positions in L; several may share one (duplicates) */
 };
 
 /* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */
@@ -5173,7 +5446,8 @@ SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
     return 1;
 }
 
-/* Sorts every list into `to`: a symmetric graph handed out vertex by vertex arrives sorted. at: n of scratch. */
+/* Sorts every list into `to`: a symmetric graph handed out vertex by vertex arrives sorted. at: n
+ * of scratch. */
 SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
     sl_int v;
     sl_off e;
@@ -5195,10 +5469,11 @@ static void sli_half_starts(sli_half *h, sl_int n) {
     }
 }
 
-/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k: the rows from k on).
- * What follows walks them in elimination order, each pass only the half that it needs. */
-static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm, sli_half *rows,
-                            sli_half *columns) {
+/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k:
+ * the rows from k on). What follows walks them in elimination order, each pass only the half that
+ * it needs. */
+static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
+                            sli_half *rows, sli_half *columns) {
     const sl_int n = A->n_cols;
     sl_int j, p;
     memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
@@ -5216,7 +5491,8 @@ static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int 
     for (j = 0; j < n; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (sli_is_read(triangle, A->i[p], j)) {
-                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]), i = sli_min(iperm[A->i[p]], iperm[j]);
+                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]),
+                             i = sli_min(iperm[A->i[p]], iperm[j]);
                 const sl_int at = rows->begin[k]++;
                 rows->to[at] = i;
                 rows->from[at] = p;
@@ -5256,8 +5532,8 @@ static uint64_t sli_fingerprint(const sl_csc *A) {
 #include <metis.h>
 
 /* The component's graph as METIS wants it: its own numbering, no edge twice. */
-static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count, const sl_int *local, idx_t *xadj,
-                            idx_t *adjncy, idx_t *mark) {
+static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
+                            const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
     sl_int k;
     idx_t edges = 0;
     for (k = 0; k < count; k++) {
@@ -5278,10 +5554,13 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
     xadj[count] = edges;
 }
 
-/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry. */
-static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count, const sl_int *local,
-                                     const sl_int *metis_options, const sl_allocator *a) {
-    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
+/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry.
+ */
+static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count,
+                                     const sl_int *local, const sl_int *metis_options,
+                                     const sl_allocator *a) {
+    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
+                                   *iperm = NULL;
     sli_block b = {NULL, 0, 0};
     sl_off edges = 0;
     sl_status status = SL_OK;
@@ -5311,7 +5590,8 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
     options[METIS_OPTION_NUMBERING] = 0;
     result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
     if (result == METIS_OK) {
-        for (k = 0; k < count; k++) { /* xadj is done with: the old numbers of the component go there */
+        for (k = 0; k < count;
+             k++) { /* xadj is done with: the old numbers of the component go there */
             xadj[k] = vertices[k];
         }
         for (k = 0; k < count; k++) {
@@ -5319,7 +5599,9 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         }
     }
     sli_free(a, b.base);
-    return result == METIS_OK ? SL_OK : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY : SL_ERR_ORDERING;
+    return result == METIS_OK             ? SL_OK
+           : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
+                                          : SL_ERR_ORDERING;
 }
 
 #endif
@@ -5338,7 +5620,8 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
     }
 }
 
-static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch, sl_stats *stats) {
+static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch,
+                                 sl_stats *stats) {
     sl_int bad;
     if (given == NULL && n > 0) {
         return SL_ERR_ARGUMENT;
@@ -5356,9 +5639,10 @@ static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl
 #if !defined(SL_NO_METIS)
 #define SLI_ORDER_TINY 4 /* a component this small has nothing to dissect */
 
-/* One breadth-first search a component, the queue being perm itself; each component is then dissected in its place. */
-static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm, sl_int *local,
-                                 const sl_allocator *a) {
+/* One breadth-first search a component, the queue being perm itself; each component is then
+ * dissected in its place. */
+static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm,
+                                 sl_int *local, const sl_allocator *a) {
     sl_int root, head, tail = 0, start;
     sl_status status = SL_OK;
     for (root = 0; root < G->n; root++) {
@@ -5388,7 +5672,8 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
     return status;
 }
 
-/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is stored. */
+/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is
+ * stored. */
 static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     const sl_off edges = G->begin[G->n];
     sli_block b = {NULL, 0, 0};
@@ -5412,8 +5697,8 @@ static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     return status;
 }
 
-static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm,
-                                      sl_int *local, const sl_allocator *a) {
+static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
+                                      sl_int *perm, sl_int *local, const sl_allocator *a) {
     sli_graph G;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -5438,8 +5723,8 @@ static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, con
 #endif
 
 /* perm: n, the order of a checked symmetric pattern. scratch: n. */
-static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm, sl_int *scratch,
-                           const sl_allocator *a, sl_stats *stats) {
+static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
+                           sl_int *perm, sl_int *scratch, const sl_allocator *a, sl_stats *stats) {
     sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
 #if defined(SL_NO_METIS)
     (void)a;
@@ -5469,8 +5754,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
 #ifndef SLI_ETREE_H
 #define SLI_ETREE_H
 
-/* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n of scratch, the
- * paths to the roots found so far, compressed. [Liu90] */
+/* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n
+ * of scratch, the paths to the roots found so far, compressed. [Liu90] */
 static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *ancestor) {
     sl_int k, p;
     for (k = 0; k < n; k++) {
@@ -5490,9 +5775,10 @@ static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *an
     }
 }
 
-/* post[k] := the k-th node of a forest in postorder, children ascending; parent[j] > j is not needed.
- * child, sibling: n of scratch each. */
-static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child, sl_int *sibling) {
+/* post[k] := the k-th node of a forest in postorder, children ascending; parent[j] > j is not
+ * needed. child, sibling: n of scratch each. */
+static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child,
+                          sl_int *sibling) {
     sl_int j, k = 0, root;
     for (j = 0; j < n; j++) {
         child[j] = -1;
@@ -5509,7 +5795,8 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
         }
         j = root;
         for (;;) {
-            while (child[j] != -1) { /* down to the first leaf; a visited child is taken off its list */
+            /* down to the first leaf; a visited child is taken off its list */
+            while (child[j] != -1) {
                 const sl_int c = child[j];
                 child[j] = sibling[c];
                 j = c;
@@ -5523,9 +5810,10 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
     }
 }
 
-/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of, and the tree.
- * scratch: 2n. */
-static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of, sl_int *parent, sl_int *scratch) {
+/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of,
+ * and the tree. scratch: 2n. */
+static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
+                        sl_int *parent, sl_int *scratch) {
     sl_int *fresh = scratch, *number = scratch + n, k;
     for (k = 0; k < n; k++) {
         fresh[k] = old_of[order[k]];
@@ -5551,20 +5839,24 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
 #ifndef SLI_COUNTS_H
 #define SLI_COUNTS_H
 
-/* counts[j] := entries of column j of L, diagonal included; the order is a postorder of parent. columns
- * has the numbers before that order, old_of[j] being j's; scratch: 4n.
+/* counts[j] := entries of column j of L, diagonal included; the order is a postorder of parent.
+ * columns has the numbers before that order, old_of[j] being j's; scratch: 4n.
  *
- * Row i of L is the subtree of the elimination tree that hangs between i and the smallest columns of row i of A. Column
- * j counts one for each row subtree that it lies in: +1 at every leaf of a row subtree, -1 at the lowest common
- * ancestor of two leaves in a row, -1 at i's parent side for the diagonal, summed up the tree. In a postorder j is a
- * leaf of row i's subtree if no earlier neighbour of i lies among j's descendants. [GNP94]
+ * Row i of L is the subtree of the elimination tree that hangs between i and the smallest columns
+ * of row i of A. Column j counts one for each row subtree that it lies in: +1 at every leaf of a
+ * row subtree, -1 at the lowest common ancestor of two leaves in a row, -1 at i's parent side for
+ * the diagonal, summed up the tree. In a postorder j is a leaf of row i's subtree if no earlier
+ * neighbour of i lies among j's descendants. [GNP94]
  */
-static void sli_counts(sl_int n, const sli_half *columns, const sl_int *old_of, const sl_int *new_of,
-                       const sl_int *parent, sl_int *counts, sl_int *scratch) {
-    sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n, *set = scratch + 3 * (size_t)n;
+static void sli_counts(sl_int n, const sli_half *columns, const sl_int *old_of,
+                       const sl_int *new_of, const sl_int *parent, sl_int *counts,
+                       sl_int *scratch) {
+    sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n,
+           *set = scratch + 3 * (size_t)n;
     sl_int i, j, p;
+    /* first: the first descendant; seen: the largest first of a leaf in row i; leaf: that leaf */
     for (j = 0; j < n; j++) {
-        first[j] = j; /* the first descendant; seen: the largest first of a leaf in row i; leaf: that leaf */
+        first[j] = j;
         seen[j] = -1;
         leaf[j] = -1;
         set[j] = j;
@@ -5587,7 +5879,8 @@ static void sli_counts(sl_int n, const sli_half *columns, const sl_int *old_of, 
             }
             counts[j]++;
             seen[i] = first[j];
-            if (leaf[i] != -1) { /* the subtrees of two successive leaves meet at the root of the earlier one's set */
+            /* the subtrees of two successive leaves meet at the root of the earlier one's set */
+            if (leaf[i] != -1) {
                 sl_int root = leaf[i], q = leaf[i];
                 while (root != set[root]) {
                     root = set[root];
@@ -5619,20 +5912,22 @@ static void sli_counts(sl_int n, const sli_half *columns, const sl_int *old_of, 
 #ifndef SLI_SUPERNODES_H
 #define SLI_SUPERNODES_H
 
-/* Supernodes under construction, all arrays of n. A group is named by its top fundamental supernode. */
+/* Supernodes under construction, all arrays of n. A group is named by its top fundamental
+ * supernode. */
 typedef struct sli_groups {
-    sl_int count;      /* fundamental supernodes */
-    sl_int *first;     /* n + 1: first column of each */
-    sl_int *parent;    /* parent supernode, -1 at a root */
-    sl_int *width;     /* columns of the group so far */
-    sl_int *below;     /* rows below it */
-    double *zeros;     /* stored places of the group that L does not fill */
-    sl_int *group;     /* the supernode it was merged into, itself while on top; at last the top */
+    sl_int count;   /* fundamental supernodes */
+    sl_int *first;  /* n + 1: first column of each */
+    sl_int *parent; /* parent supernode, -1 at a root */
+    sl_int *width;  /* columns of the group so far */
+    sl_int *below;  /* rows below it */
+    double *zeros;  /* stored places of the group that L does not fill */
+    sl_int *group;  /* the supernode it was merged into, itself while on top; at last the top */
 } sli_groups;
 
-/* Runs of columns with the same structure, each the only child of the next: count falls by one along the run. */
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children, sl_int *super_of,
-                            sli_groups *g) {
+/* Runs of columns with the same structure, each the only child of the next: count falls by one
+ * along the run. */
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
+                            sl_int *super_of, sli_groups *g) {
     sl_int j, s = -1;
     memset(children, 0, (size_t)n * sizeof(sl_int));
     for (j = 0; j < n; j++) {
@@ -5658,8 +5953,8 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     }
 }
 
-/* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not their flops; the
- * thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
+/* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not
+ * their flops; the thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
 static int sli_may_merge(sl_int width, double z) {
     return width <= 8 || (width <= 16 && z < 0.30) || (width <= 48 && z < 0.15) || z < 0.05;
 }
@@ -5669,8 +5964,10 @@ static double sli_new_zeros(const sli_groups *g, sl_int c, sl_int p) {
     return (double)g->width[c] * (double)(g->width[p] + g->below[p] - g->below[c]);
 }
 
-/* Joins the children of p, cheapest first, as long as the zeros allow. list: the children, keyed by rank. */
-static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int count, uint64_t *scratch) {
+/* Joins the children of p, cheapest first, as long as the zeros allow. list: the children, keyed by
+ * rank. */
+static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int count,
+                               uint64_t *scratch) {
     sl_int k;
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]);
@@ -5690,9 +5987,10 @@ static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int c
     }
 }
 
-/* Every supernode in turn takes in its children, which come before it. child, sibling: lists of children;
- * list, scratch: room for all of them. */
-static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *list, uint64_t *scratch) {
+/* Every supernode in turn takes in its children, which come before it. child, sibling: lists of
+ * children; list, scratch: room for all of them. */
+static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *list,
+                      uint64_t *scratch) {
     sl_int s, c, count;
     for (s = 0; s < g->count; s++) {
         child[s] = -1;
@@ -5712,11 +6010,13 @@ static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *l
     }
 }
 
-/* Numbers the groups in a postorder of their tree and lays their columns side by side: order[k] = old column of the
- * new k. On return the arrays describe the groups in their new numbers, and count is how many there are.
- * scratch: 5n. */
-static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *super_of, sl_int *scratch) {
-    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n;
+/* Numbers the groups in a postorder of their tree and lays their columns side by side: order[k] =
+ * old column of the new k. On return the arrays describe the groups in their new numbers, and count
+ * is how many there are. scratch: 5n. */
+static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *super_of,
+                                sl_int *scratch) {
+    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
+           *at = scratch + 3 * (size_t)n;
     sl_int *more = scratch + 4 * (size_t)n;
     sl_int s, k, groups = 0, column = 0;
     for (s = g->count - 1; s >= 0; s--) { /* parents come first, so that their group is final */
@@ -5748,7 +6048,8 @@ static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *
             order[(*next)++] = k;
         }
     }
-    for (k = 0; k < groups; k++) { /* group and at are done with: they carry the sizes to the new numbers */
+    for (k = 0; k < groups;
+         k++) { /* group and at are done with: they carry the sizes to the new numbers */
         at[k] = g->width[top[post[k]]];
         g->group[k] = g->below[top[post[k]]];
     }
@@ -5786,12 +6087,12 @@ static void sli_count_map(sl_symbolic *S, const sli_half *columns, const sl_int 
 
 /* The rows of every supernode, and the place in L of every entry of A, in one walk over the rows.
  *
- * Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode: k is appended to each
- * of them, and as k ascends so do the lists; where it was appended is the local row of k's entries. end: n_supers, how
- * far each list has got; mark: n_supers.
+ * Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode:
+ * k is appended to each of them, and as k ascends so do the lists; where it was appended is the
+ * local row of k's entries. end: n_supers, how far each list has got; mark: n_supers.
  */
-static void sli_fill_structure(sl_symbolic *S, const sli_half *rows, const sl_int *old_of, const sl_int *new_of,
-                               sl_off *end, sl_int *mark) {
+static void sli_fill_structure(sl_symbolic *S, const sli_half *rows, const sl_int *old_of,
+                               const sl_int *new_of, sl_off *end, sl_int *mark) {
     sl_int k, p, s;
     for (s = 0; s < S->n_supers; s++) {
         end[s] = S->rows_begin[s];
@@ -5847,17 +6148,18 @@ static void sli_fill_steps(sl_symbolic *S) {
 #ifndef SLI_SYMBOLIC_H
 #define SLI_SYMBOLIC_H
 
-/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order that was asked for
- * (rows, columns), and in the postorder of the supernodes that comes of it (everything else). */
+/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order
+ * that was asked for (rows, columns), and in the postorder of the supernodes that comes of it
+ * (everything else). */
 typedef struct sli_analysis {
     sl_int n;
     sli_half rows, columns;
     sli_groups groups;
-    sl_int *perm;                             /* n: the order asked for */
-    sl_int *old_of, *new_of;                  /* n: from the last numbering to the one before, and back */
-    sl_int *parent, *counts, *super_of;       /* n each */
-    sl_int *scratch;                          /* 5n */
-    uint64_t *list;                           /* 2n */
+    sl_int *perm;                       /* n: the order asked for */
+    sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
+    sl_int *parent, *counts, *super_of; /* n each */
+    sl_int *scratch;                    /* 5n */
+    uint64_t *list;                     /* 2n */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
@@ -5962,17 +6264,19 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     S->panel_begin[0] = 0;
     for (s = 0; s < S->n_supers; s++) {
         S->rows_begin[s + 1] = S->rows_begin[s] + w->groups.below[s];
-        S->panel_begin[s + 1] = S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
+        S->panel_begin[s + 1] =
+            S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
     }
     /* list has 4n words of 4 bytes: the ends of the rows in one half, the marks in the other */
     sli_count_map(S, &w->columns, w->old_of);
-    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list, (sl_int *)(void *)(w->list + S->n));
+    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
+                       (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
-static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sli_analysis *w,
-                                   const sl_allocator *a, sl_stats *stats) {
+static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                                   sli_analysis *w, const sl_allocator *a, sl_stats *stats) {
     double started;
     sl_symbolic draft;
     sli_block b = {NULL, 0, 0};
@@ -6035,7 +6339,8 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_symbolic = from->bytes_symbolic;
 }
 
-SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                                    sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const double started = sli_seconds();
     sli_analysis w;
@@ -6117,8 +6422,8 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S) {
 #ifndef SLI_REACH_H
 #define SLI_REACH_H
 
-/* A reach, compiled for the kernels: its supernodes ascending, each from the first column needed, and the places of
- * their rows in a vector that holds the reach's columns alone. */
+/* A reach, compiled for the kernels: its supernodes ascending, each from the first column needed,
+ * and the places of their rows in a vector that holds the reach's columns alone. */
 typedef struct sli_reach {
     sl_int count;           /* supernodes */
     sl_int columns;         /* length of the vector */
@@ -6143,9 +6448,11 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
     return R;
 }
 
-/* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a postorder the first
- * ancestor at or after it is on the next seed's own path, so that paths join without a mark on any column. */
-SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sl_int *k) {
+/* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a
+ * postorder the first ancestor at or after it is on the next seed's own path, so that paths join
+ * without a mark on any column. */
+SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                                sl_int *k) {
     const sl_int here = S->super_of[sli_key(seeds[*k])];
     sl_int s = here;
     while (++*k < count && s == here) {
@@ -6158,7 +6465,8 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
 }
 
 /* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
-static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_reach *R) {
+static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                              sli_reach *R) {
     sl_int k = 0, s, next;
     memset(R, 0, sizeof *R);
     while (k < count) {
@@ -6171,9 +6479,11 @@ static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_in
     }
 }
 
-/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded through `up` of the steps
- * whose parent has not come yet; its top waits for the smallest supernode. */
-static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed, sl_int *waiting) {
+/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded
+ * through `up` of the steps whose parent has not come yet; its top waits for the smallest
+ * supernode. */
+static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
+                            sl_int *waiting) {
     const sl_int first = S->super_first[s];
     sli_step *step = &steps[at];
     sl_int column = seed;
@@ -6196,8 +6506,10 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     }
 }
 
-/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them. */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at, sl_int *places) {
+/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
+ */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at,
+                             sl_int *places) {
     const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
     const sl_int below = steps[at].below;
     sl_int i = 0;
@@ -6213,8 +6525,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
 }
 
 /* Compiles the reach that sli_reach_measure has counted. O(reach). */
-static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_step *steps, sl_int *rows,
-                           sli_reach *R) {
+static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                           sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
     sl_off placed = 0;
     while (k < count) {
@@ -6232,7 +6544,8 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
         R->columns += sli_step_columns(step);
         R->widest = sli_max(R->widest, step->width);
         R->tallest = sli_max(R->tallest, step->width + step->below);
-        R->entries += sli_panel_size(step->width, step->below) - sli_tile_offset(step->width, step->first_tile) -
+        R->entries += sli_panel_size(step->width, step->below) -
+                      sli_tile_offset(step->width, step->first_tile) -
                       (sl_off)SLI_TILE * SLI_TILE * step->first_tile *
                           (sli_tiles(step->width + step->below) - step->first_tile);
     }
@@ -6254,19 +6567,19 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
 
 struct sl_factor {
     sl_allocator allocator;
-    sl_stats stats;            /* the factor group and the error fields */
-    const sl_symbolic *S;      /* borrowed */
+    sl_stats stats;       /* the factor group and the error fields */
+    const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     double null_tolerance;
-    int is_good;               /* L and D hold a factor */
-    double *L;                 /* the panels */
-    double *D;                 /* n pivots */
-    double *x;                 /* n: updates on their way up row k; all 0 between rows */
-    double *buffer;            /* kernel scratch */
-    sl_int *head;              /* n: first supernode whose next row is k, -1 for none */
-    sl_int *next;              /* n_supers: the others, as a list */
-    sl_int *position;          /* n_supers: how many rows below have been done */
-    uint64_t *list;            /* n_supers: the reach of row k */
+    int is_good;      /* L and D hold a factor */
+    double *L;        /* the panels */
+    double *D;        /* n pivots */
+    double *x;        /* n: updates on their way up row k; all 0 between rows */
+    double *buffer;   /* kernel scratch */
+    sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
+    sl_int *next;     /* n_supers: the others, as a list */
+    sl_int *position; /* n_supers: how many rows below have been done */
+    uint64_t *list;   /* n_supers: the reach of row k */
     uint64_t *list_scratch;
 };
 
@@ -6315,11 +6628,12 @@ static void sli_wait_for_row(sl_factor *F, sl_int s) {
 static void sli_do_row(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int first = S->super_first[s];
-    F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s], F->D + first,
-                    F->x + first, F->x, F->buffer, pivot, magnitude);
+    F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s],
+                    F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
-/* Row k: the supernodes that wait for it, in ascending order so that descendants come first, then its own. */
+/* Row k: the supernodes that wait for it, in ascending order so that descendants come first, then
+ * its own. */
 static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
@@ -6465,14 +6779,15 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     return status;
 }
 
-/* The last pivot of a singular Laplacian is what rounding left of it: over meshes, grids and paths of 1e2 to 1e6 rows it
- * came to less than 60 + n/16 units of rounding, while no pivot of a regular one fell below 1e9. */
+/* The last pivot of a singular Laplacian is what rounding left of it: over meshes, grids and paths
+ * of 1e2 to 1e6 rows it came to less than 60 + n/16 units of rounding, while no pivot of a regular
+ * one fell below 1e9. */
 static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A, const sl_options *opt,
-                                  sl_stats *stats) {
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
@@ -6493,7 +6808,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
-    draft.null_tolerance = opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
+    draft.null_tolerance =
+        opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
@@ -6551,13 +6867,15 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them. */
+/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them.
+ */
 static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
     const sl_symbolic *S = F->S;
     sl_int s, j, r;
     sl_off count = 0;
     for (s = 0; s < S->n_supers; s++) {
-        const sl_int first = S->super_first[s], width = S->steps[s].width, height = width + S->steps[s].below;
+        const sl_int first = S->super_first[s], width = S->steps[s].width,
+                     height = width + S->steps[s].below;
         for (j = 0; j < width; j++) {
             for (r = j; r < height; r++) {
                 const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];
@@ -6676,14 +6994,15 @@ SL_API size_t sl_work_bytes(const sl_work *W) {
 #ifndef SLI_SWEEP_H
 #define SLI_SWEEP_H
 
-/* A compiled question: the reach of b, the reach of x, and where the caller's rows stand in their vectors. */
+/* A compiled question: the reach of b, the reach of x, and where the caller's rows stand in their
+ * vectors. */
 typedef struct sli_query {
     const sl_symbolic *S;
     sl_int nb, nx;
-    int is_shared;             /* one reach and one vector serve both sweeps */
+    int is_shared; /* one reach and one vector serve both sweeps */
     sli_reach forward, backward;
-    const sl_int *b_place;     /* nb */
-    const sl_int *x_place;     /* nx */
+    const sl_int *b_place; /* nb */
+    const sl_int *x_place; /* nx */
 } sli_query;
 
 /* Everything known and everything wanted: the full solve. */
@@ -6699,7 +7018,10 @@ static sli_query sli_query_all(const sl_symbolic *S) {
 
 /* The kernel for the next block of nrhs right-hand sides, and how many lanes it has. */
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
-    return nrhs <= 1 ? SLI_LANES_1 : nrhs == 2 ? SLI_LANES_2 : nrhs <= 4 ? SLI_LANES_4 : SLI_LANES_8;
+    return nrhs <= 1   ? SLI_LANES_1
+           : nrhs == 2 ? SLI_LANES_2
+           : nrhs <= 4 ? SLI_LANES_4
+                       : SLI_LANES_8;
 }
 
 /* The vectors and scratch of one block, cut from a workspace. */
@@ -6711,13 +7033,13 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
-    v->y = SLI_TAKE(b, double, (size_t)q->forward.columns * (size_t)lanes);
-    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (size_t)q->backward.columns * (size_t)lanes);
+    v->y = SLI_TAKE(b, double, (size_t)q->forward.columns *(size_t)lanes);
+    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (size_t)q->backward.columns *(size_t)lanes);
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 
-/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One and two
- * lanes keep partial sums that more lanes do not need, so both ends are looked at. */
+/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One and
+ * two lanes keep partial sums that more lanes do not need, so both ends are looked at. */
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
     sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
     sli_vectors v;
@@ -6726,10 +7048,11 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
     return few.overflow || many.overflow ? SIZE_MAX : few.used > many.used ? few.used : many.used;
 }
 
-/* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of columns: moving rows in
- * and out is a fifth of a full solve, and a counted inner loop would double that. */
-SLI_INLINE void sli_interleave(double *v, sl_int lanes, const sl_int *place, sl_int count, const double *M, size_t ld,
-                               sl_int columns) {
+/* Columns of M, ld apart, to the interleaved rows place[k] of v. Called with constant numbers of
+ * columns: moving rows in and out is a fifth of a full solve, and a counted inner loop would double
+ * that. */
+SLI_INLINE void sli_interleave(double *v, sl_int lanes, const sl_int *place, sl_int count,
+                               const double *M, size_t ld, sl_int columns) {
     sl_int k, r;
     for (k = 0; k < count; k++) {
         SLI_UNROLL
@@ -6740,8 +7063,8 @@ SLI_INLINE void sli_interleave(double *v, sl_int lanes, const sl_int *place, sl_
 }
 
 /* The way back. */
-SLI_INLINE void sli_separate(double *M, size_t ld, const double *v, sl_int lanes, const sl_int *place, sl_int count,
-                             sl_int columns) {
+SLI_INLINE void sli_separate(double *M, size_t ld, const double *v, sl_int lanes,
+                             const sl_int *place, sl_int count, sl_int columns) {
     sl_int k, r;
     for (k = 0; k < count; k++) {
         SLI_UNROLL
@@ -6752,29 +7075,46 @@ SLI_INLINE void sli_separate(double *M, size_t ld, const double *v, sl_int lanes
 }
 
 /* b into the forward vector, interleaved; unknown rows and idle lanes are 0. */
-static void sli_pack(const sli_query *q, double *y, const double *B, size_t ldb, sl_int lanes, sl_int nrhs) {
+static void sli_pack(const sli_query *q, double *y, const double *B, size_t ldb, sl_int lanes,
+                     sl_int nrhs) {
     if (q->nb < q->forward.columns || nrhs < lanes) {
         memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
     }
     switch (nrhs) {
-    case 8: sli_interleave(y, 8, q->b_place, q->nb, B, ldb, 8); break;
-    case 3: sli_interleave(y, 4, q->b_place, q->nb, B, ldb, 3); break;
-    case 1: sli_interleave(y, 1, q->b_place, q->nb, B, ldb, 1); break;
-    default: sli_interleave(y, lanes, q->b_place, q->nb, B, ldb, nrhs);
+    case 8:
+        sli_interleave(y, 8, q->b_place, q->nb, B, ldb, 8);
+        break;
+    case 3:
+        sli_interleave(y, 4, q->b_place, q->nb, B, ldb, 3);
+        break;
+    case 1:
+        sli_interleave(y, 1, q->b_place, q->nb, B, ldb, 1);
+        break;
+    default:
+        sli_interleave(y, lanes, q->b_place, q->nb, B, ldb, nrhs);
     }
 }
 
 /* The wanted rows out of the backward vector. */
-static void sli_unpack(const sli_query *q, double *X, size_t ldx, const double *x, sl_int lanes, sl_int nrhs) {
+static void sli_unpack(const sli_query *q, double *X, size_t ldx, const double *x, sl_int lanes,
+                       sl_int nrhs) {
     switch (nrhs) {
-    case 8: sli_separate(X, ldx, x, 8, q->x_place, q->nx, 8); break;
-    case 3: sli_separate(X, ldx, x, 4, q->x_place, q->nx, 3); break;
-    case 1: sli_separate(X, ldx, x, 1, q->x_place, q->nx, 1); break;
-    default: sli_separate(X, ldx, x, lanes, q->x_place, q->nx, nrhs);
+    case 8:
+        sli_separate(X, ldx, x, 8, q->x_place, q->nx, 8);
+        break;
+    case 3:
+        sli_separate(X, ldx, x, 4, q->x_place, q->nx, 3);
+        break;
+    case 1:
+        sli_separate(X, ldx, x, 1, q->x_place, q->nx, 1);
+        break;
+    default:
+        sli_separate(X, ldx, x, lanes, q->x_place, q->nx, nrhs);
     }
 }
 
-/* y carried over to the columns that both reaches have; the rest of the backward vector starts from 0. */
+/* y carried over to the columns that both reaches have; the rest of the backward vector starts from
+ * 0. */
 static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lanes) {
     const sli_step *f = q->forward.steps, *b = q->backward.steps;
     const sli_step *f_end = f + q->forward.count, *b_end = b + q->backward.count;
@@ -6796,9 +7136,10 @@ static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lan
     }
 }
 
-/* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good. */
-static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, size_t ldx, const double *B, size_t ldb,
-                      sl_int nrhs, void *memory) {
+/* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good.
+ */
+static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
+                      const double *B, size_t ldb, sl_int nrhs, void *memory) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
         const sl_int block = sli_min(8, nrhs - r);
@@ -6811,28 +7152,31 @@ static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, size_t 
         b.overflow = 0;
         sli_vectors_layout(&v, &b, q, block);
         sli_pack(q, v.y, B + (size_t)r * ldb, ldb, lanes, block);
-        F->kernels->forward[kind](q->forward.count, q->forward.steps, q->forward.rows, F->L, v.y, v.scratch);
+        F->kernels->forward[kind](q->forward.count, q->forward.steps, q->forward.rows, F->L, v.y,
+                                  v.scratch);
         if (!q->is_shared) {
             sli_cross(q, v.y, v.x, lanes);
         }
-        F->kernels->backward[kind](q->backward.count, q->backward.steps, q->backward.rows + q->backward.n_rows, F->L,
-                                   F->D, v.x, v.scratch);
+        F->kernels->backward[kind](q->backward.count, q->backward.steps,
+                                   q->backward.rows + q->backward.n_rows, F->L, F->D, v.x,
+                                   v.scratch);
         sli_unpack(q, X + (size_t)r * ldx, ldx, v.x, lanes, block);
     }
 }
 
 /* What every solve asks of its dense arguments. */
-static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B, size_t ldb, sl_int nb,
-                                 sl_int nrhs) {
+static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B,
+                                 size_t ldb, sl_int nb, sl_int nrhs) {
     const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)nx);
     const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)nb);
-    const int torn = X == B && ldx != ldb && nx > 0 && nb > 0; /* in place, yet column upon other column */
+    /* in place, yet one column upon another */
+    const int torn = X == B && ldx != ldb && nx > 0 && nb > 0;
     return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || torn)) ? SL_ERR_ARGUMENT : SL_OK;
 }
 
 /* A query answered in the caller's workspace, or in one of this call's own. */
-static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, size_t ldx, const double *B, size_t ldb,
-                            sl_int nrhs, sl_work *W) {
+static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
+                            const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     sl_work own;
     sl_status status;
     size_t bytes;
@@ -6859,8 +7203,8 @@ static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, s
 #ifndef SLI_SOLVE_H
 #define SLI_SOLVE_H
 
-SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                                 sl_work *W) {
+SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
+                                 size_t ldb, sl_int nrhs, sl_work *W) {
     sli_query q;
     sl_status status;
     if (F == NULL) {
@@ -6909,11 +7253,12 @@ struct sl_plan {
 typedef struct sli_set {
     const sl_int *rows;
     sl_int count;
-    uint64_t *seeds;   /* count: its columns of L ascending, each with its place in the caller's order */
+    uint64_t
+        *seeds; /* count: its columns of L ascending, each with its place in the caller's order */
     uint64_t *scratch; /* count */
     sl_int *place;     /* count */
     sli_step *steps;
-    sl_int *compact;   /* the steps' rows */
+    sl_int *compact; /* the steps' rows */
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -6940,7 +7285,8 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
 }
 
 /* Sorts a set by column of L; refuses rows out of range or given twice. Then counts its reach. */
-static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R, sl_stats *stats) {
+static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R,
+                                 sl_stats *stats) {
     sl_int k;
     if (set->rows == NULL) {
         *R = sli_reach_all(S);
@@ -6995,7 +7341,8 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
     return 1;
 }
 
-/* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the crossing. */
+/* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the
+ * crossing. */
 static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_set *x) {
     q->S = S;
     q->nb = b->count;
@@ -7014,12 +7361,15 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
     stats->x_entries = q->backward.entries;
 }
 
-static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
-    return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT : SL_OK;
+static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
+                                const sl_int *xset, sl_int nx) {
+    return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT
+                                                                             : SL_OK;
 }
 
-SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb, const sl_int *xset,
-                                sl_int nx, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
+                                const sl_int *xset, sl_int nx, const sl_options *opt,
+                                sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_plan *P = NULL;
@@ -7079,8 +7429,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
     }
 }
 
-SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb,
-                               sl_int nrhs, sl_work *W) {
+SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                               const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     sl_status status;
     if (P == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
@@ -7096,13 +7446,15 @@ SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, 
 }
 
 SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs) {
-    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT : sli_work_reserve(W, &P->query, nrhs);
+    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
+                                              : sli_work_reserve(W, &P->query, nrhs);
 }
 
-/* Seeds, reaches and vectors of one local solve, all in the workspace. How much the reaches take is known only once
- * the seeds are sorted: where W is too small for them it grows and the sorting is done again. */
-static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *bset, sli_set *xset, const double *B,
-                           size_t ldb, sl_int nrhs, sl_work *W, sl_stats *stats) {
+/* Seeds, reaches and vectors of one local solve, all in the workspace. How much the reaches take is
+ * known only once the seeds are sorted: where W is too small for them it grows and the sorting is
+ * done again. */
+static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *bset, sli_set *xset,
+                           const double *B, size_t ldb, sl_int nrhs, sl_work *W, sl_stats *stats) {
     const sl_symbolic *S = F->S;
     sli_query q;
     size_t bytes = 0, vectors;
@@ -7111,7 +7463,8 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         sli_block b = {NULL, 0, 0};
         sli_set_layout_seeds(bset, &b);
         sli_set_layout_seeds(xset, &b);
-        status = b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes > b.used ? bytes : b.used + 1);
+        status =
+            b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes > b.used ? bytes : b.used + 1);
         if (status != SL_OK) {
             return status;
         }
@@ -7153,9 +7506,9 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
     return SL_OK;
 }
 
-SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset, sl_int nx,
-                                const double *B, size_t ldb, const sl_int *bset, sl_int nb, sl_int nrhs, sl_work *W,
-                                sl_stats *stats) {
+SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset,
+                                sl_int nx, const double *B, size_t ldb, const sl_int *bset,
+                                sl_int nb, sl_int nrhs, sl_work *W, sl_stats *stats) {
     sl_work own;
     sli_set b, x;
     sl_status status;

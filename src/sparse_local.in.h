@@ -19,7 +19,8 @@ extern "C" {
 #endif /* SPARSE_LOCAL_H */
 
 /* ---- bodies, in one source file ---- */
-#if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) && !defined(SPARSE_LOCAL_IMPLEMENTED)
+#if (defined(SPARSE_LOCAL_IMPLEMENTATION) || defined(SL_STATIC)) &&                                \
+    !defined(SPARSE_LOCAL_IMPLEMENTED)
 #define SPARSE_LOCAL_IMPLEMENTED
 /* L0 ground */
 #include "impl/base.h"

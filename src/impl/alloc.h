@@ -29,7 +29,8 @@ SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     return a;
 }
 
-/* bytes > 0 of aligned memory, or NULL. The pointer that the allocator gave stands just before the block. */
+/* bytes > 0 of aligned memory, or NULL. The pointer that the allocator gave stands just before the
+ * block. */
 SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
     unsigned char *raw, *block;
     if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
@@ -53,8 +54,8 @@ SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
     }
 }
 
-/* A block to be cut into arrays. A layout function runs twice over it: with base NULL it only counts, with the block
- * allocated it hands out the pointers, so that sizes are written once. */
+/* A block to be cut into arrays. A layout function runs twice over it: with base NULL it only
+ * counts, with the block allocated it hands out the pointers, so that sizes are written once. */
 typedef struct sli_block {
     unsigned char *base;
     size_t used;
@@ -77,7 +78,8 @@ SLI_INLINE void *sli_take(sli_block *b, size_t count, size_t size) {
     return b->base == NULL ? NULL : b->base + at;
 }
 
-/* Allocates what was counted and rewinds for the second run; at least one byte, so that NULL means failure. */
+/* Allocates what was counted and rewinds for the second run; at least one byte, so that NULL means
+ * failure. */
 SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
     if (b->overflow) {
         return SL_ERR_TOO_LARGE;

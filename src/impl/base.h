@@ -13,7 +13,8 @@
 #include <string.h>
 #include <time.h>
 
-/* AVX tables need per-function targets and correctly aligned vector spills: MSVC has no attribute, MinGW misaligns. */
+/* AVX tables need per-function targets and correctly aligned vector spills: MSVC has no attribute,
+ * MinGW misaligns. */
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__) && !defined(_WIN32)
 #define SLI_X86 1
 #include <cpuid.h>

@@ -1,14 +1,16 @@
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied in ascending order.
- * tile points at tile t0. Four partial sums hide the latency of the FMA; their grouping depends on the column number
- * alone, so that a sweep that starts later, over zeros, gives the same bits. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width, sl_int columns,
-                                                      sl_int rows, double *buf) {
+/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied
+ * in ascending order. tile points at tile t0. Four partial sums hide the latency of the FMA; their
+ * grouping depends on the column number alone, so that a sweep that starts later, over zeros, gives
+ * the same bits. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
+                                                     sl_int columns, sl_int rows, double *buf) {
     const sl_int first = SLI_TILE * t0;
     sl_int t, j, k;
     for (t = t0; SLI_TILE * t < rows; t++) {
-        const sl_int row = SLI_TILE * t, final = sli_min(row, columns), inner = sli_clamp(columns - row, SLI_TILE);
+        const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
+        const sl_int inner = sli_clamp(columns - row, SLI_TILE);
         SLV_DECLARE(a0)
         SLV_DECLARE(a1)
         SLV_DECLARE(a2)
@@ -43,17 +45,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_forward)(L + s->panel + sli_tile_offset(w, s->first_tile), s->first_tile, w, w, height, buf);
+        SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
         memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
@@ -62,10 +65,12 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z the columns' right
- * side; the columns come out in buf. sums keeps 8 partial sums a column, one for each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width, sl_int height,
-                                                       const double *z, double *buf, double *sums) {
+/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
+ * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
+ * each lane. end: one past the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
+                                                      sl_int height, const double *z, double *buf,
+                                                      double *sums) {
     const sl_int first = SLI_TILE * t0;
     const double *tile = end;
     sl_int t, j, k;
@@ -111,13 +116,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         double *xs = x + s->base - first;
-        const double *d = D + s->column - first;
+        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
         for (i = first; i < w; i++) {
@@ -130,14 +136,14 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         for (i = height; i < padded; i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_backward)(L + s->panel + sli_panel_size(w, s->below), s->first_tile, w, height, xs, buf,
-                                 buf + padded);
+        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
         memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows, const double *D,
-                                       double *xs, double *x, double *buf, double *pivot, double *magnitude) {
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
+                                       const double *D, double *xs, double *x, double *buf,
+                                       double *pivot, double *magnitude) {
     const sl_int columns = sli_min(q, w);
     double *lq = panel + sli_panel_at(w, q, 0);
     double d = *pivot, size = *magnitude;

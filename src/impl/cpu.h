@@ -14,7 +14,8 @@ SLI_INLINE unsigned sli_xcr0(void) {
 }
 #endif
 
-/* The best instruction set here. CPUID traps under a hypervisor (microseconds), so this runs once a factor. */
+/* The best instruction set here. CPUID traps under a hypervisor (microseconds), so this runs once a
+ * factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
     unsigned a, b, c, d, xcr0;

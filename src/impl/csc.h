@@ -58,10 +58,14 @@ static sl_triangle sli_triangle_scan(const sl_csc *A) {
             upper |= A->i[p] < j;
         }
     }
-    return lower && upper ? SL_TRIANGLE_BOTH : lower ? SL_TRIANGLE_LOWER : upper ? SL_TRIANGLE_UPPER : SL_TRIANGLE_NONE;
+    return lower && upper ? SL_TRIANGLE_BOTH
+           : lower        ? SL_TRIANGLE_LOWER
+           : upper        ? SL_TRIANGLE_UPPER
+                          : SL_TRIANGLE_NONE;
 }
 
-/* Whether an entry is one of those that stand for the symmetric matrix: of both triangles only the lower is read. */
+/* Whether an entry is one of those that stand for the symmetric matrix: of both triangles only the
+ * lower is read. */
 SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
     return triangle != SL_TRIANGLE_BOTH || row >= column;
 }
@@ -74,8 +78,8 @@ static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_va
     M->x = has_values ? SLI_TAKE(b, double, nnz) : NULL;
 }
 
-static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz, int has_values,
-                                const sl_allocator *a) {
+static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
+                                int has_values, const sl_allocator *a) {
     sl_matrix draft;
     sli_block b = {NULL, 0, 0};
     sl_status status;
@@ -111,7 +115,8 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
     return A;
 }
 
-/* start[k] := number of keys before k, start[n] := all; then start[key]++ places entries one after the other. */
+/* start[k] := number of keys before k, start[n] := all; then start[key]++ places entries one after
+ * the other. */
 static void sli_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
     sl_int k, total = 0;
     memset(start, 0, ((size_t)n + 1) * sizeof(sl_int));
@@ -148,10 +153,11 @@ static void sli_matrix_sum_duplicates(sl_matrix *M) {
     }
 }
 
-/* Triplets in range into columns: sorted by row, then stably by column, so that rows ascend and duplicates keep their
- * order; both sorts are by counting. */
-static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count, const sl_int *i,
-                                   const sl_int *j, const double *x, const sl_allocator *a) {
+/* Triplets in range into columns: sorted by row, then stably by column, so that rows ascend and
+ * duplicates keep their order; both sorts are by counting. */
+static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count,
+                                   const sl_int *i, const sl_int *j, const double *x,
+                                   const sl_allocator *a) {
     sl_matrix *M = NULL;
     sli_block b = {NULL, 0, 0};
     sl_int *start = NULL, *order = NULL, k;
@@ -185,8 +191,9 @@ static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols
     return SL_OK;
 }
 
-SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_off count, const sl_int *i,
-                                         const sl_int *j, const double *x, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols,
+                                         sl_off count, const sl_int *i, const sl_int *j,
+                                         const double *x, const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sl_off k;
     sli_stats_clear_error(stats);
@@ -261,7 +268,8 @@ static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark
 }
 
 /* The triangle of a checked square matrix. */
-static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt, sl_stats *stats) {
+static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                  sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
@@ -283,7 +291,8 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
     return status;
 }
 
-SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                 sl_stats *stats) {
     sl_status status = sl_csc_check(A, stats);
     if (status != SL_OK) {
         return status;
@@ -294,8 +303,10 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     return sli_csc_triangle(A, out, opt, stats);
 }
 
-/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a diagonal matrix. */
-static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y, const double *x) {
+/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a
+ * diagonal matrix. */
+static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
+                            const double *x) {
     sl_int j, p;
     for (j = 0; j < A->n_cols; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
@@ -310,8 +321,8 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
     }
 }
 
-SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy, const double *X, size_t ldx,
-                                 sl_int nrhs) {
+SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
+                                 const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
     if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
@@ -320,8 +331,8 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (nrhs == 0 || A->n_rows == 0) {
         return SL_OK;
     }
-    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols || (A->n_cols > 0 && X == NULL) ||
-        (sli_nnz(A) > 0 && A->x == NULL)) {
+    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols ||
+        (A->n_cols > 0 && X == NULL) || (sli_nnz(A) > 0 && A->x == NULL)) {
         return SL_ERR_ARGUMENT;
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
@@ -363,8 +374,9 @@ static double sli_largest(const double *x, sl_int n) {
     return largest;
 }
 
-SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error, const double *X,
-                                 size_t ldx, const double *B, size_t ldb, sl_int nrhs) {
+SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
+                                 const double *X, size_t ldx, const double *B, size_t ldb,
+                                 sl_int nrhs) {
     double norm = 0.0;
     sl_int r, n;
     size_t rows;
@@ -397,7 +409,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
             largest = sli_largest(res, n);
-            backward_error[r] = largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+            backward_error[r] =
+                largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
         }
     }
     return SL_OK;

@@ -4,8 +4,8 @@
 
 #include "symbolic_types.h"
 
-/* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n of scratch, the
- * paths to the roots found so far, compressed. [Liu90] */
+/* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n
+ * of scratch, the paths to the roots found so far, compressed. [Liu90] */
 static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *ancestor) {
     sl_int k, p;
     for (k = 0; k < n; k++) {
@@ -25,9 +25,10 @@ static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *an
     }
 }
 
-/* post[k] := the k-th node of a forest in postorder, children ascending; parent[j] > j is not needed.
- * child, sibling: n of scratch each. */
-static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child, sl_int *sibling) {
+/* post[k] := the k-th node of a forest in postorder, children ascending; parent[j] > j is not
+ * needed. child, sibling: n of scratch each. */
+static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child,
+                          sl_int *sibling) {
     sl_int j, k = 0, root;
     for (j = 0; j < n; j++) {
         child[j] = -1;
@@ -44,7 +45,8 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
         }
         j = root;
         for (;;) {
-            while (child[j] != -1) { /* down to the first leaf; a visited child is taken off its list */
+            /* down to the first leaf; a visited child is taken off its list */
+            while (child[j] != -1) {
                 const sl_int c = child[j];
                 child[j] = sibling[c];
                 j = c;
@@ -58,9 +60,10 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
     }
 }
 
-/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of, and the tree.
- * scratch: 2n. */
-static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of, sl_int *parent, sl_int *scratch) {
+/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of,
+ * and the tree. scratch: 2n. */
+static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
+                        sl_int *parent, sl_int *scratch) {
     sl_int *fresh = scratch, *number = scratch + n, k;
     for (k = 0; k < n; k++) {
         fresh[k] = old_of[order[k]];

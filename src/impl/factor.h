@@ -72,14 +72,15 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     return status;
 }
 
-/* The last pivot of a singular Laplacian is what rounding left of it: over meshes, grids and paths of 1e2 to 1e6 rows it
- * came to less than 60 + n/16 units of rounding, while no pivot of a regular one fell below 1e9. */
+/* The last pivot of a singular Laplacian is what rounding left of it: over meshes, grids and paths
+ * of 1e2 to 1e6 rows it came to less than 60 + n/16 units of rounding, while no pivot of a regular
+ * one fell below 1e9. */
 static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A, const sl_options *opt,
-                                  sl_stats *stats) {
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
@@ -100,7 +101,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
-    draft.null_tolerance = opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
+    draft.null_tolerance =
+        opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
@@ -158,13 +160,15 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them. */
+/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them.
+ */
 static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
     const sl_symbolic *S = F->S;
     sl_int s, j, r;
     sl_off count = 0;
     for (s = 0; s < S->n_supers; s++) {
-        const sl_int first = S->super_first[s], width = S->steps[s].width, height = width + S->steps[s].below;
+        const sl_int first = S->super_first[s], width = S->steps[s].width,
+                     height = width + S->steps[s].below;
         for (j = 0; j < width; j++) {
             for (r = j; r < height; r++) {
                 const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];

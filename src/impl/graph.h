@@ -56,7 +56,8 @@ SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
     return 1;
 }
 
-/* Sorts every list into `to`: a symmetric graph handed out vertex by vertex arrives sorted. at: n of scratch. */
+/* Sorts every list into `to`: a symmetric graph handed out vertex by vertex arrives sorted. at: n
+ * of scratch. */
 SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
     sl_int v;
     sl_off e;
@@ -78,10 +79,11 @@ static void sli_half_starts(sli_half *h, sl_int n) {
     }
 }
 
-/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k: the rows from k on).
- * What follows walks them in elimination order, each pass only the half that it needs. */
-static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm, sli_half *rows,
-                            sli_half *columns) {
+/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k:
+ * the rows from k on). What follows walks them in elimination order, each pass only the half that
+ * it needs. */
+static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
+                            sli_half *rows, sli_half *columns) {
     const sl_int n = A->n_cols;
     sl_int j, p;
     memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
@@ -99,7 +101,8 @@ static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int 
     for (j = 0; j < n; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (sli_is_read(triangle, A->i[p], j)) {
-                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]), i = sli_min(iperm[A->i[p]], iperm[j]);
+                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]),
+                             i = sli_min(iperm[A->i[p]], iperm[j]);
                 const sl_int at = rows->begin[k]++;
                 rows->to[at] = i;
                 rows->from[at] = p;

@@ -12,7 +12,8 @@ typedef struct sli_reader {
     sl_off line; /* lines taken so far */
 } sli_reader;
 
-/* Takes the next line that is neither blank nor a comment; *stop is its end. 0 at the end of the text. */
+/* Takes the next line that is neither blank nor a comment; *stop is its end. 0 at the end of the
+ * text. */
 static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
     while (r->at < r->end) {
         const char *s = r->at, *e = s;
@@ -106,12 +107,13 @@ static int sli_token_in(const char *token, const char *const *words) {
     return *words != NULL;
 }
 
-/* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library does not read is told
- * apart from what is no such file. */
+/* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library
+ * does not read is told apart from what is no such file. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
     static const char *const sli_formats[] = {"coordinate", "array", NULL};
     static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
-    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric", "hermitian", NULL};
+    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
+                                                 "hermitian", NULL};
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
@@ -124,7 +126,8 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
         }
     }
     if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
-        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) || !sli_token_in(token[4], sli_symmetries)) {
+        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
+        !sli_token_in(token[4], sli_symmetries)) {
         return SL_ERR_IO;
     }
     *has_values = !sli_token_is(token[3], "pattern");
@@ -143,14 +146,16 @@ static int sli_line_ends(const char *s, const char *e) {
     return s == e;
 }
 
-/* count lines "row column [value]", 1-based; entries of a symmetric file go to the lower triangle. */
-static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int symmetric, sl_int *i, sl_int *j, double *x) {
+/* count lines "row column [value]", 1-based; entries of a symmetric file go to the lower triangle.
+ */
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int symmetric, sl_int *i,
+                                  sl_int *j, double *x) {
     const char *s, *e;
     sl_off k, row, column;
     for (k = 0; k < size[2]; k++) {
         if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
-            !sli_token_int(&s, e, 1, size[1], &column) || (x != NULL && !sli_token_double(&s, e, &x[k])) ||
-            !sli_line_ends(s, e)) {
+            !sli_token_int(&s, e, 1, size[1], &column) ||
+            (x != NULL && !sli_token_double(&s, e, &x[k])) || !sli_line_ends(s, e)) {
             return SL_ERR_IO;
         }
         i[k] = (sl_int)(symmetric && row < column ? column : row) - 1;
@@ -181,8 +186,10 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
             return SL_ERR_TOO_LARGE;
         }
     }
-    /* an entry takes four bytes at least: a count that the file cannot hold is refused before memory is asked for */
-    if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) || size[2] > (r->end - r->at) / 4 + 1) {
+    /* an entry takes four bytes at least: a count that the file cannot hold is refused before
+     * memory is asked for */
+    if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
+        size[2] > (r->end - r->at) / 4 + 1) {
         return SL_ERR_IO;
     }
     for (k = 0; k < 2 && status == SL_OK; k++) {
@@ -194,15 +201,16 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     if (status == SL_OK) {
         status = sli_read_entries(r, size, symmetric, i, j, x);
         if (status == SL_OK) {
-            status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], i, j, x, a);
+            status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], i, j,
+                                       x, a);
         }
         sli_free(a, b.base);
     }
     return status;
 }
 
-SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length, const sl_options *opt,
-                                 sl_stats *stats) {
+SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                                 const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const int saved = errno; /* strtod may set it */
     sli_reader r;
@@ -249,7 +257,8 @@ static sl_status sli_load(FILE *file, char **text, size_t *length, const sl_allo
     return SL_ERR_MEMORY;
 }
 
-SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
+                                sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const int saved = errno;
     char *text = NULL;
@@ -302,15 +311,17 @@ static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangl
             count += sli_is_read(triangle, A->i[p], j);
         }
     }
-    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n", A->x != NULL ? "real" : "pattern",
-                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows, (long)A->n_cols,
-                 (long)count) > 0;
+    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
+                 A->x != NULL ? "real" : "pattern",
+                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
+                 (long)A->n_cols, (long)count) > 0;
     for (j = 0; j < A->n_cols && ok; j++) {
         for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
             const sl_int i = A->i[p];
             if (sli_is_read(triangle, i, j)) {
                 const int flip = reading == SL_AS_SYMMETRIC && i < j;
-                ok = sli_write_entry(file, flip ? j : i, flip ? i : j, A->x != NULL ? A->x + p : NULL);
+                ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
+                                     A->x != NULL ? A->x + p : NULL);
             }
         }
     }
@@ -320,7 +331,8 @@ static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangl
 SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
     const int saved = errno;
     sl_triangle triangle = SL_TRIANGLE_NONE;
-    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL) : sl_csc_check(A, NULL);
+    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
+                                                  : sl_csc_check(A, NULL);
     FILE *file;
     int ok;
     if (status != SL_OK) {

@@ -21,56 +21,51 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
 #define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
 #define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLV_AXPY(a, l, p) { \
-        const __m256d s_ = _mm256_broadcast_sd(p); \
-        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0); \
-        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1); \
+#define SLV_AXPY(a, l, p)                                                                          \
+    {                                                                                              \
+        const __m256d s_ = _mm256_broadcast_sd(p);                                                 \
+        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0);                                    \
+        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1);                              \
     }
-#define SLV_DOT(a, l, v) a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0), \
-                         a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
-#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)), \
-                                _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
+#define SLV_DOT(a, l, v)                                                                           \
+    a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0),                                     \
+    a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
+#define SLV_SUM(a)                                                                                 \
+    sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)),                                  \
+             _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLV_FNMA(a, b, c) a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
-#define SLV_TWICE_AT(e, l) { const __m256d l_ = _mm256_load_pd(l); e##_0 = _mm256_permute4x64_pd(l_, 0x50); e##_1 = _mm256_permute4x64_pd(l_, 0xfa); }
+#define SLV_FNMA(a, b, c)                                                                          \
+    a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_TWICE_AT(e, l)                                                                         \
+    {                                                                                              \
+        const __m256d l_ = _mm256_load_pd(l);                                                      \
+        e##_0 = _mm256_permute4x64_pd(l_, 0x50);                                                   \
+        e##_1 = _mm256_permute4x64_pd(l_, 0xfa);                                                   \
+    }
 #define SLV_TWICE_LOW(e, l) SLV_TWICE_AT(e, l)
 #define SLV_TWICE_HIGH(e, l) SLV_TWICE_AT(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 
 #define SLW_NAME(f) sli_##f##4_avx2
-#define SLW_LANES 4
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) __m256d a;
-#define SLW_ZERO(a) a = _mm256_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
-#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
-#include "lanes.inl.h"
+#include "lanes_ymm.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_avx2
 #define SLW_LANES 8
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) __m256d a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
 #define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
 #define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLW_FNMA(a, s, b) { \
-        const __m256d s_ = _mm256_broadcast_sd(&(s)); \
-        a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
-        a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const __m256d s_ = _mm256_broadcast_sd(&(s));                                              \
+        a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0);                                                \
+        a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1);                                                \
     }
 #define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#define SLW_DIVIDE(a, s)                                                                           \
+    a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)),                                               \
+    a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 #include "lanes.inl.h"
 
 #include "tile.inl.h"

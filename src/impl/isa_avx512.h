@@ -19,38 +19,28 @@
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
 /* the masked extraction keeps gcc's own headers from warning in C++ */
-#define SLV_HALVES(a) \
-    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0), _mm512_maskz_extractf64x4_pd(0xff, a, 1))
-#define SLV_SUM(a) sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
+#define SLV_HALVES(a)                                                                              \
+    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0),                                        \
+                  _mm512_maskz_extractf64x4_pd(0xff, a, 1))
+#define SLV_SUM(a)                                                                                 \
+    sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
-#define SLV_TWICE_LOW(e, l) e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), _mm512_load_pd(l));
-#define SLV_TWICE_HIGH(e, l) e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), _mm512_load_pd(l));
-#define SLV_PAIR(b, p) b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
+#define SLV_TWICE_LOW(e, l)                                                                        \
+    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),                \
+                                    _mm512_load_pd(l));
+#define SLV_TWICE_HIGH(e, l)                                                                       \
+    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4),                \
+                                    _mm512_load_pd(l));
+#define SLV_PAIR(b, p)                                                                             \
+    b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
 #define SLW_NAME(f) sli_##f##4_avx512
-#define SLW_LANES 4
-#define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#define SLW_DECLARE(a) __m256d a;
-#define SLW_ZERO(a) a = _mm256_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
-#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
-#include "lanes.inl.h"
+#include "lanes_ymm.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_LANES 8
 #define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) __m512d a;
 #define SLW_ZERO(a) a = _mm512_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);

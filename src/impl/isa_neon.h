@@ -12,84 +12,90 @@
 #define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
 #define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
 #define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
-#define SLV_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
-#define SLV_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), vst1q_f64((p) + 6, a##_3);
-#define SLV_ADD(a, b)  \
-    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
-#define SLV_AXPY(a, l, p) { \
-        const float64x2_t s_ = vld1q_dup_f64(p); \
-        a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_); \
-        a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_); \
-        a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_); \
-        a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_); \
+#define SLV_LOAD(a, p)                                                                             \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4),            \
+    a##_3 = vld1q_f64((p) + 6);
+#define SLV_STORE(p, a)                                                                            \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2),               \
+        vst1q_f64((p) + 6, a##_3);
+#define SLV_ADD(a, b)                                                                              \
+    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1),                              \
+    a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLV_AXPY(a, l, p)                                                                          \
+    {                                                                                              \
+        const float64x2_t s_ = vld1q_dup_f64(p);                                                   \
+        a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_);                                          \
+        a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_);                                          \
+        a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_);                                          \
+        a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_);                                          \
     }
-#define SLV_DOT(a, l, v)  \
-    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0), \
-    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1), \
-    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
+#define SLV_DOT(a, l, v)                                                                           \
+    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0),                                           \
+    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1),                                           \
+    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2),                                           \
     a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
 #define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_FNMA(a, b, c) a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
-#define SLV_TWICE_LOW(e, l) e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1), e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
+#define SLV_FNMA(a, b, c)                                                                          \
+    a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
+    a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_TWICE_LOW(e, l)                                                                        \
+    e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1),                                \
+    e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
 #define SLV_TWICE_HIGH(e, l) SLV_TWICE_LOW(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_LANES 4
 #define SLW_ROWS 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
 #define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
-#define SLW_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
-#define SLW_FNMA(a, s, b) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-        a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+#define SLW_LOAD(a, p) a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
+#define SLW_STORE(p, a) vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0);                                                       \
+        a##_1 = vfmsq_f64(a##_1, s_, b##_1);                                                       \
     }
 #define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vdivq_f64(a##_0, s_); \
-        a##_1 = vdivq_f64(a##_1, s_); \
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vdivq_f64(a##_0, s_);                                                              \
+        a##_1 = vdivq_f64(a##_1, s_);                                                              \
     }
 #include "lanes.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_neon
 #define SLW_LANES 8
 #define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
 #define SLW_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p)  \
-    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), a##_3 = vld1q_f64((p) + 6);
-#define SLW_STORE(p, a)  \
-    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), vst1q_f64((p) + 6, a##_3);
-#define SLW_FNMA(a, s, b) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-        a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
-        a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
-        a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
+#define SLW_LOAD(a, p)                                                                             \
+    a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4),            \
+    a##_3 = vld1q_f64((p) + 6);
+#define SLW_STORE(p, a)                                                                            \
+    vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2),               \
+        vst1q_f64((p) + 6, a##_3);
+#define SLW_FNMA(a, s, b)                                                                          \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vfmsq_f64(a##_0, s_, b##_0);                                                       \
+        a##_1 = vfmsq_f64(a##_1, s_, b##_1);                                                       \
+        a##_2 = vfmsq_f64(a##_2, s_, b##_2);                                                       \
+        a##_3 = vfmsq_f64(a##_3, s_, b##_3);                                                       \
     }
-#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
-#define SLW_DIVIDE(a, s) { \
-        const float64x2_t s_ = vdupq_n_f64(s); \
-        a##_0 = vdivq_f64(a##_0, s_); \
-        a##_1 = vdivq_f64(a##_1, s_); \
-        a##_2 = vdivq_f64(a##_2, s_); \
-        a##_3 = vdivq_f64(a##_3, s_); \
+#define SLW_ADD(a, b)                                                                              \
+    a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1),                              \
+    a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLW_DIVIDE(a, s)                                                                           \
+    {                                                                                              \
+        const float64x2_t s_ = vdupq_n_f64(s);                                                     \
+        a##_0 = vdivq_f64(a##_0, s_);                                                              \
+        a##_1 = vdivq_f64(a##_1, s_);                                                              \
+        a##_2 = vdivq_f64(a##_2, s_);                                                              \
+        a##_3 = vdivq_f64(a##_3, s_);                                                              \
     }
 #include "lanes.inl.h"
 

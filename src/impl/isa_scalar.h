@@ -9,130 +9,50 @@
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
 #define SLV_DECLARE(a) double a[SLI_TILE];
-#define SLV_ZERO(a) { \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] = 0.0; \
-        } \
+#define SLV_ZERO(a)                                                                                \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = 0.0;                                                                           \
+        }                                                                                          \
     }
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] += b[i_]; \
-        } \
+#define SLV_ADD(a, b)                                                                              \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] += b[i_];                                                                        \
+        }                                                                                          \
     }
-#define SLV_AXPY(a, l, p) { \
-        const double s_ = *(p); \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] -= (l)[i_] * s_; \
-        } \
+#define SLV_AXPY(a, l, p)                                                                          \
+    {                                                                                              \
+        const double s_ = *(p);                                                                    \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] -= (l)[i_] * s_;                                                                 \
+        }                                                                                          \
     }
-#define SLV_DOT(a, l, v) { \
-        int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            a[i_] -= (l)[i_] * v[i_]; \
-        } \
+#define SLV_DOT(a, l, v)                                                                           \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] -= (l)[i_] * v[i_];                                                              \
+        }                                                                                          \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
 /* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2
-#define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#define SLW_DECLARE(a) double a[SLW_LANES];
-#define SLW_ZERO(a) memset(a, 0, sizeof a);
-#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) { \
-        const double s_ = (s); \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] -= s_ * b[i_]; \
-        } \
-    }
-#define SLW_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] += b[i_]; \
-        } \
-    }
-#define SLW_DIVIDE(a, s) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] /= (s); \
-        } \
-    }
-#include "lanes.inl.h"
+#include "lanes_array.inl.h"
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_LANES 4
-#define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#define SLW_DECLARE(a) double a[SLW_LANES];
-#define SLW_ZERO(a) memset(a, 0, sizeof a);
-#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) { \
-        const double s_ = (s); \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] -= s_ * b[i_]; \
-        } \
-    }
-#define SLW_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] += b[i_]; \
-        } \
-    }
-#define SLW_DIVIDE(a, s) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] /= (s); \
-        } \
-    }
-#include "lanes.inl.h"
+#include "lanes_array.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_LANES 8
-#define SLW_ROWS 4
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#define SLW_DECLARE(a) double a[SLW_LANES];
-#define SLW_ZERO(a) memset(a, 0, sizeof a);
-#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) { \
-        const double s_ = (s); \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] -= s_ * b[i_]; \
-        } \
-    }
-#define SLW_ADD(a, b) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] += b[i_]; \
-        } \
-    }
-#define SLW_DIVIDE(a, s) { \
-        int i_; \
-        for (i_ = 0; i_ < SLW_LANES; i_++) { \
-            a[i_] /= (s); \
-        } \
-    }
-#include "lanes.inl.h"
+#include "lanes_array.inl.h"
 
 #include "tile.inl.h"
 

@@ -5,16 +5,18 @@
 #include "../public/types.h"
 #include "base.h"
 
-/* Panels. Supernode s, w columns and u rows below them, is stored as row tiles of 8, [tile][column][8], whatever the
- * ISA: local row r of column j stands in tile r/8, lane r%8. Tiles of the diagonal block keep only their first
- * 8 (tile + 1) columns; the unit diagonal, what is above it, and the padding of the last tile are 0.
- */
+/* Panels. Supernode s, w columns and u rows below them, is stored as row tiles of 8,
+ * [tile][column][8], whatever the ISA: local row r of column j stands in tile r/8, lane r%8. Tiles
+ * of the diagonal block keep only their first 8 (tile + 1) columns; the unit diagonal, what is
+ * above it, and the padding of the last tile are 0. */
 #define SLI_TILE 8
 
-/* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w columns wide. */
+/* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
+ * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
     sl_off whole = w / SLI_TILE, tile = t;
-    return tile <= whole ? 32 * tile * (tile + 1) : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
+    return tile <= whole ? 32 * tile * (tile + 1)
+                         : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
 }
 
 /* Tiles that hold a number of rows. */
@@ -32,9 +34,10 @@ SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
     return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;
 }
 
-/* One supernode of a reach. A sweep's vector x holds only the columns of its reach, closely packed; a whole analysis
- * is the reach in which base is the column itself. A supernode is entered at a whole tile, so that a local sweep does
- * the same operations in the same order as the full one, which computes with zeros where the local one has nothing. */
+/* One supernode of a reach. A sweep's vector x holds only the columns of its reach, closely packed;
+ * a whole analysis is the reach in which base is the column itself. A supernode is entered at a
+ * whole tile, so that a local sweep does the same operations in the same order as the full one,
+ * which computes with zeros where the local one has nothing. */
 typedef struct sli_step {
     sl_off panel;      /* position of the panel in L */
     sl_int column;     /* first column needed: 8 first_tile columns into the supernode */
@@ -50,31 +53,37 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
     return s->width - SLI_TILE * s->first_tile;
 }
 
-/* Right-hand sides are interleaved: row i of x is x[i lanes] .. x[i lanes + lanes - 1], lanes = 1, 2, 4 or 8. */
+/* Right-hand sides are interleaved: row i of x is x[i lanes] .. x[i lanes + lanes - 1], lanes = 1,
+ * 2, 4 or 8. */
 enum { SLI_LANES_1, SLI_LANES_2, SLI_LANES_4, SLI_LANES_8, SLI_LANES_COUNT };
 
 /* x := L^-1 x over the steps, ascending. rows: places of the rows below, in step order.
  * scratch: sli_scratch_size doubles for the tallest step, 64-byte aligned. */
-typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows, const double *L, double *x,
-                                   double *scratch);
+typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
+                                   const double *L, double *x, double *scratch);
 
-/* x := L'^-1 D^-1 x over the steps, descending. rows_end: one past the last place of the last step. */
-typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end, const double *L,
-                                    const double *D, double *x, double *scratch);
+/* x := L'^-1 D^-1 x over the steps, descending. rows_end: one past the last place of the last step.
+ */
+typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
+                                    const double *L, const double *D, double *x, double *scratch);
 
-/* Row q of a panel, up-looking: on entry the panel holds A there and x minus the updates so far; turns the row into L,
- * passes its updates on to the rows above q in x, clears x on the supernode's columns. D: the supernode's pivots.
- * *pivot loses the row's share l' D l of the pivot; *magnitude gains its absolute value. */
-typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows, const double *D,
-                               double *x_super, double *x, double *scratch, double *pivot, double *magnitude);
+/* Row q of a panel, up-looking: on entry the panel holds A there and x minus the updates so far;
+ * turns the row into L, passes its updates on to the rows above q in x, clears x on the supernode's
+ * columns. D: the supernode's pivots. *pivot loses the row's share l' D l of the pivot; *magnitude
+ * gains its absolute value. */
+typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
+                               const double *D, double *x_super, double *x, double *scratch,
+                               double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all lanes, and for one
- * or two lanes 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all
+ * lanes, and for one or two lanes 8 partial sums of every column. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes + (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
+    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes +
+           (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
 }
 
-/* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves from the last down. */
+/* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves
+ * from the last down. */
 #define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
 #define SLI_EACH4_AGAIN(op, k) op(0, k) op(1, k) op(2, k) op(3, k)

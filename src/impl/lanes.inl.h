@@ -1,31 +1,45 @@
 /* lanes.inl.h: 2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once, SLW_HIGH and SLW_LOW
- * are its halves from the last row down; a0, a1, .. are their accumulators, b and c one row more each. SLW_EACH_AGAIN is
- * SLW_EACH once more, as a macro does not expand inside itself. */
+/* SLW_EACH(op, k) is op(0, k) op(1, k) .. for the SLW_ROWS rows that are kept in registers at once,
+ * SLW_HIGH and SLW_LOW are its halves from the last row down; a0, a1, .. are their accumulators, b
+ * and c one row more each. SLW_EACH_AGAIN is SLW_EACH once more, as a macro does not expand inside
+ * itself. */
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r) * SLW_LANES)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r) * SLW_LANES, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_LANES)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_LANES, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it */
-#define SLI_DOWN(r, k)                                                                                                 \
-    if ((r) > (k)) {                                                                                                   \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                                                  \
+/* inside the diagonal block: column k onto the rows below it, and row k onto the columns before it
+ */
+#define SLI_DOWN(r, k)                                                                             \
+    if ((r) > (k)) {                                                                               \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
     }
-#define SLI_UP(j, k)                                                                                                   \
-    if ((j) < (k) && (j) < inner) {                                                                                    \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                                                  \
+#define SLI_UP(j, k)                                                                               \
+    if ((j) < (k) && (j) < inner) {                                                                \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
     }
-#define SLI_COLUMN(k, unused)                                                                                          \
-    if ((k) < inner) {                                                                                                 \
-        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                                    \
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < inner) {                                                                             \
+        SLW_EACH_AGAIN(SLI_DOWN, k)                                                                \
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows, const double *L,
-                                           double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                           const double *L, double *x, double *buf) {
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -68,8 +82,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end, const double *L,
-                                            const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -89,7 +104,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
             SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
         }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0, (size_t)(padded - height) * SLW_LANES * sizeof(double));
+        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
+               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -106,7 +122,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
             }
-            l = tile + SLI_TILE * (ptrdiff_t)final + lane;
+            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)

@@ -13,7 +13,8 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
     }
 }
 
-static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch, sl_stats *stats) {
+static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch,
+                                 sl_stats *stats) {
     sl_int bad;
     if (given == NULL && n > 0) {
         return SL_ERR_ARGUMENT;
@@ -31,9 +32,10 @@ static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl
 #if !defined(SL_NO_METIS)
 #define SLI_ORDER_TINY 4 /* a component this small has nothing to dissect */
 
-/* One breadth-first search a component, the queue being perm itself; each component is then dissected in its place. */
-static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm, sl_int *local,
-                                 const sl_allocator *a) {
+/* One breadth-first search a component, the queue being perm itself; each component is then
+ * dissected in its place. */
+static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm,
+                                 sl_int *local, const sl_allocator *a) {
     sl_int root, head, tail = 0, start;
     sl_status status = SL_OK;
     for (root = 0; root < G->n; root++) {
@@ -63,7 +65,8 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
     return status;
 }
 
-/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is stored. */
+/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is
+ * stored. */
 static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     const sl_off edges = G->begin[G->n];
     sli_block b = {NULL, 0, 0};
@@ -87,8 +90,8 @@ static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     return status;
 }
 
-static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm,
-                                      sl_int *local, const sl_allocator *a) {
+static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
+                                      sl_int *perm, sl_int *local, const sl_allocator *a) {
     sli_graph G;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -113,8 +116,8 @@ static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, con
 #endif
 
 /* perm: n, the order of a checked symmetric pattern. scratch: n. */
-static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt, sl_int *perm, sl_int *scratch,
-                           const sl_allocator *a, sl_stats *stats) {
+static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
+                           sl_int *perm, sl_int *scratch, const sl_allocator *a, sl_stats *stats) {
     sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
 #if defined(SL_NO_METIS)
     (void)a;

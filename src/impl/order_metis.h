@@ -10,8 +10,8 @@
 #include <metis.h>
 
 /* The component's graph as METIS wants it: its own numbering, no edge twice. */
-static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count, const sl_int *local, idx_t *xadj,
-                            idx_t *adjncy, idx_t *mark) {
+static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
+                            const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
     sl_int k;
     idx_t edges = 0;
     for (k = 0; k < count; k++) {
@@ -32,10 +32,13 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
     xadj[count] = edges;
 }
 
-/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry. */
-static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count, const sl_int *local,
-                                     const sl_int *metis_options, const sl_allocator *a) {
-    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL;
+/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry.
+ */
+static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count,
+                                     const sl_int *local, const sl_int *metis_options,
+                                     const sl_allocator *a) {
+    idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
+                                   *iperm = NULL;
     sli_block b = {NULL, 0, 0};
     sl_off edges = 0;
     sl_status status = SL_OK;
@@ -65,7 +68,8 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
     options[METIS_OPTION_NUMBERING] = 0;
     result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
     if (result == METIS_OK) {
-        for (k = 0; k < count; k++) { /* xadj is done with: the old numbers of the component go there */
+        for (k = 0; k < count;
+             k++) { /* xadj is done with: the old numbers of the component go there */
             xadj[k] = vertices[k];
         }
         for (k = 0; k < count; k++) {
@@ -73,7 +77,9 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         }
     }
     sli_free(a, b.base);
-    return result == METIS_OK ? SL_OK : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY : SL_ERR_ORDERING;
+    return result == METIS_OK             ? SL_OK
+           : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
+                                          : SL_ERR_ORDERING;
 }
 
 #endif

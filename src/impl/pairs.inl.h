@@ -1,7 +1,7 @@
 /* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
 
-/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so that every number of
- * L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
+/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so
+ * that every number of L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
 #define SLI_PAIR_AXPY(e, l, p)                                                                     \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
@@ -9,7 +9,8 @@
     SLV_FNMA(e##0, t0, b)                                                                          \
     SLV_FNMA(e##1, t1, b)
 
-/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is one. */
+/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is
+ * one. */
 #define SLI_PAIR_TILE(solve, l, p)                                                                 \
     {                                                                                              \
         double r[2][SLI_TILE];                                                                     \
@@ -51,7 +52,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             SLV_LOAD(e1, p + SLI_TILE)
             SLV_ZERO(f0)
             SLV_ZERO(f1)
-            for (j = first; j + 2 <= final; j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+            for (j = first; j + 2 <= final;
+                 j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
                 SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
                 SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
             }
@@ -66,7 +68,8 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             if (inner == SLI_TILE) {
                 SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
             } else {
-                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                for (k = 0; k < inner;
+                     k++, l += SLI_TILE) { /* columns inside the tile, one by one */
                     SLI_PAIR_AXPY(e, l, p + 2 * k)
                     SLV_STORE(p, e0)
                     SLV_STORE(p + SLI_TILE, e1)
@@ -84,16 +87,17 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
     }
 }
 
-/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in one octet. */
+/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in
+ * one octet. */
 #define SLI_PAIR_DOT(a, l)                                                                         \
     SLV_TWICE_LOW(t0, l)                                                                           \
     SLV_TWICE_HIGH(t1, l)                                                                          \
     SLV_FNMA(a, t0, v0)                                                                            \
     SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                             const double *L, const double *D, double *x,
-                                             double *buf) {
+SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
+                                             const sl_int *rows_end, const double *L,
+                                             const double *D, double *x, double *buf) {
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);

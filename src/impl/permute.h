@@ -4,7 +4,8 @@
 
 #include "csc.h"
 
-/* iperm := the inverse of perm. Returns the first position that makes perm no permutation, or -1. */
+/* iperm := the inverse of perm. Returns the first position that makes perm no permutation, or -1.
+ */
 static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
     sl_int k;
     for (k = 0; k < n; k++) {
@@ -32,7 +33,8 @@ static void sli_permute_entries(const sl_csc *A, const sl_int *iperm, sl_int *ro
     }
 }
 
-SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm, const sl_options *opt) {
+SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm,
+                                   const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     sli_block b = {NULL, 0, 0};
     sl_int *iperm = NULL, *row = NULL, *column = NULL;
@@ -60,7 +62,8 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
             status = SL_ERR_ARGUMENT;
         } else {
             sli_permute_entries(A, iperm, row, column);
-            status = sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
+            status =
+                sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
         }
         sli_free(&a, b.base);
     }

@@ -15,11 +15,12 @@ struct sl_plan {
 typedef struct sli_set {
     const sl_int *rows;
     sl_int count;
-    uint64_t *seeds;   /* count: its columns of L ascending, each with its place in the caller's order */
+    uint64_t
+        *seeds; /* count: its columns of L ascending, each with its place in the caller's order */
     uint64_t *scratch; /* count */
     sl_int *place;     /* count */
     sli_step *steps;
-    sl_int *compact;   /* the steps' rows */
+    sl_int *compact; /* the steps' rows */
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -46,7 +47,8 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
 }
 
 /* Sorts a set by column of L; refuses rows out of range or given twice. Then counts its reach. */
-static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R, sl_stats *stats) {
+static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R,
+                                 sl_stats *stats) {
     sl_int k;
     if (set->rows == NULL) {
         *R = sli_reach_all(S);
@@ -101,7 +103,8 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
     return 1;
 }
 
-/* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the crossing. */
+/* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the
+ * crossing. */
 static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_set *x) {
     q->S = S;
     q->nb = b->count;
@@ -120,12 +123,15 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
     stats->x_entries = q->backward.entries;
 }
 
-static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb, const sl_int *xset, sl_int nx) {
-    return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT : SL_OK;
+static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
+                                const sl_int *xset, sl_int nx) {
+    return S == NULL || (bset != NULL && nb < 0) || (xset != NULL && nx < 0) ? SL_ERR_ARGUMENT
+                                                                             : SL_OK;
 }
 
-SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb, const sl_int *xset,
-                                sl_int nx, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
+                                const sl_int *xset, sl_int nx, const sl_options *opt,
+                                sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_plan *P = NULL;
@@ -185,8 +191,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
     }
 }
 
-SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb,
-                               sl_int nrhs, sl_work *W) {
+SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                               const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     sl_status status;
     if (P == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
@@ -202,13 +208,15 @@ SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, 
 }
 
 SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs) {
-    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT : sli_work_reserve(W, &P->query, nrhs);
+    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
+                                              : sli_work_reserve(W, &P->query, nrhs);
 }
 
-/* Seeds, reaches and vectors of one local solve, all in the workspace. How much the reaches take is known only once
- * the seeds are sorted: where W is too small for them it grows and the sorting is done again. */
-static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *bset, sli_set *xset, const double *B,
-                           size_t ldb, sl_int nrhs, sl_work *W, sl_stats *stats) {
+/* Seeds, reaches and vectors of one local solve, all in the workspace. How much the reaches take is
+ * known only once the seeds are sorted: where W is too small for them it grows and the sorting is
+ * done again. */
+static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *bset, sli_set *xset,
+                           const double *B, size_t ldb, sl_int nrhs, sl_work *W, sl_stats *stats) {
     const sl_symbolic *S = F->S;
     sli_query q;
     size_t bytes = 0, vectors;
@@ -217,7 +225,8 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         sli_block b = {NULL, 0, 0};
         sli_set_layout_seeds(bset, &b);
         sli_set_layout_seeds(xset, &b);
-        status = b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes > b.used ? bytes : b.used + 1);
+        status =
+            b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes > b.used ? bytes : b.used + 1);
         if (status != SL_OK) {
             return status;
         }
@@ -259,9 +268,9 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
     return SL_OK;
 }
 
-SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset, sl_int nx,
-                                const double *B, size_t ldb, const sl_int *bset, sl_int nb, sl_int nrhs, sl_work *W,
-                                sl_stats *stats) {
+SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset,
+                                sl_int nx, const double *B, size_t ldb, const sl_int *bset,
+                                sl_int nb, sl_int nrhs, sl_work *W, sl_stats *stats) {
     sl_work own;
     sli_set b, x;
     sl_status status;

@@ -5,8 +5,8 @@
 #include "sort.h"
 #include "symbolic_types.h"
 
-/* A reach, compiled for the kernels: its supernodes ascending, each from the first column needed, and the places of
- * their rows in a vector that holds the reach's columns alone. */
+/* A reach, compiled for the kernels: its supernodes ascending, each from the first column needed,
+ * and the places of their rows in a vector that holds the reach's columns alone. */
 typedef struct sli_reach {
     sl_int count;           /* supernodes */
     sl_int columns;         /* length of the vector */
@@ -31,9 +31,11 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
     return R;
 }
 
-/* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a postorder the first
- * ancestor at or after it is on the next seed's own path, so that paths join without a mark on any column. */
-SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sl_int *k) {
+/* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a
+ * postorder the first ancestor at or after it is on the next seed's own path, so that paths join
+ * without a mark on any column. */
+SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                                sl_int *k) {
     const sl_int here = S->super_of[sli_key(seeds[*k])];
     sl_int s = here;
     while (++*k < count && s == here) {
@@ -46,7 +48,8 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
 }
 
 /* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
-static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_reach *R) {
+static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                              sli_reach *R) {
     sl_int k = 0, s, next;
     memset(R, 0, sizeof *R);
     while (k < count) {
@@ -59,9 +62,11 @@ static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_in
     }
 }
 
-/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded through `up` of the steps
- * whose parent has not come yet; its top waits for the smallest supernode. */
-static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed, sl_int *waiting) {
+/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded
+ * through `up` of the steps whose parent has not come yet; its top waits for the smallest
+ * supernode. */
+static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
+                            sl_int *waiting) {
     const sl_int first = S->super_first[s];
     sli_step *step = &steps[at];
     sl_int column = seed;
@@ -84,8 +89,10 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     }
 }
 
-/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them. */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at, sl_int *places) {
+/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
+ */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at,
+                             sl_int *places) {
     const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
     const sl_int below = steps[at].below;
     sl_int i = 0;
@@ -101,8 +108,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
 }
 
 /* Compiles the reach that sli_reach_measure has counted. O(reach). */
-static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count, sli_step *steps, sl_int *rows,
-                           sli_reach *R) {
+static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                           sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
     sl_off placed = 0;
     while (k < count) {
@@ -120,7 +127,8 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
         R->columns += sli_step_columns(step);
         R->widest = sli_max(R->widest, step->width);
         R->tallest = sli_max(R->tallest, step->width + step->below);
-        R->entries += sli_panel_size(step->width, step->below) - sli_tile_offset(step->width, step->first_tile) -
+        R->entries += sli_panel_size(step->width, step->below) -
+                      sli_tile_offset(step->width, step->first_tile) -
                       (sl_off)SLI_TILE * SLI_TILE * step->first_tile *
                           (sli_tiles(step->width + step->below) - step->first_tile);
     }

@@ -8,7 +8,8 @@
 #include "isa_neon.h"
 #include "isa_scalar.h"
 
-/* The table of an ISA, the best one for SL_ISA_AUTO; NULL where it is not compiled in or this processor lacks it. */
+/* The table of an ISA, the best one for SL_ISA_AUTO; NULL where it is not compiled in or this
+ * processor lacks it. */
 static const sli_kernels *sli_kernels_select(sl_isa isa) {
     const sl_isa best = sli_cpu_best();
     if (isa == SL_ISA_AUTO) {

@@ -4,8 +4,8 @@
 
 #include "sweep.h"
 
-SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                                 sl_work *W) {
+SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
+                                 size_t ldb, sl_int nrhs, sl_work *W) {
     sli_query q;
     sl_status status;
     if (F == NULL) {

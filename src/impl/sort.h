@@ -4,7 +4,8 @@
 
 #include "base.h"
 
-/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move. */
+/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move.
+ */
 SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
     return (uint64_t)(uint32_t)key << 32 | (uint32_t)value;
 }
@@ -17,9 +18,11 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
     return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
-#define SLI_SORT_SMALL 48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
+#define SLI_SORT_SMALL                                                                             \
+    48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
 
-/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more. O(count) a byte. */
+/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more.
+ * O(count) a byte. */
 static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     sl_int i, k;
     sl_int largest = 0;

@@ -19,12 +19,12 @@ static void sli_count_map(sl_symbolic *S, const sli_half *columns, const sl_int 
 
 /* The rows of every supernode, and the place in L of every entry of A, in one walk over the rows.
  *
- * Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode: k is appended to each
- * of them, and as k ascends so do the lists; where it was appended is the local row of k's entries. end: n_supers, how
- * far each list has got; mark: n_supers.
+ * Row k of L is the part of the supernode tree between row k's entries of A and k's own supernode:
+ * k is appended to each of them, and as k ascends so do the lists; where it was appended is the
+ * local row of k's entries. end: n_supers, how far each list has got; mark: n_supers.
  */
-static void sli_fill_structure(sl_symbolic *S, const sli_half *rows, const sl_int *old_of, const sl_int *new_of,
-                               sl_off *end, sl_int *mark) {
+static void sli_fill_structure(sl_symbolic *S, const sli_half *rows, const sl_int *old_of,
+                               const sl_int *new_of, sl_off *end, sl_int *mark) {
     sl_int k, p, s;
     for (s = 0; s < S->n_supers; s++) {
         end[s] = S->rows_begin[s];

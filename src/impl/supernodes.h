@@ -5,20 +5,22 @@
 #include "etree.h"
 #include "sort.h"
 
-/* Supernodes under construction, all arrays of n. A group is named by its top fundamental supernode. */
+/* Supernodes under construction, all arrays of n. A group is named by its top fundamental
+ * supernode. */
 typedef struct sli_groups {
-    sl_int count;      /* fundamental supernodes */
-    sl_int *first;     /* n + 1: first column of each */
-    sl_int *parent;    /* parent supernode, -1 at a root */
-    sl_int *width;     /* columns of the group so far */
-    sl_int *below;     /* rows below it */
-    double *zeros;     /* stored places of the group that L does not fill */
-    sl_int *group;     /* the supernode it was merged into, itself while on top; at last the top */
+    sl_int count;   /* fundamental supernodes */
+    sl_int *first;  /* n + 1: first column of each */
+    sl_int *parent; /* parent supernode, -1 at a root */
+    sl_int *width;  /* columns of the group so far */
+    sl_int *below;  /* rows below it */
+    double *zeros;  /* stored places of the group that L does not fill */
+    sl_int *group;  /* the supernode it was merged into, itself while on top; at last the top */
 } sli_groups;
 
-/* Runs of columns with the same structure, each the only child of the next: count falls by one along the run. */
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children, sl_int *super_of,
-                            sli_groups *g) {
+/* Runs of columns with the same structure, each the only child of the next: count falls by one
+ * along the run. */
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
+                            sl_int *super_of, sli_groups *g) {
     sl_int j, s = -1;
     memset(children, 0, (size_t)n * sizeof(sl_int));
     for (j = 0; j < n; j++) {
@@ -44,8 +46,8 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     }
 }
 
-/* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not their flops; the
- * thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
+/* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not
+ * their flops; the thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
 static int sli_may_merge(sl_int width, double z) {
     return width <= 8 || (width <= 16 && z < 0.30) || (width <= 48 && z < 0.15) || z < 0.05;
 }
@@ -55,8 +57,10 @@ static double sli_new_zeros(const sli_groups *g, sl_int c, sl_int p) {
     return (double)g->width[c] * (double)(g->width[p] + g->below[p] - g->below[c]);
 }
 
-/* Joins the children of p, cheapest first, as long as the zeros allow. list: the children, keyed by rank. */
-static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int count, uint64_t *scratch) {
+/* Joins the children of p, cheapest first, as long as the zeros allow. list: the children, keyed by
+ * rank. */
+static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int count,
+                               uint64_t *scratch) {
     sl_int k;
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]);
@@ -76,9 +80,10 @@ static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int c
     }
 }
 
-/* Every supernode in turn takes in its children, which come before it. child, sibling: lists of children;
- * list, scratch: room for all of them. */
-static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *list, uint64_t *scratch) {
+/* Every supernode in turn takes in its children, which come before it. child, sibling: lists of
+ * children; list, scratch: room for all of them. */
+static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *list,
+                      uint64_t *scratch) {
     sl_int s, c, count;
     for (s = 0; s < g->count; s++) {
         child[s] = -1;
@@ -98,11 +103,13 @@ static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *l
     }
 }
 
-/* Numbers the groups in a postorder of their tree and lays their columns side by side: order[k] = old column of the
- * new k. On return the arrays describe the groups in their new numbers, and count is how many there are.
- * scratch: 5n. */
-static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *super_of, sl_int *scratch) {
-    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n;
+/* Numbers the groups in a postorder of their tree and lays their columns side by side: order[k] =
+ * old column of the new k. On return the arrays describe the groups in their new numbers, and count
+ * is how many there are. scratch: 5n. */
+static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *super_of,
+                                sl_int *scratch) {
+    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
+           *at = scratch + 3 * (size_t)n;
     sl_int *more = scratch + 4 * (size_t)n;
     sl_int s, k, groups = 0, column = 0;
     for (s = g->count - 1; s >= 0; s--) { /* parents come first, so that their group is final */
@@ -134,7 +141,8 @@ static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *
             order[(*next)++] = k;
         }
     }
-    for (k = 0; k < groups; k++) { /* group and at are done with: they carry the sizes to the new numbers */
+    for (k = 0; k < groups;
+         k++) { /* group and at are done with: they carry the sizes to the new numbers */
         at[k] = g->width[top[post[k]]];
         g->group[k] = g->below[top[post[k]]];
     }

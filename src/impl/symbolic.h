@@ -8,17 +8,18 @@
 #include "structure.h"
 #include "supernodes.h"
 
-/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order that was asked for
- * (rows, columns), and in the postorder of the supernodes that comes of it (everything else). */
+/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order
+ * that was asked for (rows, columns), and in the postorder of the supernodes that comes of it
+ * (everything else). */
 typedef struct sli_analysis {
     sl_int n;
     sli_half rows, columns;
     sli_groups groups;
-    sl_int *perm;                             /* n: the order asked for */
-    sl_int *old_of, *new_of;                  /* n: from the last numbering to the one before, and back */
-    sl_int *parent, *counts, *super_of;       /* n each */
-    sl_int *scratch;                          /* 5n */
-    uint64_t *list;                           /* 2n */
+    sl_int *perm;                       /* n: the order asked for */
+    sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
+    sl_int *parent, *counts, *super_of; /* n each */
+    sl_int *scratch;                    /* 5n */
+    uint64_t *list;                     /* 2n */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
@@ -123,17 +124,19 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     S->panel_begin[0] = 0;
     for (s = 0; s < S->n_supers; s++) {
         S->rows_begin[s + 1] = S->rows_begin[s] + w->groups.below[s];
-        S->panel_begin[s + 1] = S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
+        S->panel_begin[s + 1] =
+            S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
     }
     /* list has 4n words of 4 bytes: the ends of the rows in one half, the marks in the other */
     sli_count_map(S, &w->columns, w->old_of);
-    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list, (sl_int *)(void *)(w->list + S->n));
+    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
+                       (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
-static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sli_analysis *w,
-                                   const sl_allocator *a, sl_stats *stats) {
+static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                                   sli_analysis *w, const sl_allocator *a, sl_stats *stats) {
     double started;
     sl_symbolic draft;
     sli_block b = {NULL, 0, 0};
@@ -196,7 +199,8 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_symbolic = from->bytes_symbolic;
 }
 
-SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt, sl_stats *stats) {
+SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                                    sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const double started = sli_seconds();
     sli_analysis w;

@@ -10,19 +10,19 @@
 
 struct sl_factor {
     sl_allocator allocator;
-    sl_stats stats;            /* the factor group and the error fields */
-    const sl_symbolic *S;      /* borrowed */
+    sl_stats stats;       /* the factor group and the error fields */
+    const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     double null_tolerance;
-    int is_good;               /* L and D hold a factor */
-    double *L;                 /* the panels */
-    double *D;                 /* n pivots */
-    double *x;                 /* n: updates on their way up row k; all 0 between rows */
-    double *buffer;            /* kernel scratch */
-    sl_int *head;              /* n: first supernode whose next row is k, -1 for none */
-    sl_int *next;              /* n_supers: the others, as a list */
-    sl_int *position;          /* n_supers: how many rows below have been done */
-    uint64_t *list;            /* n_supers: the reach of row k */
+    int is_good;      /* L and D hold a factor */
+    double *L;        /* the panels */
+    double *D;        /* n pivots */
+    double *x;        /* n: updates on their way up row k; all 0 between rows */
+    double *buffer;   /* kernel scratch */
+    sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
+    sl_int *next;     /* n_supers: the others, as a list */
+    sl_int *position; /* n_supers: how many rows below have been done */
+    uint64_t *list;   /* n_supers: the reach of row k */
     uint64_t *list_scratch;
 };
 
@@ -71,11 +71,12 @@ static void sli_wait_for_row(sl_factor *F, sl_int s) {
 static void sli_do_row(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int first = S->super_first[s];
-    F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s], F->D + first,
-                    F->x + first, F->x, F->buffer, pivot, magnitude);
+    F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s],
+                    F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
-/* Row k: the supernodes that wait for it, in ascending order so that descendants come first, then its own. */
+/* Row k: the supernodes that wait for it, in ascending order so that descendants come first, then
+ * its own. */
 static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];

@@ -22,8 +22,8 @@
  *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
  *  Example  tests/test_symbolic.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                                                   sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
+                                                   const sl_options *opt, sl_stats *stats);
 
 /** Releases an analysis; NULL is fine. Factors and plans over it must be gone or never used again. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
@@ -42,10 +42,10 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
 typedef struct sl_symbolic_view_t {
     sl_int n;
     sl_int n_supers;
-    const sl_int *perm;         /* n: perm[k] = row of A that is pivot k */
-    const sl_int *iperm;        /* n: its inverse */
-    const sl_int *parent;       /* n: elimination tree of P A P', -1 at a root */
-    const sl_int *counts;       /* n: entries of column k of L, diagonal included, without relaxation */
+    const sl_int *perm;   /* n: perm[k] = row of A that is pivot k */
+    const sl_int *iperm;  /* n: its inverse */
+    const sl_int *parent; /* n: elimination tree of P A P', -1 at a root */
+    const sl_int *counts; /* n: entries of column k of L, diagonal included, without relaxation */
     const sl_int *super_first;  /* n_supers + 1 */
     const sl_int *super_of;     /* n: supernode of column k */
     const sl_int *super_parent; /* n_supers: -1 at a root */

@@ -16,9 +16,11 @@
  *  Cost     O(count + n_rows + n_cols).
  *  Threads  any number on distinct outputs.
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_off count,
-                                                        const sl_int *i, const sl_int *j, const double *x,
-                                                        const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
+                                                        sl_int n_cols, sl_off count,
+                                                        const sl_int *i, const sl_int *j,
+                                                        const double *x, const sl_options *opt,
+                                                        sl_stats *stats);
 
 /** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
  *
@@ -31,8 +33,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
  *           skew-symmetric or hermitian; SL_ERR_NOT_FINITE is not raised here; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(file size + n_rows + n_cols).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
-                                               sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path,
+                                               const sl_options *opt, sl_stats *stats);
 
 /** The same from memory: length bytes of text, no terminating zero needed. */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
@@ -42,7 +44,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n_rows + n_cols + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
+                                                    const sl_options *opt);
 
 /** The symmetric permutation C = P A P' of a square matrix: C(k, l) = A(perm[k], perm[l]).
  *
@@ -52,8 +55,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm,
-                                                  const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
+                                                  const sl_int *perm, const sl_options *opt);
 
 /** The arrays of an owned matrix; valid as long as M lives. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);
@@ -74,8 +77,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
-                                                sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
+                                                const sl_options *opt, sl_stats *stats);
 
 /** Y = A X.
  *
@@ -84,20 +87,22 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted (sl_csc_check).  Cost  O(nnz nrhs).
  */
-SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
-                                                const double *X, size_t ldx, sl_int nrhs);
+SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
+                                                size_t ldy, const double *X, size_t ldx,
+                                                sl_int nrhs);
 
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
- *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; without backward_error it may be B itself
- *                         (then ldr = ldb).
+ *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; it may be B itself (then
+ *                         ldr = ldb) where backward_error is NULL.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
  *                         0 where r = 0, NaN where r has one; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
  */
-SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
-                                                const double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs);
+SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
+                                                double *backward_error, const double *X, size_t ldx,
+                                                const double *B, size_t ldb, sl_int nrhs);
 
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *

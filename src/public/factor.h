@@ -6,8 +6,8 @@
 
 /** Factors P A P' = L D L' with unit lower triangular L and diagonal D of any sign, without pivoting.
  *
- *  Positive definite, negative definite and quasi-definite matrices always work; a symmetric indefinite one works
- *  if no pivot comes out null.
+ *  Definite and quasi-definite matrices work in any order unless rounding loses a pivot: one that comes out below
+ *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -22,8 +22,9 @@
  *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
  *  Example  tests/test_factor.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                                                 const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
+                                                 const sl_csc *A, const sl_options *opt,
+                                                 sl_stats *stats);
 
 /** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
  *
@@ -43,14 +44,16 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign);
+SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
+                                                 double *sign);
 
 /** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
  *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
+                                                const sl_options *opt);
 
 /** A look inside; the pointers live as long as F. */
 typedef struct sl_factor_view_t {

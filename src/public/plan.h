@@ -21,8 +21,9 @@
  *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
  *  Example  tests/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
-                                               const sl_int *xset, sl_int nx, const sl_options *opt, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S,
+                                               const sl_int *bset, sl_int nb, const sl_int *xset,
+                                               sl_int nx, const sl_options *opt, sl_stats *stats);
 
 /** Releases a plan; NULL is fine. */
 SL_API void sl_plan_free(sl_plan *P);
@@ -45,8 +46,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
-                                              const double *B, size_t ldb, sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
+                                              size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                                              sl_work *W);
 
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
@@ -56,8 +58,9 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const sl_int *xset,
-                                               sl_int nx, const double *B, size_t ldb, const sl_int *bset, sl_int nb,
+SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx,
+                                               const sl_int *xset, sl_int nx, const double *B,
+                                               size_t ldb, const sl_int *bset, sl_int nb,
                                                sl_int nrhs, sl_work *W, sl_stats *stats);
 
 #endif

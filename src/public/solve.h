@@ -28,14 +28,15 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
  *                (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, each as fast as about one or two alone.
+ *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of about two alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY: W had to grow and could not.
  *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B, size_t ldb,
-                                                sl_int nrhs, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,
+                                                const double *B, size_t ldb, sl_int nrhs,
+                                                sl_work *W);
 
 #endif

@@ -7,16 +7,16 @@
 /** What a call came to. Everything that can fail returns one; SL_OK is 0. */
 typedef enum sl_status {
     SL_OK = 0,
-    SL_ERR_ARGUMENT,    /* NULL, negative size, leading dimension too small, index out of range or given twice */
-    SL_ERR_MEMORY,      /* the allocator returned NULL */
-    SL_ERR_PATTERN,     /* the matrix is malformed, or both triangles are stored and differ in pattern */
-    SL_ERR_PIVOT,       /* a null pivot: the matrix is singular, or needs pivoting; stats name the row */
-    SL_ERR_NOT_FINITE,  /* a NaN or an infinity in the values, or one that arose; stats name the row */
-    SL_ERR_TOO_LARGE,   /* a count does not fit its type */
+    SL_ERR_ARGUMENT, /* NULL, negative size, leading dimension too small, index out of range or given twice */
+    SL_ERR_MEMORY,  /* the allocator returned NULL */
+    SL_ERR_PATTERN, /* the matrix is malformed, or both triangles are stored and differ in pattern */
+    SL_ERR_PIVOT, /* a null pivot: the matrix is singular, or needs pivoting; stats name the row */
+    SL_ERR_NOT_FINITE, /* a NaN or an infinity in the values, or one that arose; stats name the row */
+    SL_ERR_TOO_LARGE, /* a count does not fit its type */
     SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
-    SL_ERR_IO,          /* a file could not be opened, read, parsed or written; stats name the line */
-    SL_ERR_ORDERING,    /* the ordering library failed */
-    SL_ERR_STATE        /* a failed factor, or objects that do not belong together */
+    SL_ERR_IO,       /* a file could not be opened, read, parsed or written; stats name the line */
+    SL_ERR_ORDERING, /* the ordering library failed */
+    SL_ERR_STATE     /* a failed factor, or objects that do not belong together */
 } sl_status;
 
 /** A name for a status, in words, static storage. Any value is accepted. */
@@ -82,11 +82,14 @@ typedef struct sl_allocator {
 /** Wishes, the same struct for every call. All zero (or a NULL pointer) = defaults. */
 typedef struct sl_options {
     sl_ordering ordering;
-    const sl_int *perm;          /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
-    const sl_int *metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+    const sl_int
+        *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *
+        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
     sl_relaxation relaxation;
     sl_isa isa;
-    double null_tolerance;  /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
+    double
+        null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
 } sl_options;
@@ -103,24 +106,24 @@ typedef struct sl_stats {
     /* sl_symbolic_create */
     sl_int n;
     sl_triangle triangle;
-    sl_off nnz_a;         /* entries of A that are read (one triangle with diagonal, duplicates counted) */
-    sl_off nnz_l;         /* entries of L with its unit diagonal, without relaxation */
-    sl_off nnz_panels;    /* doubles stored for L, padding and relaxation included */
-    double flops;         /* sum over columns of (entries)^2, without relaxation */
+    sl_off nnz_a; /* entries of A that are read (one triangle with diagonal, duplicates counted) */
+    sl_off nnz_l; /* entries of L with its unit diagonal, without relaxation */
+    sl_off nnz_panels; /* doubles stored for L, padding and relaxation included */
+    double flops;      /* sum over columns of (entries)^2, without relaxation */
     sl_int supernodes;
     sl_int supernodes_fundamental; /* before relaxation */
-    sl_int tree_height;   /* columns on the longest path of the elimination tree */
-    sl_int components;    /* roots of the elimination tree */
-    double seconds_order; /* processor seconds in the ordering */
-    double seconds_analyse; /* processor seconds in everything else of the analysis */
+    sl_int tree_height;            /* columns on the longest path of the elimination tree */
+    sl_int components;             /* roots of the elimination tree */
+    double seconds_order;          /* processor seconds in the ordering */
+    double seconds_analyse;        /* processor seconds in everything else of the analysis */
     size_t bytes_symbolic;
 
     /* sl_factor_create, sl_factor_refactor */
     sl_isa isa;
     sl_int positive; /* pivots by sign: the inertia of A */
     sl_int negative;
-    sl_int null;            /* pivots refused (0 or 1) */
-    double pivot_min;       /* smallest and largest |d| */
+    sl_int null;      /* pivots refused (0 or 1) */
+    double pivot_min; /* smallest and largest |d| */
     double pivot_max;
     double seconds_factor;
     size_t bytes_factor;
@@ -128,7 +131,7 @@ typedef struct sl_stats {
     /* sl_plan_create, sl_local_solve */
     sl_int b_supernodes; /* visited by the forward sweep */
     sl_int b_columns;
-    sl_off b_entries; /* doubles of L that the forward sweep reads */
+    sl_off b_entries;    /* doubles of L that the forward sweep reads */
     sl_int x_supernodes; /* the same for the backward sweep */
     sl_int x_columns;
     sl_off x_entries;
