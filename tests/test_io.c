@@ -143,6 +143,7 @@ static void malformed_at_each_place(void **state) {
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1.5abc\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1 1\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\na 1 1\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n+ 1 1\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1.5 1\n"},
         {SL_ERR_IO, 3, BANNER("pattern general") "2 2 1\n1 1 1\n"},
         {SL_ERR_IO, 6, BANNER("real general") "2 2 3\n% comment\n1 1 1\n\n1 q 1\n2 2 1\n"},
@@ -254,6 +255,26 @@ static void written_and_read_back(void **state) {
     remove(name);
 }
 
+/* Longer than what is read at once: the text has to move as it grows. */
+static void a_long_file_comes_back(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 10000, 0, 7);
+    sl_int n = M.view.n_cols;
+    sl_matrix *back = NULL;
+    char name[512];
+    assert_true(temporary_name(name, sizeof name));
+    SL_CHECK(sl_csc_write(&M.view, SL_AS_STORED, name));
+    SL_CHECK(sl_matrix_read(&back, name, NULL, NULL));
+    sl_csc C = sl_matrix_view(back);
+    assert_int_equal(C.n_cols, n);
+    assert_memory_equal(C.p, M.p, ((size_t)n + 1) * sizeof *M.p);
+    assert_memory_equal(C.i, M.i, (size_t)M.p[n] * sizeof *M.i);
+    assert_memory_equal(C.x, M.x, (size_t)M.p[n] * sizeof *M.x);
+    sl_matrix_free(back);
+    gen_matrix_free(&M);
+    remove(name);
+}
+
 static void extreme_values_come_back_bit_for_bit(void **state) {
     (void)state;
     enum { COUNT = 12 };
@@ -347,6 +368,7 @@ int main(void) {
         cmocka_unit_test(sizes_that_do_not_fit),
         cmocka_unit_test(every_prefix_is_refused_or_right),
         cmocka_unit_test(written_and_read_back),
+        cmocka_unit_test(a_long_file_comes_back),
         cmocka_unit_test(extreme_values_come_back_bit_for_bit),
         cmocka_unit_test(files_that_cannot_be),
         cmocka_unit_test(a_full_disk_is_noticed),

@@ -305,14 +305,17 @@ static void reading_may_fail(void **state) {
     FILE *file = fopen(f->text, "wb");
     assert_non_null(file);
     fputs(texts[0], file);
+    for (int k = 0; k < 3000; k++) { /* longer than what is read at once: the text has to move */
+        fputs("% a comment of some length, one of many that follow each other here\n", file);
+    }
     fclose(file);
     assert_true(run(f, read_file) > 0);
     remove(f->text);
     free(f);
 }
 
-/* sl_csc_write has no options: it may allocate only to find the triangle, and needs no test of its own here. A failing
- * allocator in the middle of a life: objects made before it broke are released well. */
+/* A failing allocator in the middle of a life: objects made before it broke are released well. (sl_csc_write takes no
+ * options, so nothing can be made to fail there.) */
 static void objects_outlive_a_broken_allocator(void **state) {
     (void)state;
     counter_t counter = counter_make();

@@ -85,7 +85,7 @@ static void a_broken_analysis_is_noticed(void **state) {
         up[s]--;
     }
     sl_symbolic_free(S);
-    /* a place for a zero is one too many without relaxation, and fine with it */
+    /* 0 under 2, 1 under 3: not contiguous; a postorder; a parent before its child */
     const sl_int chain[5] = {2, 3, 4, 4, -1}, good[5] = {4, 2, 4, 4, -1}, back[3] = {1, 0, -1};
     assert_non_null(check_postorder(5, chain));
     assert_null(check_postorder(5, good));
