@@ -1,61 +1,66 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: d9d4cc4dc5c836f4
+ * FNV-1a of all that follows this comment, license aside: 9bfeeda570f0962a
  *
  * Contents
  *         (what a user reads)
- *     63  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    107  public/config.h            what a user may set before including the header, the version, and the integer types
- *    153  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    300  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    415  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    474  public/factor.h            the numbers: P A P' = L D L'
- *    541  public/solve.h             full solves, and the workspace that every solve writes to
- *    583  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     68  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    112  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    158  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    314  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    429  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    488  public/factor.h            the numbers: P A P' = L D L'
+ *    555  public/solve.h             full solves, and the workspace that every solve writes to
+ *    597  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    659  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    726  impl/status.h              status codes in words, and the error fields of stats
- *    782  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    879  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    940  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    673  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    740  impl/status.h              status codes in words, and the error fields of stats
+ *    796  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    893  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    954  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    978  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1080  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1125  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1155  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1723  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1768  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1947  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1971  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2019  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2428  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2807  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3625  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4479  impl/select.h              the kernel table for an instruction set
+ *    992  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1129  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1225  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1255  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1823  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1868  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2004  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2177  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2358  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2393  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2496  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2905  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3606  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   4762  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   5968  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4512  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4929  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5002  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6001  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6418  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6491  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5356  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5393  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5525  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5611  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5752  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5837  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5910  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6070  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6146  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6420  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   6845  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   6886  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7018  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7104  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7245  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7330  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7403  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7563  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   7639  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *   7712  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   7992  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6563  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6713  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6936  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   6992  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7201  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7241  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8135  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8215  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8295  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *   8356  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   8592  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   8648  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   8857  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   8897  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7543  impl/leave.h               takes every internal macro away again
+ *   9199  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -223,6 +228,13 @@ typedef enum sl_isa {
     SL_ISA_NEON
 } sl_isa;
 
+/** How to factor; both write the same L to rounding. */
+typedef enum sl_method {
+    SL_METHOD_AUTO = 0,    /* by the flops per entry of L */
+    SL_METHOD_UP_LOOKING,  /* row by row: no memory beyond L, for tiny or nearly tree-like patterns */
+    SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: for everything larger */
+} sl_method;
+
 /** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
@@ -239,6 +251,7 @@ typedef struct sl_options {
         metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
     sl_relaxation relaxation;
     sl_isa isa;
+    sl_method method;
     double
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
@@ -271,6 +284,7 @@ typedef struct sl_stats {
 
     /* sl_factor_create, sl_factor_refactor */
     sl_isa isa;
+    sl_method method; /* the one that was used */
     sl_int positive; /* pivots by sign: the inertia of A */
     sl_int negative;
     sl_int null;      /* pivots refused (0 or 1) */
@@ -1068,11 +1082,46 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
 
+/* Fronts. The front of a supernode of w columns and u rows below is its panel and its update
+ * matrix: the lower triangle, by tiles as in a panel, over the same row tiles from tile w/8 on, so
+ * that the rows below keep their lanes. What its first w % 8 rows and columns and the part above the
+ * diagonal hold means nothing. */
+
+/* Doubles of the update matrix of w columns and u rows below. */
+SLI_INLINE sl_off sli_update_size(sl_int w, sl_int u) {
+    const sl_off tiles = u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
+    return 32 * tiles * (tiles + 1);
+}
+
+/* Column tiles that are updated together, and columns they are updated by at a time: what a row tile
+ * needs of a chunk is 16 KB, what the group needs is 128 KB. */
+#define SLI_GROUP 8
+#define SLI_CHUNK 256
+
+/* Doubles for the elimination of one tile, and of scratch for a front in all. */
+#define SLI_FRONT_OWN 128
+#define SLI_FRONT_SCRATCH (SLI_FRONT_OWN + SLI_GROUP * SLI_TILE * SLI_CHUNK)
+
+/* Factors a front: on entry panel and update hold A and what the children hand over, magnitude (one
+ * for every row of the tiles) what that is made of in absolute value; on return the panel holds L, D
+ * the w pivots, update has lost L D L', and magnitude is that of the pivot in the w rows and has
+ * gained |L D L'| in the others. Null pivots are told by the caller. */
+typedef void (*sli_front_kernel)(double *panel, sl_int width, sl_int below, double *update,
+                                 double *D, double *magnitude, double *scratch);
+
+/* Adds the update matrix of a child of from_width columns and from_below rows below to its parent's
+ * front; place: the local row in the parent of each of those rows, ascending. */
+typedef void (*sli_assemble_kernel)(const double *from, sl_int from_width, sl_int from_below,
+                                    const sl_int *place, double *panel, sl_int width,
+                                    double *update);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
     sli_backward_kernel backward[SLI_LANES_COUNT];
     sli_row_kernel row;
+    sli_front_kernel front;
+    sli_assemble_kernel assemble;
 } sli_kernels;
 
 #endif
@@ -1119,6 +1168,57 @@ typedef struct sli_kernels {
         }                                                                                          \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_FNMA(a, b, c) \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] -= b[i_] * c[i_]; \
+        }                                                                                          \
+    }
+#define SLV_BROADCAST(b, p) \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            b[i_] = *(p); \
+        }                                                                                          \
+    }
+#define SLV_MULTIPLY(a, b, c) \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = b[i_] * c[i_]; \
+        }                                                                                          \
+    }
+#define SLV_DIVIDE(a, b, c) \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = b[i_] / c[i_]; \
+        }                                                                                          \
+    }
+#define SLV_BELOW(a, k) \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = i_ > (k) ? a[i_] : 0.0; \
+        }                                                                                          \
+    }
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
+    (void)(mask);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    {                                                                                              \
+        double *to_ = (to);                                                                        \
+        const double *from_ = (from);                                                              \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < count_; i_++) {                                                          \
+            to_[lanes_[i_]] += from_[i_];                                                          \
+        }                                                                                          \
+    }
 /* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2
@@ -1765,6 +1865,315 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
 #undef SLI_XT
 /* end src/impl/tile.inl.h */
 
+/* begin src/impl/product.inl.h */
+/* product.inl.h: C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_* */
+
+/* A block of registers holds SLV_COLUMNS columns of one row tile, or of two where an ISA has
+ * registers enough: SLV_EACH_COLUMN(op, t) is op(0, t) op(1, t) .. over them. Columns past those of C
+ * are computed and dropped: B has all 8 of a tile. */
+#define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
+#define SLI_LOAD(k, t)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k))                                                   \
+    } else {                                                                                       \
+        SLV_ZERO(c##t##k)                                                                          \
+    }
+#define SLI_STORE(k, t)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE(C##t + SLI_TILE * (k), c##t##k)                                                  \
+    }
+#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */                               \
+    SLV_BROADCAST(b, B + (k))                                                                      \
+    SLV_FNMA(c0##k, a0, b)
+#define SLI_UPDATE2(k, unused)                                                                     \
+    SLI_UPDATE(k, unused)                                                                          \
+    SLV_FNMA(c1##k, a1, b)
+
+/* One row tile. A: [length][8], B: [length][8] from the block's first column on, C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
+                                              double *C0, sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    for (j = 0; j < length; j++, A += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_EACH_COLUMN(SLI_UPDATE, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+}
+
+#if SLV_TILES == 2
+/* Two row tiles. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
+                                              sl_int length, double *C0, double *C1,
+                                              sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_DECLARE, 1)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 1)
+    for (j = 0; j < length; j++, A += SLI_TILE, A1 += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_LOAD_PINNED(a1, A1)
+        SLV_EACH_COLUMN(SLI_UPDATE2, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+    SLV_EACH_COLUMN(SLI_STORE, 1)
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_UPDATE
+#undef SLI_UPDATE2
+
+/* B(k, j) d(j) of column tile c's 8 rows, the columns j .. j + length - 1 of the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
+                                            double *B) {
+    sl_int j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    for (j = 0; j < length; j++) {
+        SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
+        SLV_BROADCAST(b, d + j)
+        SLV_MULTIPLY(a, a, b)
+        SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
+ * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+ * what a row tile needs stays in the first cache and what the group of column tiles needs in the
+ * second. */
+SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
+                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           double *target, sl_int target_width,
+                                           sl_int target_first, double *B) {
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int j, t, c, k;
+    for (j = j0; j < j1; j += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, j1 - j);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+        }
+        for (t = c0; t < tiles; t++) {
+            const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
+            double *C = target + sli_tile_offset(target_width, t - target_first);
+#if SLV_TILES == 2
+            const int is_pair = t + 1 < tiles;
+            const double *A1 =
+                is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
+            double *C1 =
+                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+#endif
+            for (c = c0; c < c1 && c <= t; c++) {
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+                const sl_int columns = target_width - SLI_TILE * (c - target_first);
+#if SLV_TILES == 2
+                if (is_pair) {
+                    SLV_NAME(block2)(A, A1, b, length, C + at, C1 + at, columns);
+                    continue;
+                }
+#endif
+                for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
+                    SLV_NAME(block1)(A, b + k, length, C + at + SLI_TILE * k, columns - k);
+                }
+            }
+#if SLV_TILES == 2
+            t += is_pair;
+            if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                                 target_width - SLI_TILE * (c - target_first));
+            }
+#endif
+        }
+    }
+}
+/* end src/impl/product.inl.h */
+
+/* begin src/impl/front.inl.h */
+/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+
+/* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
+#define SLI_SCALE(l, x, k)                                                                         \
+    if (by_reciprocal) {                                                                           \
+        SLV_BROADCAST(b, reciprocal + (k))                                                         \
+        SLV_MULTIPLY(l, x, b)                                                                      \
+    } else {                                                                                       \
+        SLV_BROADCAST(b, D + (k))                                                                  \
+        SLV_DIVIDE(l, x, b)                                                                        \
+    }
+
+/* magnitude(rows) += |l d l|, with x = l d */
+#define SLI_GAIN(l, x, k)                                                                          \
+    SLV_BROADCAST(b, against + (k))                                                                \
+    SLV_MULTIPLY(b, l, b)                                                                          \
+    SLV_FNMA(m, b, x)
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(a##k, (p) + SLI_TILE * (k))                                                       \
+    } else {                                                                                       \
+        SLV_ZERO(a##k)                                                                             \
+    }
+
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+#define SLI_AFTER(i, k)                                                                            \
+    if ((i) > (k)) {                                                                               \
+        SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
+        SLV_FNMA(a##i, l, b)                                                                       \
+    }
+#define SLI_PIVOT(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        double d;                                                                                  \
+        SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
+        SLV_STORE(sums, m)                                                                         \
+        d = x[SLI_TILE * (k) + (k)];                                                               \
+        D[k] = d;                                                                                  \
+        magnitude[k] = sums[k];                                                                    \
+        against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
+        reciprocal[k] = 1.0 / d;                                                                   \
+        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
+        safe &= by_reciprocal;                                                                     \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_BELOW(l, k)                                                                            \
+        SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
+        SLI_EACH8_AGAIN(SLI_AFTER, k)                                                              \
+    }
+
+/* The tiles below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l. */
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, p + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, q)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
+    }
+
+/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
+                                             double *D, double *magnitude, double *scratch) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
+    int by_reciprocal = 1, safe = 1;
+    sl_int t;
+    SLV_DECLARE(b)
+    SLV_DECLARE(l)
+    SLV_DECLARE(m)
+    SLI_EACH8(SLI_DECLARE, 0)
+    D += first;
+    magnitude += first;
+    SLV_LOAD(m, magnitude)
+    SLI_EACH8(SLI_LOAD, p)
+    SLI_EACH8(SLI_PIVOT, p)
+    SLV_STORE(sums, m)
+    for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
+        magnitude[t] = sums[t];
+    }
+    by_reciprocal = safe;
+    for (t = c + 1; t < tiles; t++) {
+        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        magnitude += SLI_TILE;
+        SLV_LOAD(m, magnitude)
+        SLI_EACH8(SLI_LOAD, q)
+        SLI_EACH8(SLI_SOLVE, q)
+        SLV_STORE(magnitude, m)
+    }
+}
+
+#undef SLI_SCALE
+#undef SLI_GAIN
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_AFTER
+#undef SLI_PIVOT
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
+                                         double *D, double *magnitude, double *scratch) {
+    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
+    double *B = scratch + SLI_FRONT_OWN;
+    sl_int c0, c;
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
+        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
+                              0, B);
+            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
+        }
+    }
+    if (u > 0) {
+        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
+            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
+                              SLI_TILE * (tiles - whole), whole, B);
+        }
+    }
+}
+
+/* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
+ * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
+ * all columns. What stands above the diagonal moves along and is never read. */
+SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
+                                            const sl_int *place, double *panel, sl_int w,
+                                            double *update) {
+    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
+    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+    sl_int row, end, split = 0, i;
+    while (split < u && place[split] < w) {
+        split++;
+    }
+    for (row = 0; row < u; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
+        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+                               SLI_TILE * (ptrdiff_t)skipped + lane;
+        sl_int lanes[SLI_TILE];
+        unsigned mask = 0;
+        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
+             end++) {
+            lanes[end - row] = place[end] % SLI_TILE;
+            mask |= 1u << lanes[end - row];
+        }
+        {
+            const sl_int in_panel = sli_min(end, split);
+            double *to = panel + sli_tile_offset(w, tile);
+            SLV_SPREAD(mask, lanes, end - row)
+            for (i = 0; i < in_panel; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
+            }
+            if (end > split) {
+                to = update + sli_tile_offset(update_width, tile - whole) -
+                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
+                for (i = split; i < end; i++) {
+                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                                   source + SLI_TILE * (ptrdiff_t)i)
+                }
+            }
+        }
+    }
+}
+/* end src/impl/front.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -1941,7 +2350,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
-    SLV_NAME(row)};
+    SLV_NAME(row),
+    SLV_NAME(front),
+    SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -1964,6 +2375,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_TWICE_HIGH
 #undef SLV_TWICE_AT
 #undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_SPREAD
+#undef SLV_SPREAD_ADD
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -1983,6 +2405,37 @@ static const sli_kernels SLV_NAME(kernels) = {
 SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
     low = _mm_add_pd(low, high);
     return _mm_cvtsd_f64(_mm_add_sd(low, _mm_unpackhi_pd(low, low)));
+}
+
+/* All bits in the lanes from k on, k = -3 .. 8. */
+SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
+    return _mm256_castsi256_pd(
+        _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
+}
+
+SLI_INLINE int sli_count4(unsigned mask) {
+    return (int)((mask & 1u) + (mask >> 1 & 1u) + (mask >> 2 & 1u) + (mask >> 3));
+}
+
+/* The first lanes of a quad to the lanes of a mask: pairs of 32-bit lanes, -1 where nothing goes. */
+SLV_FUNCTION SLI_INLINE __m256i sli_spread(unsigned mask) {
+    int index[8], k, from = 0;
+    for (k = 0; k < 4; k++) {
+        const int is_set = (mask >> k & 1u) != 0;
+        index[2 * k] = is_set ? 2 * from : -1;
+        index[2 * k + 1] = is_set ? 2 * from + 1 : -1;
+        from += is_set;
+    }
+    return _mm256_loadu_si256((const __m256i *)(const void *)index);
+}
+
+SLV_FUNCTION SLI_INLINE __m256d sli_spread_keep(__m256i spread) {
+    return _mm256_castsi256_pd(_mm256_cmpgt_epi32(spread, _mm256_set1_epi32(-1)));
+}
+
+SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d keep) {
+    return _mm256_and_pd(
+        _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), spread)), keep);
 }
 
 #define SLV_DECLARE(a) __m256d a##_0, a##_1;
@@ -2005,6 +2458,30 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p)                                                                      \
+    a##_0 = _mm256_load_pd(p);                                                                     \
+    a##_1 = _mm256_load_pd((p) + 4);                                                               \
+    __asm__("" : "+x"(a##_0), "+x"(a##_1)); /* used 4 times: not to be loaded 4 times */
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
+#define SLV_MULTIPLY(a, b, c) a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c) a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
+#define SLV_BELOW(a, k)                                                                            \
+    a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)),                                         \
+    a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const __m256i low_ = sli_spread((mask)&15u), high_ = sli_spread((mask) >> 4);                  \
+    const __m256d keep_low_ = sli_spread_keep(low_), keep_high_ = sli_spread_keep(high_);          \
+    const ptrdiff_t second_ = sli_count4((mask)&15u);                                              \
+    (void)(lanes);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to),                                        \
+                                        sli_spread_4(_mm256_loadu_pd(from), low_, keep_low_)));    \
+    _mm256_store_pd(                                                                               \
+        (to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4),                                          \
+                                sli_spread_4(_mm256_loadu_pd((from) + second_), high_, keep_high_)));
 #define SLV_TWICE_AT(e, l)                                                                         \
     {                                                                                              \
         const __m256d l_ = _mm256_load_pd(l);                                                      \
@@ -2599,6 +3076,315 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end src/impl/pairs.inl.h */
 
+/* begin src/impl/product.inl.h */
+/* product.inl.h: C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_* */
+
+/* A block of registers holds SLV_COLUMNS columns of one row tile, or of two where an ISA has
+ * registers enough: SLV_EACH_COLUMN(op, t) is op(0, t) op(1, t) .. over them. Columns past those of C
+ * are computed and dropped: B has all 8 of a tile. */
+#define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
+#define SLI_LOAD(k, t)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k))                                                   \
+    } else {                                                                                       \
+        SLV_ZERO(c##t##k)                                                                          \
+    }
+#define SLI_STORE(k, t)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE(C##t + SLI_TILE * (k), c##t##k)                                                  \
+    }
+#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */                               \
+    SLV_BROADCAST(b, B + (k))                                                                      \
+    SLV_FNMA(c0##k, a0, b)
+#define SLI_UPDATE2(k, unused)                                                                     \
+    SLI_UPDATE(k, unused)                                                                          \
+    SLV_FNMA(c1##k, a1, b)
+
+/* One row tile. A: [length][8], B: [length][8] from the block's first column on, C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
+                                              double *C0, sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    for (j = 0; j < length; j++, A += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_EACH_COLUMN(SLI_UPDATE, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+}
+
+#if SLV_TILES == 2
+/* Two row tiles. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
+                                              sl_int length, double *C0, double *C1,
+                                              sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_DECLARE, 1)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 1)
+    for (j = 0; j < length; j++, A += SLI_TILE, A1 += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_LOAD_PINNED(a1, A1)
+        SLV_EACH_COLUMN(SLI_UPDATE2, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+    SLV_EACH_COLUMN(SLI_STORE, 1)
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_UPDATE
+#undef SLI_UPDATE2
+
+/* B(k, j) d(j) of column tile c's 8 rows, the columns j .. j + length - 1 of the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
+                                            double *B) {
+    sl_int j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    for (j = 0; j < length; j++) {
+        SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
+        SLV_BROADCAST(b, d + j)
+        SLV_MULTIPLY(a, a, b)
+        SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
+ * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+ * what a row tile needs stays in the first cache and what the group of column tiles needs in the
+ * second. */
+SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
+                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           double *target, sl_int target_width,
+                                           sl_int target_first, double *B) {
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int j, t, c, k;
+    for (j = j0; j < j1; j += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, j1 - j);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+        }
+        for (t = c0; t < tiles; t++) {
+            const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
+            double *C = target + sli_tile_offset(target_width, t - target_first);
+#if SLV_TILES == 2
+            const int is_pair = t + 1 < tiles;
+            const double *A1 =
+                is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
+            double *C1 =
+                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+#endif
+            for (c = c0; c < c1 && c <= t; c++) {
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+                const sl_int columns = target_width - SLI_TILE * (c - target_first);
+#if SLV_TILES == 2
+                if (is_pair) {
+                    SLV_NAME(block2)(A, A1, b, length, C + at, C1 + at, columns);
+                    continue;
+                }
+#endif
+                for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
+                    SLV_NAME(block1)(A, b + k, length, C + at + SLI_TILE * k, columns - k);
+                }
+            }
+#if SLV_TILES == 2
+            t += is_pair;
+            if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                                 target_width - SLI_TILE * (c - target_first));
+            }
+#endif
+        }
+    }
+}
+/* end src/impl/product.inl.h */
+
+/* begin src/impl/front.inl.h */
+/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+
+/* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
+#define SLI_SCALE(l, x, k)                                                                         \
+    if (by_reciprocal) {                                                                           \
+        SLV_BROADCAST(b, reciprocal + (k))                                                         \
+        SLV_MULTIPLY(l, x, b)                                                                      \
+    } else {                                                                                       \
+        SLV_BROADCAST(b, D + (k))                                                                  \
+        SLV_DIVIDE(l, x, b)                                                                        \
+    }
+
+/* magnitude(rows) += |l d l|, with x = l d */
+#define SLI_GAIN(l, x, k)                                                                          \
+    SLV_BROADCAST(b, against + (k))                                                                \
+    SLV_MULTIPLY(b, l, b)                                                                          \
+    SLV_FNMA(m, b, x)
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(a##k, (p) + SLI_TILE * (k))                                                       \
+    } else {                                                                                       \
+        SLV_ZERO(a##k)                                                                             \
+    }
+
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+#define SLI_AFTER(i, k)                                                                            \
+    if ((i) > (k)) {                                                                               \
+        SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
+        SLV_FNMA(a##i, l, b)                                                                       \
+    }
+#define SLI_PIVOT(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        double d;                                                                                  \
+        SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
+        SLV_STORE(sums, m)                                                                         \
+        d = x[SLI_TILE * (k) + (k)];                                                               \
+        D[k] = d;                                                                                  \
+        magnitude[k] = sums[k];                                                                    \
+        against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
+        reciprocal[k] = 1.0 / d;                                                                   \
+        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
+        safe &= by_reciprocal;                                                                     \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_BELOW(l, k)                                                                            \
+        SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
+        SLI_EACH8_AGAIN(SLI_AFTER, k)                                                              \
+    }
+
+/* The tiles below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l. */
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, p + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, q)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
+    }
+
+/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
+                                             double *D, double *magnitude, double *scratch) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
+    int by_reciprocal = 1, safe = 1;
+    sl_int t;
+    SLV_DECLARE(b)
+    SLV_DECLARE(l)
+    SLV_DECLARE(m)
+    SLI_EACH8(SLI_DECLARE, 0)
+    D += first;
+    magnitude += first;
+    SLV_LOAD(m, magnitude)
+    SLI_EACH8(SLI_LOAD, p)
+    SLI_EACH8(SLI_PIVOT, p)
+    SLV_STORE(sums, m)
+    for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
+        magnitude[t] = sums[t];
+    }
+    by_reciprocal = safe;
+    for (t = c + 1; t < tiles; t++) {
+        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        magnitude += SLI_TILE;
+        SLV_LOAD(m, magnitude)
+        SLI_EACH8(SLI_LOAD, q)
+        SLI_EACH8(SLI_SOLVE, q)
+        SLV_STORE(magnitude, m)
+    }
+}
+
+#undef SLI_SCALE
+#undef SLI_GAIN
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_AFTER
+#undef SLI_PIVOT
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
+                                         double *D, double *magnitude, double *scratch) {
+    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
+    double *B = scratch + SLI_FRONT_OWN;
+    sl_int c0, c;
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
+        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
+                              0, B);
+            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
+        }
+    }
+    if (u > 0) {
+        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
+            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
+                              SLI_TILE * (tiles - whole), whole, B);
+        }
+    }
+}
+
+/* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
+ * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
+ * all columns. What stands above the diagonal moves along and is never read. */
+SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
+                                            const sl_int *place, double *panel, sl_int w,
+                                            double *update) {
+    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
+    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+    sl_int row, end, split = 0, i;
+    while (split < u && place[split] < w) {
+        split++;
+    }
+    for (row = 0; row < u; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
+        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+                               SLI_TILE * (ptrdiff_t)skipped + lane;
+        sl_int lanes[SLI_TILE];
+        unsigned mask = 0;
+        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
+             end++) {
+            lanes[end - row] = place[end] % SLI_TILE;
+            mask |= 1u << lanes[end - row];
+        }
+        {
+            const sl_int in_panel = sli_min(end, split);
+            double *to = panel + sli_tile_offset(w, tile);
+            SLV_SPREAD(mask, lanes, end - row)
+            for (i = 0; i < in_panel; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
+            }
+            if (end > split) {
+                to = update + sli_tile_offset(update_width, tile - whole) -
+                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
+                for (i = split; i < end; i++) {
+                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                                   source + SLI_TILE * (ptrdiff_t)i)
+                }
+            }
+        }
+    }
+}
+/* end src/impl/front.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -2775,7 +3561,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
-    SLV_NAME(row)};
+    SLV_NAME(row),
+    SLV_NAME(front),
+    SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -2798,6 +3586,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_TWICE_HIGH
 #undef SLV_TWICE_AT
 #undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_SPREAD
+#undef SLV_SPREAD_ADD
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -2830,6 +3629,22 @@ static const sli_kernels SLV_NAME(kernels) = {
     sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_TILES 2
+#define SLV_COLUMNS 8
+#define SLV_EACH_COLUMN SLI_EACH8
+#define SLV_LOAD_PINNED(a, p)                                                                      \
+    a = _mm512_load_pd(p);                                                                         \
+    __asm__("" : "+v"(a)); /* used 8 times: not to be loaded 8 times */
+#define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
+#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
+#define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const __mmask8 spread_ = (__mmask8)(mask);                                                     \
+    (void)(lanes);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    _mm512_store_pd((to), _mm512_add_pd(_mm512_load_pd(to),                                        \
+                                        _mm512_maskz_expand_pd(spread_, _mm512_loadu_pd(from))));
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),                \
                                     _mm512_load_pd(l));
@@ -3416,6 +4231,315 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end src/impl/pairs.inl.h */
 
+/* begin src/impl/product.inl.h */
+/* product.inl.h: C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_* */
+
+/* A block of registers holds SLV_COLUMNS columns of one row tile, or of two where an ISA has
+ * registers enough: SLV_EACH_COLUMN(op, t) is op(0, t) op(1, t) .. over them. Columns past those of C
+ * are computed and dropped: B has all 8 of a tile. */
+#define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
+#define SLI_LOAD(k, t)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k))                                                   \
+    } else {                                                                                       \
+        SLV_ZERO(c##t##k)                                                                          \
+    }
+#define SLI_STORE(k, t)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE(C##t + SLI_TILE * (k), c##t##k)                                                  \
+    }
+#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */                               \
+    SLV_BROADCAST(b, B + (k))                                                                      \
+    SLV_FNMA(c0##k, a0, b)
+#define SLI_UPDATE2(k, unused)                                                                     \
+    SLI_UPDATE(k, unused)                                                                          \
+    SLV_FNMA(c1##k, a1, b)
+
+/* One row tile. A: [length][8], B: [length][8] from the block's first column on, C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
+                                              double *C0, sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    for (j = 0; j < length; j++, A += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_EACH_COLUMN(SLI_UPDATE, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+}
+
+#if SLV_TILES == 2
+/* Two row tiles. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
+                                              sl_int length, double *C0, double *C1,
+                                              sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_DECLARE, 1)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 1)
+    for (j = 0; j < length; j++, A += SLI_TILE, A1 += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_LOAD_PINNED(a1, A1)
+        SLV_EACH_COLUMN(SLI_UPDATE2, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+    SLV_EACH_COLUMN(SLI_STORE, 1)
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_UPDATE
+#undef SLI_UPDATE2
+
+/* B(k, j) d(j) of column tile c's 8 rows, the columns j .. j + length - 1 of the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
+                                            double *B) {
+    sl_int j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    for (j = 0; j < length; j++) {
+        SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
+        SLV_BROADCAST(b, d + j)
+        SLV_MULTIPLY(a, a, b)
+        SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
+ * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+ * what a row tile needs stays in the first cache and what the group of column tiles needs in the
+ * second. */
+SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
+                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           double *target, sl_int target_width,
+                                           sl_int target_first, double *B) {
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int j, t, c, k;
+    for (j = j0; j < j1; j += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, j1 - j);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+        }
+        for (t = c0; t < tiles; t++) {
+            const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
+            double *C = target + sli_tile_offset(target_width, t - target_first);
+#if SLV_TILES == 2
+            const int is_pair = t + 1 < tiles;
+            const double *A1 =
+                is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
+            double *C1 =
+                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+#endif
+            for (c = c0; c < c1 && c <= t; c++) {
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+                const sl_int columns = target_width - SLI_TILE * (c - target_first);
+#if SLV_TILES == 2
+                if (is_pair) {
+                    SLV_NAME(block2)(A, A1, b, length, C + at, C1 + at, columns);
+                    continue;
+                }
+#endif
+                for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
+                    SLV_NAME(block1)(A, b + k, length, C + at + SLI_TILE * k, columns - k);
+                }
+            }
+#if SLV_TILES == 2
+            t += is_pair;
+            if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                                 target_width - SLI_TILE * (c - target_first));
+            }
+#endif
+        }
+    }
+}
+/* end src/impl/product.inl.h */
+
+/* begin src/impl/front.inl.h */
+/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+
+/* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
+#define SLI_SCALE(l, x, k)                                                                         \
+    if (by_reciprocal) {                                                                           \
+        SLV_BROADCAST(b, reciprocal + (k))                                                         \
+        SLV_MULTIPLY(l, x, b)                                                                      \
+    } else {                                                                                       \
+        SLV_BROADCAST(b, D + (k))                                                                  \
+        SLV_DIVIDE(l, x, b)                                                                        \
+    }
+
+/* magnitude(rows) += |l d l|, with x = l d */
+#define SLI_GAIN(l, x, k)                                                                          \
+    SLV_BROADCAST(b, against + (k))                                                                \
+    SLV_MULTIPLY(b, l, b)                                                                          \
+    SLV_FNMA(m, b, x)
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(a##k, (p) + SLI_TILE * (k))                                                       \
+    } else {                                                                                       \
+        SLV_ZERO(a##k)                                                                             \
+    }
+
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+#define SLI_AFTER(i, k)                                                                            \
+    if ((i) > (k)) {                                                                               \
+        SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
+        SLV_FNMA(a##i, l, b)                                                                       \
+    }
+#define SLI_PIVOT(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        double d;                                                                                  \
+        SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
+        SLV_STORE(sums, m)                                                                         \
+        d = x[SLI_TILE * (k) + (k)];                                                               \
+        D[k] = d;                                                                                  \
+        magnitude[k] = sums[k];                                                                    \
+        against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
+        reciprocal[k] = 1.0 / d;                                                                   \
+        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
+        safe &= by_reciprocal;                                                                     \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_BELOW(l, k)                                                                            \
+        SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
+        SLI_EACH8_AGAIN(SLI_AFTER, k)                                                              \
+    }
+
+/* The tiles below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l. */
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, p + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, q)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
+    }
+
+/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
+                                             double *D, double *magnitude, double *scratch) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
+    int by_reciprocal = 1, safe = 1;
+    sl_int t;
+    SLV_DECLARE(b)
+    SLV_DECLARE(l)
+    SLV_DECLARE(m)
+    SLI_EACH8(SLI_DECLARE, 0)
+    D += first;
+    magnitude += first;
+    SLV_LOAD(m, magnitude)
+    SLI_EACH8(SLI_LOAD, p)
+    SLI_EACH8(SLI_PIVOT, p)
+    SLV_STORE(sums, m)
+    for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
+        magnitude[t] = sums[t];
+    }
+    by_reciprocal = safe;
+    for (t = c + 1; t < tiles; t++) {
+        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        magnitude += SLI_TILE;
+        SLV_LOAD(m, magnitude)
+        SLI_EACH8(SLI_LOAD, q)
+        SLI_EACH8(SLI_SOLVE, q)
+        SLV_STORE(magnitude, m)
+    }
+}
+
+#undef SLI_SCALE
+#undef SLI_GAIN
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_AFTER
+#undef SLI_PIVOT
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
+                                         double *D, double *magnitude, double *scratch) {
+    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
+    double *B = scratch + SLI_FRONT_OWN;
+    sl_int c0, c;
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
+        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
+                              0, B);
+            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
+        }
+    }
+    if (u > 0) {
+        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
+            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
+                              SLI_TILE * (tiles - whole), whole, B);
+        }
+    }
+}
+
+/* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
+ * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
+ * all columns. What stands above the diagonal moves along and is never read. */
+SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
+                                            const sl_int *place, double *panel, sl_int w,
+                                            double *update) {
+    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
+    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+    sl_int row, end, split = 0, i;
+    while (split < u && place[split] < w) {
+        split++;
+    }
+    for (row = 0; row < u; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
+        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+                               SLI_TILE * (ptrdiff_t)skipped + lane;
+        sl_int lanes[SLI_TILE];
+        unsigned mask = 0;
+        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
+             end++) {
+            lanes[end - row] = place[end] % SLI_TILE;
+            mask |= 1u << lanes[end - row];
+        }
+        {
+            const sl_int in_panel = sli_min(end, split);
+            double *to = panel + sli_tile_offset(w, tile);
+            SLV_SPREAD(mask, lanes, end - row)
+            for (i = 0; i < in_panel; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
+            }
+            if (end > split) {
+                to = update + sli_tile_offset(update_width, tile - whole) -
+                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
+                for (i = split; i < end; i++) {
+                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                                   source + SLI_TILE * (ptrdiff_t)i)
+                }
+            }
+        }
+    }
+}
+/* end src/impl/front.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -3592,7 +4716,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
-    SLV_NAME(row)};
+    SLV_NAME(row),
+    SLV_NAME(front),
+    SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -3615,6 +4741,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_TWICE_HIGH
 #undef SLV_TWICE_AT
 #undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_SPREAD
+#undef SLV_SPREAD_ADD
 /* end src/impl/words_end.inl.h */
 #undef SLV_HALVES
 
@@ -3662,6 +4799,36 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
     a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_dup_f64(p);
+#define SLV_MULTIPLY(a, b, c)                                                                      \
+    a##_0 = vmulq_f64(b##_0, c##_0), a##_1 = vmulq_f64(b##_1, c##_1),                              \
+    a##_2 = vmulq_f64(b##_2, c##_2), a##_3 = vmulq_f64(b##_3, c##_3);
+#define SLV_DIVIDE(a, b, c)                                                                        \
+    a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1),                              \
+    a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
+#define SLV_BELOW_2(a, k)                                                                          \
+    a = vreinterpretq_f64_u64(vandq_u64(                                                           \
+        vreinterpretq_u64_f64(a),                                                                  \
+        vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+#define SLV_BELOW(a, k)                                                                            \
+    SLV_BELOW_2(a##_0, k) SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4)                      \
+    SLV_BELOW_2(a##_3, (k)-6)
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
+    (void)(mask);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    {                                                                                              \
+        double *to_ = (to);                                                                        \
+        const double *from_ = (from);                                                              \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < count_; i_++) {                                                          \
+            to_[lanes_[i_]] += from_[i_];                                                          \
+        }                                                                                          \
+    }
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1),                                \
     e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
@@ -4271,6 +5438,315 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end src/impl/pairs.inl.h */
 
+/* begin src/impl/product.inl.h */
+/* product.inl.h: C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_* */
+
+/* A block of registers holds SLV_COLUMNS columns of one row tile, or of two where an ISA has
+ * registers enough: SLV_EACH_COLUMN(op, t) is op(0, t) op(1, t) .. over them. Columns past those of C
+ * are computed and dropped: B has all 8 of a tile. */
+#define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
+#define SLI_LOAD(k, t)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k))                                                   \
+    } else {                                                                                       \
+        SLV_ZERO(c##t##k)                                                                          \
+    }
+#define SLI_STORE(k, t)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE(C##t + SLI_TILE * (k), c##t##k)                                                  \
+    }
+#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */                               \
+    SLV_BROADCAST(b, B + (k))                                                                      \
+    SLV_FNMA(c0##k, a0, b)
+#define SLI_UPDATE2(k, unused)                                                                     \
+    SLI_UPDATE(k, unused)                                                                          \
+    SLV_FNMA(c1##k, a1, b)
+
+/* One row tile. A: [length][8], B: [length][8] from the block's first column on, C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
+                                              double *C0, sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    for (j = 0; j < length; j++, A += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_EACH_COLUMN(SLI_UPDATE, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+}
+
+#if SLV_TILES == 2
+/* Two row tiles. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
+                                              sl_int length, double *C0, double *C1,
+                                              sl_int columns) {
+    sl_int j;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(b)
+    SLV_EACH_COLUMN(SLI_DECLARE, 0)
+    SLV_EACH_COLUMN(SLI_DECLARE, 1)
+    SLV_EACH_COLUMN(SLI_LOAD, 0)
+    SLV_EACH_COLUMN(SLI_LOAD, 1)
+    for (j = 0; j < length; j++, A += SLI_TILE, A1 += SLI_TILE, B += SLI_TILE) {
+        SLV_LOAD_PINNED(a0, A)
+        SLV_LOAD_PINNED(a1, A1)
+        SLV_EACH_COLUMN(SLI_UPDATE2, 0)
+    }
+    SLV_EACH_COLUMN(SLI_STORE, 0)
+    SLV_EACH_COLUMN(SLI_STORE, 1)
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_UPDATE
+#undef SLI_UPDATE2
+
+/* B(k, j) d(j) of column tile c's 8 rows, the columns j .. j + length - 1 of the panel. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
+                                            double *B) {
+    sl_int j;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    for (j = 0; j < length; j++) {
+        SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
+        SLV_BROADCAST(b, d + j)
+        SLV_MULTIPLY(a, a, b)
+        SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
+ * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+ * what a row tile needs stays in the first cache and what the group of column tiles needs in the
+ * second. */
+SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
+                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           double *target, sl_int target_width,
+                                           sl_int target_first, double *B) {
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int j, t, c, k;
+    for (j = j0; j < j1; j += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, j1 - j);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+        }
+        for (t = c0; t < tiles; t++) {
+            const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
+            double *C = target + sli_tile_offset(target_width, t - target_first);
+#if SLV_TILES == 2
+            const int is_pair = t + 1 < tiles;
+            const double *A1 =
+                is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
+            double *C1 =
+                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+#endif
+            for (c = c0; c < c1 && c <= t; c++) {
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+                const sl_int columns = target_width - SLI_TILE * (c - target_first);
+#if SLV_TILES == 2
+                if (is_pair) {
+                    SLV_NAME(block2)(A, A1, b, length, C + at, C1 + at, columns);
+                    continue;
+                }
+#endif
+                for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
+                    SLV_NAME(block1)(A, b + k, length, C + at + SLI_TILE * k, columns - k);
+                }
+            }
+#if SLV_TILES == 2
+            t += is_pair;
+            if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
+                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                                 target_width - SLI_TILE * (c - target_first));
+            }
+#endif
+        }
+    }
+}
+/* end src/impl/product.inl.h */
+
+/* begin src/impl/front.inl.h */
+/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+
+/* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
+#define SLI_SCALE(l, x, k)                                                                         \
+    if (by_reciprocal) {                                                                           \
+        SLV_BROADCAST(b, reciprocal + (k))                                                         \
+        SLV_MULTIPLY(l, x, b)                                                                      \
+    } else {                                                                                       \
+        SLV_BROADCAST(b, D + (k))                                                                  \
+        SLV_DIVIDE(l, x, b)                                                                        \
+    }
+
+/* magnitude(rows) += |l d l|, with x = l d */
+#define SLI_GAIN(l, x, k)                                                                          \
+    SLV_BROADCAST(b, against + (k))                                                                \
+    SLV_MULTIPLY(b, l, b)                                                                          \
+    SLV_FNMA(m, b, x)
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p)                                                                             \
+    if ((k) < columns) {                                                                           \
+        SLV_LOAD(a##k, (p) + SLI_TILE * (k))                                                       \
+    } else {                                                                                       \
+        SLV_ZERO(a##k)                                                                             \
+    }
+
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+#define SLI_AFTER(i, k)                                                                            \
+    if ((i) > (k)) {                                                                               \
+        SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
+        SLV_FNMA(a##i, l, b)                                                                       \
+    }
+#define SLI_PIVOT(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        double d;                                                                                  \
+        SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
+        SLV_STORE(sums, m)                                                                         \
+        d = x[SLI_TILE * (k) + (k)];                                                               \
+        D[k] = d;                                                                                  \
+        magnitude[k] = sums[k];                                                                    \
+        against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
+        reciprocal[k] = 1.0 / d;                                                                   \
+        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
+        safe &= by_reciprocal;                                                                     \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_BELOW(l, k)                                                                            \
+        SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
+        SLI_EACH8_AGAIN(SLI_AFTER, k)                                                              \
+    }
+
+/* The tiles below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l. */
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, p + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, q)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+        SLI_SCALE(l, a##k, k)                                                                      \
+        SLI_GAIN(l, a##k, k)                                                                       \
+        SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
+    }
+
+/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
+                                             double *D, double *magnitude, double *scratch) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
+    int by_reciprocal = 1, safe = 1;
+    sl_int t;
+    SLV_DECLARE(b)
+    SLV_DECLARE(l)
+    SLV_DECLARE(m)
+    SLI_EACH8(SLI_DECLARE, 0)
+    D += first;
+    magnitude += first;
+    SLV_LOAD(m, magnitude)
+    SLI_EACH8(SLI_LOAD, p)
+    SLI_EACH8(SLI_PIVOT, p)
+    SLV_STORE(sums, m)
+    for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
+        magnitude[t] = sums[t];
+    }
+    by_reciprocal = safe;
+    for (t = c + 1; t < tiles; t++) {
+        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        magnitude += SLI_TILE;
+        SLV_LOAD(m, magnitude)
+        SLI_EACH8(SLI_LOAD, q)
+        SLI_EACH8(SLI_SOLVE, q)
+        SLV_STORE(magnitude, m)
+    }
+}
+
+#undef SLI_SCALE
+#undef SLI_GAIN
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_AFTER
+#undef SLI_PIVOT
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
+                                         double *D, double *magnitude, double *scratch) {
+    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
+    double *B = scratch + SLI_FRONT_OWN;
+    sl_int c0, c;
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
+        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
+        for (c = c0; c < c1; c++) {
+            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
+                              0, B);
+            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
+        }
+    }
+    if (u > 0) {
+        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
+            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
+                              SLI_TILE * (tiles - whole), whole, B);
+        }
+    }
+}
+
+/* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
+ * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
+ * all columns. What stands above the diagonal moves along and is never read. */
+SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
+                                            const sl_int *place, double *panel, sl_int w,
+                                            double *update) {
+    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
+    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+    sl_int row, end, split = 0, i;
+    while (split < u && place[split] < w) {
+        split++;
+    }
+    for (row = 0; row < u; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
+        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+                               SLI_TILE * (ptrdiff_t)skipped + lane;
+        sl_int lanes[SLI_TILE];
+        unsigned mask = 0;
+        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
+             end++) {
+            lanes[end - row] = place[end] % SLI_TILE;
+            mask |= 1u << lanes[end - row];
+        }
+        {
+            const sl_int in_panel = sli_min(end, split);
+            double *to = panel + sli_tile_offset(w, tile);
+            SLV_SPREAD(mask, lanes, end - row)
+            for (i = 0; i < in_panel; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
+            }
+            if (end > split) {
+                to = update + sli_tile_offset(update_width, tile - whole) -
+                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
+                for (i = split; i < end; i++) {
+                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+                                   source + SLI_TILE * (ptrdiff_t)i)
+                }
+            }
+        }
+    }
+}
+/* end src/impl/front.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -4447,7 +5923,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
-    SLV_NAME(row)};
+    SLV_NAME(row),
+    SLV_NAME(front),
+    SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -4470,6 +5948,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_TWICE_HIGH
 #undef SLV_TWICE_AT
 #undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_SPREAD
+#undef SLV_SPREAD_ADD
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -5376,6 +6865,10 @@ struct sl_symbolic {
     sl_int *rows;           /* rows_begin[n_supers]: rows below each supernode, ascending */
     sl_off *panel_begin;    /* n_supers + 1, in doubles */
     sli_step *steps;        /* n_supers: the reach of everything */
+    sl_int *descendant;     /* n_supers: the first supernode of each one's subtree */
+    sl_int *places;         /* rows_begin[n_supers]: the local row of every row in the parent's front */
+    sl_off *waiting_begin;  /* n_supers: where update matrices wait, in doubles */
+    sl_off waiting;         /* doubles that wait at once */
     sl_off *map_begin;      /* n_supers + 1 */
     sl_int *map_from;       /* map_begin[n_supers]: positions in A, grouped by supernode */
     sl_off *map_to;         /* the same: positions in L; several may share one (duplicates) */
@@ -6143,6 +7636,79 @@ static void sli_fill_steps(sl_symbolic *S) {
 
 #endif
 /* end src/impl/structure.h */
+/* begin src/impl/fronts.h */
+/* fronts.h: the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait */
+#ifndef SLI_FRONTS_H
+#define SLI_FRONTS_H
+
+/* Doubles that a supernode leaves to its parent: the update matrix and the magnitudes of its rows. */
+SLI_INLINE sl_off sli_waiting_size(const sli_step *s) {
+    const sl_int rows = s->width % SLI_TILE + s->below;
+    return s->below == 0 ? 0
+                         : sli_update_size(s->width, s->below) + SLI_TILE * (sl_off)sli_tiles(rows);
+}
+
+/* The children of s: s - 1, then the one before the first descendant of that, and so on down to s's
+ * own first descendant, as supernodes are in postorder. */
+static void sli_fill_descendants(sl_symbolic *S) {
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        S->descendant[s] = s;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int up = S->super_parent[s];
+        if (up != -1) {
+            S->descendant[up] = sli_min(S->descendant[up], S->descendant[s]);
+        }
+    }
+}
+
+/* Local rows in the parent's front. local: n of scratch. */
+static void sli_fill_places(sl_symbolic *S, sl_int *local) {
+    sl_int s, c;
+    sl_off at;
+    for (s = 0; s < S->n_supers; s++) {
+        for (c = S->super_first[s]; c < S->super_first[s + 1]; c++) {
+            local[c] = c - S->super_first[s];
+        }
+        for (at = S->rows_begin[s]; at < S->rows_begin[s + 1]; at++) {
+            local[S->rows[at]] = S->steps[s].width + (sl_int)(at - S->rows_begin[s]);
+        }
+        for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
+            for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
+                S->places[at] = local[S->rows[at]];
+            }
+        }
+    }
+}
+
+/* Where the update matrix of every supernode waits for the parent. Supernodes of even and of odd
+ * depth have a stack each, which grow towards each other: when a supernode is done, its children are
+ * the top of the other one, so that nothing ever moves. depth: n_supers of scratch. */
+static void sli_fill_waiting(sl_symbolic *S, sl_int *depth) {
+    sl_off top[2] = {0, 0};
+    sl_int s, c;
+    S->waiting = 0;
+    for (s = S->n_supers - 1; s >= 0; s--) {
+        depth[s] = S->super_parent[s] == -1 ? 0 : 1 - depth[S->super_parent[s]];
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const int side = depth[s];
+        const sl_off size = sli_waiting_size(&S->steps[s]);
+        S->waiting_begin[s] = side == 0 ? top[0] : -(top[1] + size);
+        top[side] += size;
+        S->waiting = top[0] + top[1] > S->waiting ? top[0] + top[1] : S->waiting;
+        for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
+            top[1 - side] -= sli_waiting_size(&S->steps[c]);
+        }
+    }
+    for (s = 0; s < S->n_supers; s++) { /* from the end of the other stack */
+        S->waiting_begin[s] += depth[s] == 0 ? 0 : S->waiting;
+    }
+}
+
+#endif
+/* end src/impl/fronts.h */
 /* begin src/impl/symbolic.h */
 /* symbolic.h: the analysis, from the pattern of A to the places of L */
 #ifndef SLI_SYMBOLIC_H
@@ -6200,6 +7766,9 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->rows = SLI_TAKE(b, sl_int, rows);
     S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->steps = SLI_TAKE(b, sli_step, supers);
+    S->descendant = SLI_TAKE(b, sl_int, supers);
+    S->places = SLI_TAKE(b, sl_int, rows);
+    S->waiting_begin = SLI_TAKE(b, sl_off, supers);
     S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->map_from = SLI_TAKE(b, sl_int, entries);
     S->map_to = SLI_TAKE(b, sl_off, entries);
@@ -6272,6 +7841,9 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
                        (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
+    sli_fill_descendants(S);
+    sli_fill_places(S, w->scratch);
+    sli_fill_waiting(S, w->scratch);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
@@ -6560,10 +8132,10 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
 #endif
 /* end src/impl/reach.h */
 /* L4 numbers */
-/* begin src/impl/uplooking.h */
-/* uplooking.h: the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A */
-#ifndef SLI_UPLOOKING_H
-#define SLI_UPLOOKING_H
+/* begin src/impl/factor_parts.h */
+/* factor_parts.h: the factor object, and what both ways to factor share: loading a panel, taking a pivot */
+#ifndef SLI_FACTOR_PARTS_H
+#define SLI_FACTOR_PARTS_H
 
 struct sl_factor {
     sl_allocator allocator;
@@ -6574,8 +8146,13 @@ struct sl_factor {
     int is_good;      /* L and D hold a factor */
     double *L;        /* the panels */
     double *D;        /* n pivots */
-    double *x;        /* n: updates on their way up row k; all 0 between rows */
     double *buffer;   /* kernel scratch */
+    sl_method method;
+    /* multifrontal */
+    double *waiting;   /* S->waiting: update matrices on their way to the parents */
+    double *magnitude; /* rows of the tallest front: what its diagonal was made of */
+    /* up-looking */
+    double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
     sl_int *next;     /* n_supers: the others, as a list */
     sl_int *position; /* n_supers: how many rows below have been done */
@@ -6613,6 +8190,32 @@ static sl_status sli_panel_load(sl_factor *F, const sl_csc *A, sl_int s) {
     }
     return SL_OK;
 }
+
+/* Refuses a pivot that is not a number or null against what it was made of; otherwise counts it. */
+static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double magnitude) {
+    const double size = fabs(pivot);
+    sl_stats *stats = &F->stats;
+    if (!sli_is_finite(pivot)) {
+        return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
+    }
+    if (size == 0.0 || size <= F->null_tolerance * magnitude) {
+        stats->null++;
+        return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
+    }
+    stats->positive += pivot > 0.0;
+    stats->negative += pivot < 0.0;
+    stats->pivot_min = k == 0 || size < stats->pivot_min ? size : stats->pivot_min;
+    stats->pivot_max = k == 0 || size > stats->pivot_max ? size : stats->pivot_max;
+    F->D[k] = pivot;
+    return SL_OK;
+}
+
+#endif
+/* end src/impl/factor_parts.h */
+/* begin src/impl/uplooking.h */
+/* uplooking.h: the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A */
+#ifndef SLI_UPLOOKING_H
+#define SLI_UPLOOKING_H
 
 /* Hangs supernode s onto the list of its next row, if it has one. */
 static void sli_wait_for_row(sl_factor *F, sl_int s) {
@@ -6653,32 +8256,14 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
     }
 }
 
-/* Refuses a pivot that is not a number or null against what it was made of; otherwise counts it. */
-static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double magnitude) {
-    const double size = fabs(pivot);
-    sl_stats *stats = &F->stats;
-    if (!sli_is_finite(pivot)) {
-        return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
-    }
-    if (size == 0.0 || size <= F->null_tolerance * magnitude) {
-        stats->null++;
-        return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
-    }
-    stats->positive += pivot > 0.0;
-    stats->negative += pivot < 0.0;
-    stats->pivot_min = k == 0 || size < stats->pivot_min ? size : stats->pivot_min;
-    stats->pivot_max = k == 0 || size > stats->pivot_max ? size : stats->pivot_max;
-    F->D[k] = pivot;
-    return SL_OK;
-}
-
 /* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
 static sl_status sli_uplooking(sl_factor *F, const sl_csc *A) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k;
-    F->stats.positive = F->stats.negative = F->stats.null = 0;
-    F->stats.pivot_min = F->stats.pivot_max = 0.0;
+    if (S->n > 0) {
+        memset(F->x, 0, (size_t)S->n * sizeof(double));
+    }
     for (k = 0; k < S->n; k++) {
         F->head[k] = -1;
     }
@@ -6702,14 +8287,72 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A) {
             sli_wait_for_row(F, s);
         }
     }
-    if (status != SL_OK) {
-        memset(F->x, 0, (size_t)S->n * sizeof(double));
-    }
     return status;
 }
 
 #endif
 /* end src/impl/uplooking.h */
+/* begin src/impl/multifrontal.h */
+/* multifrontal.h: the supernodal factorization: front by front, every child handing its update matrix to its parent */
+#ifndef SLI_MULTIFRONTAL_H
+#define SLI_MULTIFRONTAL_H
+
+/* The front of supernode s: A, then what the children hand over, the last child first. */
+static sl_status sli_front_load(sl_factor *F, const sl_csc *A, sl_int s, double *update) {
+    const sl_symbolic *S = F->S;
+    const sli_step *step = &S->steps[s];
+    const sl_int w = step->width, tiles = sli_tiles(w + step->below);
+    double *panel = F->L + step->panel;
+    const sl_status status = sli_panel_load(F, A, s);
+    sl_int k, c;
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k < w; k++) {
+        F->magnitude[k] = fabs(panel[sli_panel_at(w, k, k)]);
+    }
+    memset(F->magnitude + w, 0, (size_t)(SLI_TILE * tiles - w) * sizeof(double));
+    memset(update, 0, (size_t)sli_update_size(w, step->below) * sizeof(double));
+    for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
+        const sli_step *child = &S->steps[c];
+        const sl_int *places = S->places + S->rows_begin[c];
+        const double *from = F->waiting + S->waiting_begin[c];
+        const double *magnitude =
+            from + sli_update_size(child->width, child->below) + child->width % SLI_TILE;
+        F->kernels->assemble(from, child->width, child->below, places, panel, w, update);
+        for (k = 0; k < child->below; k++) {
+            F->magnitude[places[k]] += magnitude[k];
+        }
+    }
+    return SL_OK;
+}
+
+/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
+static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A) {
+    const sl_symbolic *S = F->S;
+    sl_status status = SL_OK;
+    sl_int s, k;
+    for (s = 0; s < S->n_supers && status == SL_OK; s++) {
+        const sli_step *step = &S->steps[s];
+        const sl_int w = step->width, whole = w / SLI_TILE * SLI_TILE;
+        double *update = F->waiting + S->waiting_begin[s];
+        status = sli_front_load(F, A, s, update);
+        if (status == SL_OK) {
+            F->kernels->front(F->L + step->panel, w, step->below, update, F->D + step->column,
+                              F->magnitude, F->buffer);
+            memcpy(update + sli_update_size(w, step->below), F->magnitude + whole,
+                   (size_t)(sli_waiting_size(step) - sli_update_size(w, step->below)) *
+                       sizeof(double));
+        }
+        for (k = 0; k < w && status == SL_OK; k++) {
+            status = sli_take_pivot(F, step->column + k, F->D[step->column + k], F->magnitude[k]);
+        }
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/multifrontal.h */
 /* begin src/impl/factor.h */
 /* factor.h: the factor object: creation, refactorization, and what can be asked of it */
 #ifndef SLI_FACTOR_H
@@ -6719,13 +8362,19 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const size_t n = (size_t)F->S->n, supers = (size_t)F->S->n_supers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
-    F->x = SLI_TAKE(b, double, n);
-    F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
-    F->head = SLI_TAKE(b, sl_int, n);
-    F->next = SLI_TAKE(b, sl_int, supers);
-    F->position = SLI_TAKE(b, sl_int, supers);
-    F->list = SLI_TAKE(b, uint64_t, supers);
-    F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    if (F->method == SL_METHOD_SUPERNODAL) {
+        F->buffer = SLI_TAKE(b, double, SLI_FRONT_SCRATCH);
+        F->magnitude = SLI_TAKE(b, double, SLI_TILE * (size_t)sli_tiles(F->S->tallest));
+        F->waiting = SLI_TAKE(b, double, F->S->waiting);
+    } else {
+        F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
+        F->x = SLI_TAKE(b, double, n);
+        F->head = SLI_TAKE(b, sl_int, n);
+        F->next = SLI_TAKE(b, sl_int, supers);
+        F->position = SLI_TAKE(b, sl_int, supers);
+        F->list = SLI_TAKE(b, uint64_t, supers);
+        F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    }
     F->L = SLI_TAKE(b, double, F->S->panel_begin[F->S->n_supers]);
 }
 
@@ -6745,6 +8394,7 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->isa = from->isa;
+    to->method = from->method;
     to->positive = from->positive;
     to->negative = from->negative;
     to->null = from->null;
@@ -6767,7 +8417,9 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
         return status;
     }
     sli_stats_clear_error(&F->stats);
-    status = sli_uplooking(F, A);
+    F->stats.positive = F->stats.negative = F->stats.null = 0;
+    F->stats.pivot_min = F->stats.pivot_max = 0.0;
+    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A) : sli_uplooking(F, A);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = status == SL_OK;
     if (stats != NULL) {
@@ -6784,6 +8436,11 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
  * one fell below 1e9. */
 static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
+}
+
+static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
+    (void)S;
+    return opt == NULL || opt->method == SL_METHOD_AUTO ? SL_METHOD_SUPERNODAL : opt->method;
 }
 
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
@@ -6810,6 +8467,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.S = S;
     draft.null_tolerance =
         opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
+    draft.method = sli_method(S, opt);
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
@@ -6822,10 +8480,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
         draft.stats.isa = draft.kernels->isa;
+        draft.stats.method = draft.method;
         *F = draft;
-        if (S->n > 0) {
-            memset(F->x, 0, (size_t)S->n * sizeof(double));
-        }
         status = sl_factor_refactor(F, A, stats);
         if (status == SL_OK) {
             *out = F;
@@ -7560,6 +9216,10 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_GROUP
+#undef SLI_CHUNK
+#undef SLI_FRONT_OWN
+#undef SLI_FRONT_SCRATCH
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
 /* end src/impl/leave.h */

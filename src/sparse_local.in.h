@@ -48,10 +48,13 @@ extern "C" {
 #include "impl/counts.h"
 #include "impl/supernodes.h"
 #include "impl/structure.h"
+#include "impl/fronts.h"
 #include "impl/symbolic.h"
 #include "impl/reach.h"
 /* L4 numbers */
+#include "impl/factor_parts.h"
 #include "impl/uplooking.h"
+#include "impl/multifrontal.h"
 #include "impl/factor.h"
 #include "impl/work.h"
 #include "impl/sweep.h"

@@ -173,4 +173,6 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
-    SLV_NAME(row)};
+    SLV_NAME(row),
+    SLV_NAME(front),
+    SLV_NAME(assemble)};

@@ -6,19 +6,26 @@
 #include "csc.h"
 #include "graph.h"
 #include "select.h"
+#include "multifrontal.h"
 #include "uplooking.h"
 
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const size_t n = (size_t)F->S->n, supers = (size_t)F->S->n_supers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
-    F->x = SLI_TAKE(b, double, n);
-    F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
-    F->head = SLI_TAKE(b, sl_int, n);
-    F->next = SLI_TAKE(b, sl_int, supers);
-    F->position = SLI_TAKE(b, sl_int, supers);
-    F->list = SLI_TAKE(b, uint64_t, supers);
-    F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    if (F->method == SL_METHOD_SUPERNODAL) {
+        F->buffer = SLI_TAKE(b, double, SLI_FRONT_SCRATCH);
+        F->magnitude = SLI_TAKE(b, double, SLI_TILE * (size_t)sli_tiles(F->S->tallest));
+        F->waiting = SLI_TAKE(b, double, F->S->waiting);
+    } else {
+        F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
+        F->x = SLI_TAKE(b, double, n);
+        F->head = SLI_TAKE(b, sl_int, n);
+        F->next = SLI_TAKE(b, sl_int, supers);
+        F->position = SLI_TAKE(b, sl_int, supers);
+        F->list = SLI_TAKE(b, uint64_t, supers);
+        F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    }
     F->L = SLI_TAKE(b, double, F->S->panel_begin[F->S->n_supers]);
 }
 
@@ -38,6 +45,7 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->isa = from->isa;
+    to->method = from->method;
     to->positive = from->positive;
     to->negative = from->negative;
     to->null = from->null;
@@ -60,7 +68,9 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
         return status;
     }
     sli_stats_clear_error(&F->stats);
-    status = sli_uplooking(F, A);
+    F->stats.positive = F->stats.negative = F->stats.null = 0;
+    F->stats.pivot_min = F->stats.pivot_max = 0.0;
+    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A) : sli_uplooking(F, A);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = status == SL_OK;
     if (stats != NULL) {
@@ -77,6 +87,11 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
  * one fell below 1e9. */
 static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
+}
+
+static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
+    (void)S;
+    return opt == NULL || opt->method == SL_METHOD_AUTO ? SL_METHOD_SUPERNODAL : opt->method;
 }
 
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
@@ -103,6 +118,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.S = S;
     draft.null_tolerance =
         opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
+    draft.method = sli_method(S, opt);
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
@@ -115,10 +131,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
         draft.stats.isa = draft.kernels->isa;
+        draft.stats.method = draft.method;
         *F = draft;
-        if (S->n > 0) {
-            memset(F->x, 0, (size_t)S->n * sizeof(double));
-        }
         status = sl_factor_refactor(F, A, stats);
         if (status == SL_OK) {
             *out = F;

@@ -16,6 +16,37 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
     return _mm_cvtsd_f64(_mm_add_sd(low, _mm_unpackhi_pd(low, low)));
 }
 
+/* All bits in the lanes from k on, k = -3 .. 8. */
+SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
+    return _mm256_castsi256_pd(
+        _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
+}
+
+SLI_INLINE int sli_count4(unsigned mask) {
+    return (int)((mask & 1u) + (mask >> 1 & 1u) + (mask >> 2 & 1u) + (mask >> 3));
+}
+
+/* The first lanes of a quad to the lanes of a mask: pairs of 32-bit lanes, -1 where nothing goes. */
+SLV_FUNCTION SLI_INLINE __m256i sli_spread(unsigned mask) {
+    int index[8], k, from = 0;
+    for (k = 0; k < 4; k++) {
+        const int is_set = (mask >> k & 1u) != 0;
+        index[2 * k] = is_set ? 2 * from : -1;
+        index[2 * k + 1] = is_set ? 2 * from + 1 : -1;
+        from += is_set;
+    }
+    return _mm256_loadu_si256((const __m256i *)(const void *)index);
+}
+
+SLV_FUNCTION SLI_INLINE __m256d sli_spread_keep(__m256i spread) {
+    return _mm256_castsi256_pd(_mm256_cmpgt_epi32(spread, _mm256_set1_epi32(-1)));
+}
+
+SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d keep) {
+    return _mm256_and_pd(
+        _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), spread)), keep);
+}
+
 #define SLV_DECLARE(a) __m256d a##_0, a##_1;
 #define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
@@ -36,6 +67,30 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p)                                                                      \
+    a##_0 = _mm256_load_pd(p);                                                                     \
+    a##_1 = _mm256_load_pd((p) + 4);                                                               \
+    __asm__("" : "+x"(a##_0), "+x"(a##_1)); /* used 4 times: not to be loaded 4 times */
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
+#define SLV_MULTIPLY(a, b, c) a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c) a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
+#define SLV_BELOW(a, k)                                                                            \
+    a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)),                                         \
+    a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const __m256i low_ = sli_spread((mask)&15u), high_ = sli_spread((mask) >> 4);                  \
+    const __m256d keep_low_ = sli_spread_keep(low_), keep_high_ = sli_spread_keep(high_);          \
+    const ptrdiff_t second_ = sli_count4((mask)&15u);                                              \
+    (void)(lanes);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to),                                        \
+                                        sli_spread_4(_mm256_loadu_pd(from), low_, keep_low_)));    \
+    _mm256_store_pd(                                                                               \
+        (to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4),                                          \
+                                sli_spread_4(_mm256_loadu_pd((from) + second_), high_, keep_high_)));
 #define SLV_TWICE_AT(e, l)                                                                         \
     {                                                                                              \
         const __m256d l_ = _mm256_load_pd(l);                                                      \
@@ -71,6 +126,10 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 #include "tile.inl.h"
 
 #include "pairs.inl.h"
+
+#include "product.inl.h"
+
+#include "front.inl.h"
 
 #include "body.inl.h"
 

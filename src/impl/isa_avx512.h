@@ -26,6 +26,22 @@
     sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_TILES 2
+#define SLV_COLUMNS 8
+#define SLV_EACH_COLUMN SLI_EACH8
+#define SLV_LOAD_PINNED(a, p)                                                                      \
+    a = _mm512_load_pd(p);                                                                         \
+    __asm__("" : "+v"(a)); /* used 8 times: not to be loaded 8 times */
+#define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
+#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
+#define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const __mmask8 spread_ = (__mmask8)(mask);                                                     \
+    (void)(lanes);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    _mm512_store_pd((to), _mm512_add_pd(_mm512_load_pd(to),                                        \
+                                        _mm512_maskz_expand_pd(spread_, _mm512_loadu_pd(from))));
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),                \
                                     _mm512_load_pd(l));
@@ -53,6 +69,10 @@
 #include "tile.inl.h"
 
 #include "pairs.inl.h"
+
+#include "product.inl.h"
+
+#include "front.inl.h"
 
 #include "body.inl.h"
 

@@ -39,6 +39,36 @@
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
     a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_dup_f64(p);
+#define SLV_MULTIPLY(a, b, c)                                                                      \
+    a##_0 = vmulq_f64(b##_0, c##_0), a##_1 = vmulq_f64(b##_1, c##_1),                              \
+    a##_2 = vmulq_f64(b##_2, c##_2), a##_3 = vmulq_f64(b##_3, c##_3);
+#define SLV_DIVIDE(a, b, c)                                                                        \
+    a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1),                              \
+    a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
+#define SLV_BELOW_2(a, k)                                                                          \
+    a = vreinterpretq_f64_u64(vandq_u64(                                                           \
+        vreinterpretq_u64_f64(a),                                                                  \
+        vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+#define SLV_BELOW(a, k)                                                                            \
+    SLV_BELOW_2(a##_0, k) SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4)                      \
+    SLV_BELOW_2(a##_3, (k)-6)
+#define SLV_SPREAD(mask, lanes, count)                                                             \
+    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
+    (void)(mask);
+#define SLV_SPREAD_ADD(to, from)                                                                   \
+    {                                                                                              \
+        double *to_ = (to);                                                                        \
+        const double *from_ = (from);                                                              \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < count_; i_++) {                                                          \
+            to_[lanes_[i_]] += from_[i_];                                                          \
+        }                                                                                          \
+    }
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1),                                \
     e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
@@ -102,6 +132,10 @@
 #include "tile.inl.h"
 
 #include "pairs.inl.h"
+
+#include "product.inl.h"
+
+#include "front.inl.h"
 
 #include "body.inl.h"
 

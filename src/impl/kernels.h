@@ -93,11 +93,46 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
 
+/* Fronts. The front of a supernode of w columns and u rows below is its panel and its update
+ * matrix: the lower triangle, by tiles as in a panel, over the same row tiles from tile w/8 on, so
+ * that the rows below keep their lanes. What its first w % 8 rows and columns and the part above the
+ * diagonal hold means nothing. */
+
+/* Doubles of the update matrix of w columns and u rows below. */
+SLI_INLINE sl_off sli_update_size(sl_int w, sl_int u) {
+    const sl_off tiles = u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
+    return 32 * tiles * (tiles + 1);
+}
+
+/* Column tiles that are updated together, and columns they are updated by at a time: what a row tile
+ * needs of a chunk is 16 KB, what the group needs is 128 KB. */
+#define SLI_GROUP 8
+#define SLI_CHUNK 256
+
+/* Doubles for the elimination of one tile, and of scratch for a front in all. */
+#define SLI_FRONT_OWN 128
+#define SLI_FRONT_SCRATCH (SLI_FRONT_OWN + SLI_GROUP * SLI_TILE * SLI_CHUNK)
+
+/* Factors a front: on entry panel and update hold A and what the children hand over, magnitude (one
+ * for every row of the tiles) what that is made of in absolute value; on return the panel holds L, D
+ * the w pivots, update has lost L D L', and magnitude is that of the pivot in the w rows and has
+ * gained |L D L'| in the others. Null pivots are told by the caller. */
+typedef void (*sli_front_kernel)(double *panel, sl_int width, sl_int below, double *update,
+                                 double *D, double *magnitude, double *scratch);
+
+/* Adds the update matrix of a child of from_width columns and from_below rows below to its parent's
+ * front; place: the local row in the parent of each of those rows, ascending. */
+typedef void (*sli_assemble_kernel)(const double *from, sl_int from_width, sl_int from_below,
+                                    const sl_int *place, double *panel, sl_int width,
+                                    double *update);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
     sli_backward_kernel backward[SLI_LANES_COUNT];
     sli_row_kernel row;
+    sli_front_kernel front;
+    sli_assemble_kernel assemble;
 } sli_kernels;
 
 #endif

@@ -17,5 +17,9 @@
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_GROUP
+#undef SLI_CHUNK
+#undef SLI_FRONT_OWN
+#undef SLI_FRONT_SCRATCH
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY

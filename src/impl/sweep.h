@@ -3,7 +3,7 @@
 #define SLI_SWEEP_H
 
 #include "reach.h"
-#include "uplooking.h"
+#include "factor_parts.h"
 #include "work.h"
 
 /* A compiled question: the reach of b, the reach of x, and where the caller's rows stand in their

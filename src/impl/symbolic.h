@@ -3,6 +3,7 @@
 #define SLI_SYMBOLIC_H
 
 #include "counts.h"
+#include "fronts.h"
 #include "graph.h"
 #include "order.h"
 #include "structure.h"
@@ -60,6 +61,9 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->rows = SLI_TAKE(b, sl_int, rows);
     S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->steps = SLI_TAKE(b, sli_step, supers);
+    S->descendant = SLI_TAKE(b, sl_int, supers);
+    S->places = SLI_TAKE(b, sl_int, rows);
+    S->waiting_begin = SLI_TAKE(b, sl_off, supers);
     S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->map_from = SLI_TAKE(b, sl_int, entries);
     S->map_to = SLI_TAKE(b, sl_off, entries);
@@ -132,6 +136,9 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
                        (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
+    sli_fill_descendants(S);
+    sli_fill_places(S, w->scratch);
+    sli_fill_waiting(S, w->scratch);
     sli_analyse_stats(S, w->scratch, stats);
 }
 

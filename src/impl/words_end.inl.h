@@ -17,3 +17,14 @@
 #undef SLV_TWICE_HIGH
 #undef SLV_TWICE_AT
 #undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_SPREAD
+#undef SLV_SPREAD_ADD

@@ -72,6 +72,13 @@ typedef enum sl_isa {
     SL_ISA_NEON
 } sl_isa;
 
+/** How to factor; both write the same L to rounding. */
+typedef enum sl_method {
+    SL_METHOD_AUTO = 0,    /* by the flops per entry of L */
+    SL_METHOD_UP_LOOKING,  /* row by row: no memory beyond L, for tiny or nearly tree-like patterns */
+    SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: for everything larger */
+} sl_method;
+
 /** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
@@ -88,6 +95,7 @@ typedef struct sl_options {
         metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
     sl_relaxation relaxation;
     sl_isa isa;
+    sl_method method;
     double
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
@@ -120,6 +128,7 @@ typedef struct sl_stats {
 
     /* sl_factor_create, sl_factor_refactor */
     sl_isa isa;
+    sl_method method; /* the one that was used */
     sl_int positive; /* pivots by sign: the inertia of A */
     sl_int negative;
     sl_int null;      /* pivots refused (0 or 1) */
