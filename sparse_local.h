@@ -1,66 +1,66 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 9bfeeda570f0962a
+ * FNV-1a of all that follows this comment, license aside: c3bffde46871de30
  *
  * Contents
  *         (what a user reads)
  *     68  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    112  public/config.h            what a user may set before including the header, the version, and the integer types
  *    158  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    314  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    429  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    488  public/factor.h            the numbers: P A P' = L D L'
- *    555  public/solve.h             full solves, and the workspace that every solve writes to
- *    597  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    326  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    441  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    500  public/factor.h            the numbers: P A P' = L D L'
+ *    567  public/solve.h             full solves, and the workspace that every solve writes to
+ *    609  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    673  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    740  impl/status.h              status codes in words, and the error fields of stats
- *    796  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    893  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    954  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    685  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    752  impl/status.h              status codes in words, and the error fields of stats
+ *    808  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    905  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    966  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    992  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1129  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1225  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1255  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1823  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1868  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2004  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2177  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2358  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2393  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2496  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2905  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3606  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   4762  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   5968  impl/select.h              the kernel table for an instruction set
+ *   1004  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1141  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1237  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1267  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1835  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1880  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2016  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2189  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2370  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2405  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2508  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2917  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3618  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   4774  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   5980  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6001  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6418  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6491  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6013  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6430  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6503  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   6845  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   6886  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7018  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7104  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7245  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7330  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7403  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7563  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   7639  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *   7712  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   7992  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   6857  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   6898  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7030  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7116  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7257  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7342  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7415  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7575  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   7651  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *   7724  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8004  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8135  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8215  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8295  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *   8356  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   8592  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   8648  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   8857  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   8897  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8147  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8227  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8307  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *   8368  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   8604  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   8660  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   8869  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   8909  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   9199  impl/leave.h               takes every internal macro away again
+ *   9211  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -235,6 +235,17 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: for everything larger */
 } sl_method;
 
+/** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
+typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                                void *data);
+
+/** Threads, opt-in: all zero = none. What a call computes does not depend on how many there are. */
+typedef struct sl_threads {
+    sl_int count;        /* 0 or 1: the calling thread alone */
+    sl_parallel_for run; /* the caller's pool; NULL: OpenMP where compiled with it, else one after the other */
+    void *context;       /* handed to run */
+} sl_threads;
+
 /** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
@@ -252,6 +263,7 @@ typedef struct sl_options {
     sl_relaxation relaxation;
     sl_isa isa;
     sl_method method;
+    sl_threads threads;
     double
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */

@@ -79,6 +79,17 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: for everything larger */
 } sl_method;
 
+/** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
+typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                                void *data);
+
+/** Threads, opt-in: all zero = none. What a call computes does not depend on how many there are. */
+typedef struct sl_threads {
+    sl_int count;        /* 0 or 1: the calling thread alone */
+    sl_parallel_for run; /* the caller's pool; NULL: OpenMP where compiled with it, else one after the other */
+    void *context;       /* handed to run */
+} sl_threads;
+
 /** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
@@ -96,6 +107,7 @@ typedef struct sl_options {
     sl_relaxation relaxation;
     sl_isa isa;
     sl_method method;
+    sl_threads threads;
     double
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
