@@ -1,66 +1,68 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: c3bffde46871de30
+ * FNV-1a of all that follows this comment, license aside: 114f217454af9f9c
  *
  * Contents
  *         (what a user reads)
- *     68  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    112  public/config.h            what a user may set before including the header, the version, and the integer types
- *    158  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    326  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    441  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    500  public/factor.h            the numbers: P A P' = L D L'
- *    567  public/solve.h             full solves, and the workspace that every solve writes to
- *    609  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     70  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    114  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    160  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    328  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    443  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    502  public/factor.h            the numbers: P A P' = L D L'
+ *    569  public/solve.h             full solves, and the workspace that every solve writes to
+ *    611  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    685  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    752  impl/status.h              status codes in words, and the error fields of stats
- *    808  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    905  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    966  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    687  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    756  impl/status.h              status codes in words, and the error fields of stats
+ *    812  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    909  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    984  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1021  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1004  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1141  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1237  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1267  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1835  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1880  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2016  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2189  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2370  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2405  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2508  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2917  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3618  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   4774  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   5980  impl/select.h              the kernel table for an instruction set
+ *   1055  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1219  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1315  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1345  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1913  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1958  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2095  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   2304  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2487  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2522  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2625  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   3034  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3774  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   4969  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6214  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6013  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6430  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6503  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6247  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6664  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6737  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   6857  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   6898  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7030  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7116  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7257  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7342  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7415  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7575  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   7651  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *   7724  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8004  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7091  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7130  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7262  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7348  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7489  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7574  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7647  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7807  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   7883  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *   7924  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *   8117  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8395  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8147  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8227  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8307  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *   8368  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   8604  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   8660  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   8869  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   8909  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8538  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8654  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8735  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *   8969  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   9263  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9319  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9528  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9568  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   9211  impl/leave.h               takes every internal macro away again
+ *   9870  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -711,10 +713,12 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #if defined(__GNUC__)
 #define SLI_INLINE __attribute__((unused)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))
+#define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 #define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
 #else
 #define SLI_INLINE static inline
 #define SLI_TARGET(list)
+#define SLI_ALIGNED(variable) variable
 #define SLI_UNROLL
 #endif
 
@@ -921,6 +925,20 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
     return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
+/* How many of count ascending numbers are below a bound. */
+static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
+    sl_int low = 0, high = count;
+    while (low < high) {
+        const sl_int middle = low + (high - low) / 2;
+        if (a[middle] < bound) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 #define SLI_SORT_SMALL                                                                             \
     48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
 
@@ -1000,6 +1018,39 @@ static sl_isa sli_cpu_best(void) {
 
 #endif
 /* end src/impl/cpu.h */
+/* begin src/impl/parallel.h */
+/* parallel.h: the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other */
+#ifndef SLI_PARALLEL_H
+#define SLI_PARALLEL_H
+
+/* Workers that a wish for threads comes to. */
+SLI_INLINE sl_int sli_workers(const sl_threads *t) {
+#if !defined(_OPENMP)
+    if (t->run == NULL) {
+        return 1;
+    }
+#endif
+    return sli_max(t->count, 1);
+}
+
+/* body(data, k) for k = 0 .. count-1. */
+static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
+                         void *data) {
+    sl_int k;
+    if (count > 1 && t->run != NULL) {
+        t->run(t->context, count, body, data);
+        return;
+    }
+#if defined(_OPENMP)
+#pragma omp parallel for num_threads(count) schedule(static, 1) if (count > 1)
+#endif
+    for (k = 0; k < count; k++) {
+        body(data, k);
+    }
+}
+
+#endif
+/* end src/impl/parallel.h */
 /* L1 kernels: raw arrays only */
 /* begin src/impl/kernels.h */
 /* kernels.h: the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills */
@@ -1099,10 +1150,14 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
  * that the rows below keep their lanes. What its first w % 8 rows and columns and the part above the
  * diagonal hold means nothing. */
 
-/* Doubles of the update matrix of w columns and u rows below. */
-SLI_INLINE sl_off sli_update_size(sl_int w, sl_int u) {
-    const sl_off tiles = u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
-    return 32 * tiles * (tiles + 1);
+/* Where row tile t of a triangle starts, in doubles. */
+SLI_INLINE sl_off sli_triangle_offset(sl_int t) {
+    return 32 * (sl_off)t * (t + 1);
+}
+
+/* Row tiles of the update matrix of w columns and u rows below. */
+SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
+    return u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
 }
 
 /* Column tiles that are updated together, and columns they are updated by at a time: what a row tile
@@ -1110,29 +1165,52 @@ SLI_INLINE sl_off sli_update_size(sl_int w, sl_int u) {
 #define SLI_GROUP 8
 #define SLI_CHUNK 256
 
-/* Doubles for the elimination of one tile, and of scratch for a front in all. */
-#define SLI_FRONT_OWN 128
-#define SLI_FRONT_SCRATCH (SLI_FRONT_OWN + SLI_GROUP * SLI_TILE * SLI_CHUNK)
+/* Doubles of scratch for fronts of some width. */
+SLI_INLINE sl_int sli_front_scratch(sl_int width) {
+    return SLI_GROUP * SLI_TILE * sli_min(width, SLI_CHUNK);
+}
 
-/* Factors a front: on entry panel and update hold A and what the children hand over, magnitude (one
- * for every row of the tiles) what that is made of in absolute value; on return the panel holds L, D
- * the w pivots, update has lost L D L', and magnitude is that of the pivot in the w rows and has
- * gained |L D L'| in the others. Null pivots are told by the caller. */
-typedef void (*sli_front_kernel)(double *panel, sl_int width, sl_int below, double *update,
-                                 double *D, double *magnitude, double *scratch);
+/* Doubles of a front's inverse. */
+#define SLI_FRONT_INVERSE (2 * SLI_GROUP * SLI_TILE)
 
-/* Adds the update matrix of a child of from_width columns and from_below rows below to its parent's
- * front; place: the local row in the parent of each of those rows, ascending. */
-typedef void (*sli_assemble_kernel)(const double *from, sl_int from_width, sl_int from_below,
-                                    const sl_int *place, double *panel, sl_int width,
-                                    double *update);
+typedef struct sli_front {
+    double *panel;
+    sl_int width, below;
+    double *update;
+    double *D;         /* width pivots */
+    double *magnitude; /* 8 a tile: what each diagonal entry was made of, in absolute value */
+    double *inverse;   /* 16 a column tile: 1/d, or 0 first where they are out of range; -sign d */
+} sli_front;
+
+/* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On
+ * entry panel and update hold A and what the children hand over, magnitude their absolute values. At
+ * the end the panel holds L, D the pivots, update has lost L D L'; magnitude is that of the pivot in
+ * the rows of the panel and has gained |L D L'| in the others. Every row tile goes its own way, so
+ * that row tiles may be shared out. Null pivots are the caller's to find. */
+
+/* A group's row tiles of pivots. */
+typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch);
+
+/* A group's row tiles t0 .. t1-1, all below its pivots. */
+typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                double *scratch);
+
+/* Row tiles t0 .. t1-1 of the update matrix, all in or below the last tile of pivots. */
+typedef void (*sli_update_kernel)(const sli_front *f, sl_int t0, sl_int t1, double *scratch);
+
+/* Adds rows first .. last-1 of the update matrix of a child of some width to its parent's front; places: the local row in the parent of each of the child's rows below, ascending.
+ * No two calls for one front may run at once on rows of one tile. */
+typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int from_width,
+                                    const sl_int *places, sl_int first, sl_int last);
 
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
     sli_backward_kernel backward[SLI_LANES_COUNT];
     sli_row_kernel row;
-    sli_front_kernel front;
+    sli_pivots_kernel pivots;
+    sli_rows_kernel rows;
+    sli_update_kernel update;
     sli_assemble_kernel assemble;
 } sli_kernels;
 
@@ -1959,13 +2037,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
     }
 }
 
-/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
- * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
- * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+/* Tiles of the lower triangle, row tiles t0 .. t1-1 and column tiles c0 .. c1-1 (t0 >= c0), lose
+ * L D L' over the panel's columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first). Taken in chunks of columns j, so that
  * what a row tile needs stays in the first cache and what the group of column tiles needs in the
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
+                                           sl_int j1,
                                            double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
@@ -1976,11 +2055,11 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
                            B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
-        for (t = c0; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
             double *C = target + sli_tile_offset(target_width, t - target_first);
 #if SLV_TILES == 2
-            const int is_pair = t + 1 < tiles;
+            const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
             double *C1 =
@@ -2014,7 +2093,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* end src/impl/product.inl.h */
 
 /* begin src/impl/front.inl.h */
-/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+/* front.inl.h: a front of the multifrontal factorization: its panel factored, its update matrix made and handed on */
 
 /* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
 #define SLI_SCALE(l, x, k)                                                                         \
@@ -2079,20 +2158,20 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
     }
 
-/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
-SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
-                                             double *D, double *magnitude, double *scratch) {
-    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
-    int by_reciprocal = 1, safe = 1;
+/* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    double *D = f->D + first, *magnitude = f->magnitude + first;
+    double *reciprocal = inverse, *against = inverse + SLI_TILE;
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    double *sums = x + SLI_TILE * SLI_TILE;
+    int by_reciprocal, safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
     SLI_EACH8(SLI_DECLARE, 0)
-    D += first;
-    magnitude += first;
     SLV_LOAD(m, magnitude)
     SLI_EACH8(SLI_LOAD, p)
     SLI_EACH8(SLI_PIVOT, p)
@@ -2100,10 +2179,26 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
     for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
         magnitude[t] = sums[t];
     }
-    by_reciprocal = safe;
-    for (t = c + 1; t < tiles; t++) {
-        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-        magnitude += SLI_TILE;
+    if (!safe) {
+        reciprocal[0] = 0.0;
+    }
+}
+
+/* Column tile c of row tiles t0 .. t1-1, all below its pivots. */
+SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                                                const double *inverse) {
+    const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    const double *D = f->D + first, *reciprocal = inverse, *against = inverse + SLI_TILE;
+    const int by_reciprocal = reciprocal[0] != 0.0;
+    sl_int t;
+    for (t = t0; t < t1; t++) {
+        double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+        SLV_DECLARE(b)
+        SLV_DECLARE(l)
+        SLV_DECLARE(m)
+        SLI_EACH8(SLI_DECLARE, 0)
         SLV_LOAD(m, magnitude)
         SLI_EACH8(SLI_LOAD, q)
         SLI_EACH8(SLI_SOLVE, q)
@@ -2120,66 +2215,86 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
-                                         double *D, double *magnitude, double *scratch) {
-    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
-    double *B = scratch + SLI_FRONT_OWN;
-    sl_int c0, c;
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
-        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
-        for (c = c0; c < c1; c++) {
-            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
-                              0, B);
-            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
-        }
+/* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                                                sl_int t1, double *B) {
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
+     B);
+}
+
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+        SLV_NAME(catch_up)(f, c0, c, c, c1, B);
+        SLV_NAME(pivots_of_tile)(f, c, inverse);
+        SLV_NAME(rows_of_tile)(f, c, c + 1, c1, inverse);
     }
-    if (u > 0) {
-        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
-            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
-                              SLI_TILE * (tiles - whole), whole, B);
-        }
+}
+
+SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                        double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
+        SLV_NAME(rows_of_tile)
+        (f, c, t0, t1, f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int c;
+    for (c = whole; c < t1; c += SLI_GROUP) {
+        SLV_NAME(product)
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
+         SLI_TILE * (t1 - whole), whole, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
-                                            const sl_int *place, double *panel, sl_int w,
-                                            double *update) {
-    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
+                                            const sl_int *places, sl_int first,
+                                            sl_int last) {
+    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
     sl_int row, end, split = 0, i;
-    while (split < u && place[split] < w) {
+    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
         split++;
     }
-    for (row = 0; row < u; row = end) {
-        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
-        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+    for (row = first; row < last; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
+        const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
+        double *to = f->panel + sli_tile_offset(w, tile);
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
-             end++) {
-            lanes[end - row] = place[end] % SLI_TILE;
+        for (end = row;
+             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+            lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
-            const sl_int in_panel = sli_min(end, split);
-            double *to = panel + sli_tile_offset(w, tile);
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < in_panel; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+            for (i = 0; i < end && i < split; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
                                source + SLI_TILE * (ptrdiff_t)i)
             }
-            if (end > split) {
-                to = update + sli_tile_offset(update_width, tile - whole) -
+            if (i < end) {
+                to = f->update + sli_triangle_offset(tile - whole) -
                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-                for (i = split; i < end; i++) {
-                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
-                                   source + SLI_TILE * (ptrdiff_t)i)
-                }
+            }
+            for (; i < end; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -2363,7 +2478,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
     SLV_NAME(row),
-    SLV_NAME(front),
+    SLV_NAME(pivots),
+    SLV_NAME(rows),
+    SLV_NAME(update),
     SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
@@ -3170,13 +3287,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
     }
 }
 
-/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
- * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
- * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+/* Tiles of the lower triangle, row tiles t0 .. t1-1 and column tiles c0 .. c1-1 (t0 >= c0), lose
+ * L D L' over the panel's columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first). Taken in chunks of columns j, so that
  * what a row tile needs stays in the first cache and what the group of column tiles needs in the
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
+                                           sl_int j1,
                                            double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
@@ -3187,11 +3305,11 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
                            B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
-        for (t = c0; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
             double *C = target + sli_tile_offset(target_width, t - target_first);
 #if SLV_TILES == 2
-            const int is_pair = t + 1 < tiles;
+            const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
             double *C1 =
@@ -3225,7 +3343,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* end src/impl/product.inl.h */
 
 /* begin src/impl/front.inl.h */
-/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+/* front.inl.h: a front of the multifrontal factorization: its panel factored, its update matrix made and handed on */
 
 /* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
 #define SLI_SCALE(l, x, k)                                                                         \
@@ -3290,20 +3408,20 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
     }
 
-/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
-SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
-                                             double *D, double *magnitude, double *scratch) {
-    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
-    int by_reciprocal = 1, safe = 1;
+/* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    double *D = f->D + first, *magnitude = f->magnitude + first;
+    double *reciprocal = inverse, *against = inverse + SLI_TILE;
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    double *sums = x + SLI_TILE * SLI_TILE;
+    int by_reciprocal, safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
     SLI_EACH8(SLI_DECLARE, 0)
-    D += first;
-    magnitude += first;
     SLV_LOAD(m, magnitude)
     SLI_EACH8(SLI_LOAD, p)
     SLI_EACH8(SLI_PIVOT, p)
@@ -3311,10 +3429,26 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
     for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
         magnitude[t] = sums[t];
     }
-    by_reciprocal = safe;
-    for (t = c + 1; t < tiles; t++) {
-        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-        magnitude += SLI_TILE;
+    if (!safe) {
+        reciprocal[0] = 0.0;
+    }
+}
+
+/* Column tile c of row tiles t0 .. t1-1, all below its pivots. */
+SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                                                const double *inverse) {
+    const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    const double *D = f->D + first, *reciprocal = inverse, *against = inverse + SLI_TILE;
+    const int by_reciprocal = reciprocal[0] != 0.0;
+    sl_int t;
+    for (t = t0; t < t1; t++) {
+        double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+        SLV_DECLARE(b)
+        SLV_DECLARE(l)
+        SLV_DECLARE(m)
+        SLI_EACH8(SLI_DECLARE, 0)
         SLV_LOAD(m, magnitude)
         SLI_EACH8(SLI_LOAD, q)
         SLI_EACH8(SLI_SOLVE, q)
@@ -3331,66 +3465,86 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
-                                         double *D, double *magnitude, double *scratch) {
-    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
-    double *B = scratch + SLI_FRONT_OWN;
-    sl_int c0, c;
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
-        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
-        for (c = c0; c < c1; c++) {
-            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
-                              0, B);
-            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
-        }
+/* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                                                sl_int t1, double *B) {
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
+     B);
+}
+
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+        SLV_NAME(catch_up)(f, c0, c, c, c1, B);
+        SLV_NAME(pivots_of_tile)(f, c, inverse);
+        SLV_NAME(rows_of_tile)(f, c, c + 1, c1, inverse);
     }
-    if (u > 0) {
-        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
-            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
-                              SLI_TILE * (tiles - whole), whole, B);
-        }
+}
+
+SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                        double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
+        SLV_NAME(rows_of_tile)
+        (f, c, t0, t1, f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int c;
+    for (c = whole; c < t1; c += SLI_GROUP) {
+        SLV_NAME(product)
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
+         SLI_TILE * (t1 - whole), whole, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
-                                            const sl_int *place, double *panel, sl_int w,
-                                            double *update) {
-    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
+                                            const sl_int *places, sl_int first,
+                                            sl_int last) {
+    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
     sl_int row, end, split = 0, i;
-    while (split < u && place[split] < w) {
+    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
         split++;
     }
-    for (row = 0; row < u; row = end) {
-        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
-        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+    for (row = first; row < last; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
+        const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
+        double *to = f->panel + sli_tile_offset(w, tile);
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
-             end++) {
-            lanes[end - row] = place[end] % SLI_TILE;
+        for (end = row;
+             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+            lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
-            const sl_int in_panel = sli_min(end, split);
-            double *to = panel + sli_tile_offset(w, tile);
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < in_panel; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+            for (i = 0; i < end && i < split; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
                                source + SLI_TILE * (ptrdiff_t)i)
             }
-            if (end > split) {
-                to = update + sli_tile_offset(update_width, tile - whole) -
+            if (i < end) {
+                to = f->update + sli_triangle_offset(tile - whole) -
                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-                for (i = split; i < end; i++) {
-                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
-                                   source + SLI_TILE * (ptrdiff_t)i)
-                }
+            }
+            for (; i < end; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -3574,7 +3728,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
     SLV_NAME(row),
-    SLV_NAME(front),
+    SLV_NAME(pivots),
+    SLV_NAME(rows),
+    SLV_NAME(update),
     SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
@@ -4325,13 +4481,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
     }
 }
 
-/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
- * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
- * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+/* Tiles of the lower triangle, row tiles t0 .. t1-1 and column tiles c0 .. c1-1 (t0 >= c0), lose
+ * L D L' over the panel's columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first). Taken in chunks of columns j, so that
  * what a row tile needs stays in the first cache and what the group of column tiles needs in the
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
+                                           sl_int j1,
                                            double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
@@ -4342,11 +4499,11 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
                            B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
-        for (t = c0; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
             double *C = target + sli_tile_offset(target_width, t - target_first);
 #if SLV_TILES == 2
-            const int is_pair = t + 1 < tiles;
+            const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
             double *C1 =
@@ -4380,7 +4537,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* end src/impl/product.inl.h */
 
 /* begin src/impl/front.inl.h */
-/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+/* front.inl.h: a front of the multifrontal factorization: its panel factored, its update matrix made and handed on */
 
 /* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
 #define SLI_SCALE(l, x, k)                                                                         \
@@ -4445,20 +4602,20 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
     }
 
-/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
-SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
-                                             double *D, double *magnitude, double *scratch) {
-    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
-    int by_reciprocal = 1, safe = 1;
+/* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    double *D = f->D + first, *magnitude = f->magnitude + first;
+    double *reciprocal = inverse, *against = inverse + SLI_TILE;
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    double *sums = x + SLI_TILE * SLI_TILE;
+    int by_reciprocal, safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
     SLI_EACH8(SLI_DECLARE, 0)
-    D += first;
-    magnitude += first;
     SLV_LOAD(m, magnitude)
     SLI_EACH8(SLI_LOAD, p)
     SLI_EACH8(SLI_PIVOT, p)
@@ -4466,10 +4623,26 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
     for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
         magnitude[t] = sums[t];
     }
-    by_reciprocal = safe;
-    for (t = c + 1; t < tiles; t++) {
-        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-        magnitude += SLI_TILE;
+    if (!safe) {
+        reciprocal[0] = 0.0;
+    }
+}
+
+/* Column tile c of row tiles t0 .. t1-1, all below its pivots. */
+SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                                                const double *inverse) {
+    const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    const double *D = f->D + first, *reciprocal = inverse, *against = inverse + SLI_TILE;
+    const int by_reciprocal = reciprocal[0] != 0.0;
+    sl_int t;
+    for (t = t0; t < t1; t++) {
+        double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+        SLV_DECLARE(b)
+        SLV_DECLARE(l)
+        SLV_DECLARE(m)
+        SLI_EACH8(SLI_DECLARE, 0)
         SLV_LOAD(m, magnitude)
         SLI_EACH8(SLI_LOAD, q)
         SLI_EACH8(SLI_SOLVE, q)
@@ -4486,66 +4659,86 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
-                                         double *D, double *magnitude, double *scratch) {
-    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
-    double *B = scratch + SLI_FRONT_OWN;
-    sl_int c0, c;
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
-        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
-        for (c = c0; c < c1; c++) {
-            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
-                              0, B);
-            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
-        }
+/* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                                                sl_int t1, double *B) {
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
+     B);
+}
+
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+        SLV_NAME(catch_up)(f, c0, c, c, c1, B);
+        SLV_NAME(pivots_of_tile)(f, c, inverse);
+        SLV_NAME(rows_of_tile)(f, c, c + 1, c1, inverse);
     }
-    if (u > 0) {
-        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
-            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
-                              SLI_TILE * (tiles - whole), whole, B);
-        }
+}
+
+SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                        double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
+        SLV_NAME(rows_of_tile)
+        (f, c, t0, t1, f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int c;
+    for (c = whole; c < t1; c += SLI_GROUP) {
+        SLV_NAME(product)
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
+         SLI_TILE * (t1 - whole), whole, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
-                                            const sl_int *place, double *panel, sl_int w,
-                                            double *update) {
-    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
+                                            const sl_int *places, sl_int first,
+                                            sl_int last) {
+    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
     sl_int row, end, split = 0, i;
-    while (split < u && place[split] < w) {
+    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
         split++;
     }
-    for (row = 0; row < u; row = end) {
-        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
-        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+    for (row = first; row < last; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
+        const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
+        double *to = f->panel + sli_tile_offset(w, tile);
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
-             end++) {
-            lanes[end - row] = place[end] % SLI_TILE;
+        for (end = row;
+             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+            lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
-            const sl_int in_panel = sli_min(end, split);
-            double *to = panel + sli_tile_offset(w, tile);
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < in_panel; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+            for (i = 0; i < end && i < split; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
                                source + SLI_TILE * (ptrdiff_t)i)
             }
-            if (end > split) {
-                to = update + sli_tile_offset(update_width, tile - whole) -
+            if (i < end) {
+                to = f->update + sli_triangle_offset(tile - whole) -
                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-                for (i = split; i < end; i++) {
-                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
-                                   source + SLI_TILE * (ptrdiff_t)i)
-                }
+            }
+            for (; i < end; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -4729,7 +4922,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
     SLV_NAME(row),
-    SLV_NAME(front),
+    SLV_NAME(pivots),
+    SLV_NAME(rows),
+    SLV_NAME(update),
     SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
@@ -5532,13 +5727,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
     }
 }
 
-/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
- * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
- * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+/* Tiles of the lower triangle, row tiles t0 .. t1-1 and column tiles c0 .. c1-1 (t0 >= c0), lose
+ * L D L' over the panel's columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first). Taken in chunks of columns j, so that
  * what a row tile needs stays in the first cache and what the group of column tiles needs in the
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
+                                           sl_int j1,
                                            double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
@@ -5549,11 +5745,11 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
                            B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
-        for (t = c0; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
             double *C = target + sli_tile_offset(target_width, t - target_first);
 #if SLV_TILES == 2
-            const int is_pair = t + 1 < tiles;
+            const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
             double *C1 =
@@ -5587,7 +5783,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* end src/impl/product.inl.h */
 
 /* begin src/impl/front.inl.h */
-/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+/* front.inl.h: a front of the multifrontal factorization: its panel factored, its update matrix made and handed on */
 
 /* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
 #define SLI_SCALE(l, x, k)                                                                         \
@@ -5652,20 +5848,20 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
     }
 
-/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
-SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
-                                             double *D, double *magnitude, double *scratch) {
-    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
-    int by_reciprocal = 1, safe = 1;
+/* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    double *D = f->D + first, *magnitude = f->magnitude + first;
+    double *reciprocal = inverse, *against = inverse + SLI_TILE;
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    double *sums = x + SLI_TILE * SLI_TILE;
+    int by_reciprocal, safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
     SLI_EACH8(SLI_DECLARE, 0)
-    D += first;
-    magnitude += first;
     SLV_LOAD(m, magnitude)
     SLI_EACH8(SLI_LOAD, p)
     SLI_EACH8(SLI_PIVOT, p)
@@ -5673,10 +5869,26 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
     for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
         magnitude[t] = sums[t];
     }
-    by_reciprocal = safe;
-    for (t = c + 1; t < tiles; t++) {
-        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-        magnitude += SLI_TILE;
+    if (!safe) {
+        reciprocal[0] = 0.0;
+    }
+}
+
+/* Column tile c of row tiles t0 .. t1-1, all below its pivots. */
+SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                                                const double *inverse) {
+    const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    const double *D = f->D + first, *reciprocal = inverse, *against = inverse + SLI_TILE;
+    const int by_reciprocal = reciprocal[0] != 0.0;
+    sl_int t;
+    for (t = t0; t < t1; t++) {
+        double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+        SLV_DECLARE(b)
+        SLV_DECLARE(l)
+        SLV_DECLARE(m)
+        SLI_EACH8(SLI_DECLARE, 0)
         SLV_LOAD(m, magnitude)
         SLI_EACH8(SLI_LOAD, q)
         SLI_EACH8(SLI_SOLVE, q)
@@ -5693,66 +5905,86 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
-                                         double *D, double *magnitude, double *scratch) {
-    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
-    double *B = scratch + SLI_FRONT_OWN;
-    sl_int c0, c;
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
-        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
-        for (c = c0; c < c1; c++) {
-            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
-                              0, B);
-            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
-        }
+/* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                                                sl_int t1, double *B) {
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
+     B);
+}
+
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+        SLV_NAME(catch_up)(f, c0, c, c, c1, B);
+        SLV_NAME(pivots_of_tile)(f, c, inverse);
+        SLV_NAME(rows_of_tile)(f, c, c + 1, c1, inverse);
     }
-    if (u > 0) {
-        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
-            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
-                              SLI_TILE * (tiles - whole), whole, B);
-        }
+}
+
+SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                        double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
+        SLV_NAME(rows_of_tile)
+        (f, c, t0, t1, f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int c;
+    for (c = whole; c < t1; c += SLI_GROUP) {
+        SLV_NAME(product)
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
+         SLI_TILE * (t1 - whole), whole, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
-                                            const sl_int *place, double *panel, sl_int w,
-                                            double *update) {
-    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
+                                            const sl_int *places, sl_int first,
+                                            sl_int last) {
+    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
     sl_int row, end, split = 0, i;
-    while (split < u && place[split] < w) {
+    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
         split++;
     }
-    for (row = 0; row < u; row = end) {
-        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
-        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+    for (row = first; row < last; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
+        const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
+        double *to = f->panel + sli_tile_offset(w, tile);
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
-             end++) {
-            lanes[end - row] = place[end] % SLI_TILE;
+        for (end = row;
+             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+            lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
-            const sl_int in_panel = sli_min(end, split);
-            double *to = panel + sli_tile_offset(w, tile);
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < in_panel; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+            for (i = 0; i < end && i < split; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
                                source + SLI_TILE * (ptrdiff_t)i)
             }
-            if (end > split) {
-                to = update + sli_tile_offset(update_width, tile - whole) -
+            if (i < end) {
+                to = f->update + sli_triangle_offset(tile - whole) -
                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-                for (i = split; i < end; i++) {
-                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
-                                   source + SLI_TILE * (ptrdiff_t)i)
-                }
+            }
+            for (; i < end; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -5936,7 +6168,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
     SLV_NAME(row),
-    SLV_NAME(front),
+    SLV_NAME(pivots),
+    SLV_NAME(rows),
+    SLV_NAME(update),
     SLV_NAME(assemble)};
 /* end src/impl/body.inl.h */
 
@@ -6879,8 +7113,6 @@ struct sl_symbolic {
     sli_step *steps;        /* n_supers: the reach of everything */
     sl_int *descendant;     /* n_supers: the first supernode of each one's subtree */
     sl_int *places;         /* rows_begin[n_supers]: the local row of every row in the parent's front */
-    sl_off *waiting_begin;  /* n_supers: where update matrices wait, in doubles */
-    sl_off waiting;         /* doubles that wait at once */
     sl_off *map_begin;      /* n_supers + 1 */
     sl_int *map_from;       /* map_begin[n_supers]: positions in A, grouped by supernode */
     sl_off *map_to;         /* the same: positions in L; several may share one (duplicates) */
@@ -7649,16 +7881,9 @@ static void sli_fill_steps(sl_symbolic *S) {
 #endif
 /* end src/impl/structure.h */
 /* begin src/impl/fronts.h */
-/* fronts.h: the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait */
+/* fronts.h: the tree of fronts: the children of each supernode, and where their rows stand in its front */
 #ifndef SLI_FRONTS_H
 #define SLI_FRONTS_H
-
-/* Doubles that a supernode leaves to its parent: the update matrix and the magnitudes of its rows. */
-SLI_INLINE sl_off sli_waiting_size(const sli_step *s) {
-    const sl_int rows = s->width % SLI_TILE + s->below;
-    return s->below == 0 ? 0
-                         : sli_update_size(s->width, s->below) + SLI_TILE * (sl_off)sli_tiles(rows);
-}
 
 /* The children of s: s - 1, then the one before the first descendant of that, and so on down to s's
  * own first descendant, as supernodes are in postorder. */
@@ -7694,33 +7919,201 @@ static void sli_fill_places(sl_symbolic *S, sl_int *local) {
     }
 }
 
-/* Where the update matrix of every supernode waits for the parent. Supernodes of even and of odd
- * depth have a stack each, which grow towards each other: when a supernode is done, its children are
- * the top of the other one, so that nothing ever moves. depth: n_supers of scratch. */
-static void sli_fill_waiting(sl_symbolic *S, sl_int *depth) {
-    sl_off top[2] = {0, 0};
-    sl_int s, c;
-    S->waiting = 0;
-    for (s = S->n_supers - 1; s >= 0; s--) {
-        depth[s] = S->super_parent[s] == -1 ? 0 : 1 - depth[S->super_parent[s]];
-    }
-    for (s = 0; s < S->n_supers; s++) {
-        const int side = depth[s];
-        const sl_off size = sli_waiting_size(&S->steps[s]);
-        S->waiting_begin[s] = side == 0 ? top[0] : -(top[1] + size);
-        top[side] += size;
-        S->waiting = top[0] + top[1] > S->waiting ? top[0] + top[1] : S->waiting;
-        for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
-            top[1 - side] -= sli_waiting_size(&S->steps[c]);
+#endif
+/* end src/impl/fronts.h */
+/* begin src/impl/schedule.h */
+/* schedule.h: which worker factors which fronts, and where update matrices wait for the parent's front */
+#ifndef SLI_SCHEDULE_H
+#define SLI_SCHEDULE_H
+
+/* Tasks are subtrees, runs of supernodes of their own, each done by one worker; the fronts above them
+ * come afterwards, one by one, with all workers in each. One worker has one task, everything. */
+typedef struct sli_schedule {
+    sl_int workers;
+    sl_int n_tasks, n_tops;
+    sl_int *first, *last;  /* n_tasks: supernodes of a task */
+    sl_int *worker;        /* n_tasks: who does it */
+    sl_int *top;           /* n_tops: the other supernodes, ascending */
+    sl_off *waiting_begin; /* n_supers: where each one's update matrix waits, in doubles */
+    sl_off waiting;        /* doubles for all of them */
+} sli_schedule;
+
+/* What the planning needs only while it runs. */
+typedef struct sli_planning {
+    double *flops;   /* n_supers: of the subtree */
+    double *load;    /* workers */
+    sl_int *side;    /* n_supers: the stack of a supernode, 2 more in a task */
+    uint64_t *order; /* n_supers: tasks, the largest last */
+    uint64_t *scratch;
+} sli_planning;
+
+/* Tasks this much smaller than a worker's share even out what no estimate knows. */
+#define SLI_TASKS_A_WORKER 8
+
+/* Doubles that a supernode leaves to its parent: the update matrix and the magnitudes of its rows. */
+SLI_INLINE sl_off sli_waiting_size(const sli_step *s) {
+    const sl_int tiles = sli_update_tiles(s->width, s->below);
+    return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)tiles;
+}
+
+/* Flops of a front: sum over its columns of (entries)^2. */
+SLI_INLINE double sli_front_flops(const sli_step *s) {
+    const double w = s->width, h = w + s->below;
+    return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
+}
+
+/* Where the update matrices of some supernodes, handed over in ascending order, wait: supernodes of
+ * even and of odd depth have a stack each, which grow towards each other. When a supernode is done,
+ * its children are the top of the other stack, so that nothing ever moves. */
+typedef struct sli_stacks {
+    sl_off top[2];
+    sl_off most;
+} sli_stacks;
+
+static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
+                            sl_off *begin) {
+    const int own = side[s] & 1, in_task = side[s] & 2;
+    const sl_off size = sli_waiting_size(&S->steps[s]);
+    sl_int c;
+    begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
+    k->top[own] += size;
+    k->most = k->top[0] + k->top[1] > k->most ? k->top[0] + k->top[1] : k->most;
+    for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
+        if ((side[c] & 2) == in_task) {
+            k->top[1 - own] -= sli_waiting_size(&S->steps[c]);
         }
-    }
-    for (s = 0; s < S->n_supers; s++) { /* from the end of the other stack */
-        S->waiting_begin[s] += depth[s] == 0 ? 0 : S->waiting;
     }
 }
 
+/* The second stack counts from the end, which is known now. */
+SLI_INLINE void sli_stacks_settle(const sli_stacks *k, sl_int s, const sl_int *side, sl_off base,
+                                  sl_off *begin) {
+    begin[s] += base + ((side[s] & 1) == 0 ? 0 : k->most);
+}
+
+/* Inside their tasks the supernodes of a worker use the same two stacks, task after task; the roots
+ * of tasks have to wait for the fronts above and have places of their own, as the fronts above have
+ * their own stacks. */
+static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
+    sli_stacks k;
+    sl_int m, s, worker;
+    p->waiting = 0;
+    for (worker = 0; worker < p->workers; worker++) {
+        memset(&k, 0, sizeof k);
+        for (m = 0; m < p->n_tasks; m++) {
+            k.top[0] = k.top[1] = 0;
+            for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
+                sli_stacks_push(&k, S, s, side, p->waiting_begin);
+            }
+        }
+        for (m = 0; m < p->n_tasks; m++) {
+            for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
+                sli_stacks_settle(&k, s, side, p->waiting, p->waiting_begin);
+            }
+        }
+        p->waiting += k.most;
+    }
+    for (m = 0; m < p->n_tasks; m++) {
+        p->waiting_begin[p->last[m]] = p->waiting;
+        p->waiting += sli_waiting_size(&S->steps[p->last[m]]);
+    }
+    memset(&k, 0, sizeof k);
+    for (m = 0; m < p->n_tops; m++) {
+        sli_stacks_push(&k, S, p->top[m], side, p->waiting_begin);
+    }
+    for (m = 0; m < p->n_tops; m++) {
+        sli_stacks_settle(&k, p->top[m], side, p->waiting, p->waiting_begin);
+    }
+    p->waiting += k.most;
+}
+
+/* Subtrees of at most limit flops whose parent has more, in ascending order of flops. */
+static void sli_find_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *w, double limit) {
+    const double scale = limit > 0.0 ? 1e9 / limit : 0.0;
+    sl_int s;
+    p->n_tasks = p->n_tops = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int up = S->super_parent[s];
+        if (w->flops[s] > limit) {
+            p->top[p->n_tops++] = s;
+        } else if (up == -1 || w->flops[up] > limit) {
+            w->order[p->n_tasks++] = sli_keyed((sl_int)(w->flops[s] * scale), s);
+        }
+    }
+    sli_sort(w->order, p->n_tasks, w->scratch);
+}
+
+/* The largest tasks first, each to the worker who has least. */
+static void sli_share_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+    sl_int m, k;
+    for (k = 0; k < p->workers; k++) {
+        w->load[k] = 0.0;
+    }
+    for (m = 0; m < p->n_tasks; m++) {
+        const sl_int root = sli_value(w->order[p->n_tasks - 1 - m]);
+        sl_int least = 0;
+        for (k = 1; k < p->workers; k++) {
+            least = w->load[k] < w->load[least] ? k : least;
+        }
+        w->load[least] += w->flops[root];
+        p->first[m] = S->descendant[root];
+        p->last[m] = root;
+        p->worker[m] = least;
+    }
+}
+
+/* Plans for p->workers. The arrays of p and w have room. */
+static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+    double total = 0.0;
+    sl_int s, m;
+    for (s = 0; s < S->n_supers; s++) {
+        w->flops[s] = 0.0;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        w->flops[s] += sli_front_flops(&S->steps[s]);
+        if (S->super_parent[s] != -1) {
+            w->flops[S->super_parent[s]] += w->flops[s];
+        } else {
+            total += w->flops[s];
+        }
+    }
+    if (p->workers == 1 && S->n_supers > 0) {
+        p->n_tops = 0;
+        p->n_tasks = 1;
+        p->first[0] = p->worker[0] = 0;
+        p->last[0] = S->n_supers - 1;
+    } else {
+        sli_find_tasks(p, S, w, total / ((double)p->workers * SLI_TASKS_A_WORKER));
+        sli_share_tasks(p, S, w);
+    }
+    for (s = S->n_supers - 1; s >= 0; s--) {
+        w->side[s] = S->super_parent[s] == -1 ? 2 : 3 - (w->side[S->super_parent[s]] & 1);
+    }
+    for (m = 0; m < p->n_tops; m++) {
+        w->side[p->top[m]] &= 1;
+    }
+    sli_plan_waiting(p, S, w->side);
+}
+
+static void sli_schedule_layout(sli_schedule *p, sli_block *b, const sl_symbolic *S) {
+    const size_t supers = (size_t)S->n_supers, tasks = p->workers == 1 ? 1 : supers;
+    p->first = SLI_TAKE(b, sl_int, tasks);
+    p->last = SLI_TAKE(b, sl_int, tasks);
+    p->worker = SLI_TAKE(b, sl_int, tasks);
+    p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : supers);
+    p->waiting_begin = SLI_TAKE(b, sl_off, supers);
+}
+
+static void sli_planning_layout(sli_planning *w, sli_block *b, sl_int supers, sl_int workers) {
+    w->flops = SLI_TAKE(b, double, supers);
+    w->load = SLI_TAKE(b, double, workers);
+    w->side = SLI_TAKE(b, sl_int, supers);
+    w->order = SLI_TAKE(b, uint64_t, supers);
+    w->scratch = SLI_TAKE(b, uint64_t, supers);
+}
+
 #endif
-/* end src/impl/fronts.h */
+/* end src/impl/schedule.h */
 /* begin src/impl/symbolic.h */
 /* symbolic.h: the analysis, from the pattern of A to the places of L */
 #ifndef SLI_SYMBOLIC_H
@@ -7780,7 +8173,6 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->steps = SLI_TAKE(b, sli_step, supers);
     S->descendant = SLI_TAKE(b, sl_int, supers);
     S->places = SLI_TAKE(b, sl_int, rows);
-    S->waiting_begin = SLI_TAKE(b, sl_off, supers);
     S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->map_from = SLI_TAKE(b, sl_int, entries);
     S->map_to = SLI_TAKE(b, sl_off, entries);
@@ -7855,7 +8247,6 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_fill_steps(S);
     sli_fill_descendants(S);
     sli_fill_places(S, w->scratch);
-    sli_fill_waiting(S, w->scratch);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
@@ -8149,20 +8540,33 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
 #ifndef SLI_FACTOR_PARTS_H
 #define SLI_FACTOR_PARTS_H
 
+/* The first thing that went wrong in a factorization. */
+typedef struct sli_failure {
+    sl_status status;
+    sl_int super;    /* the supernode it happened in */
+    sl_int pivot;    /* the pivot that is null or not finite, or -1 */
+    sl_int position; /* the entry of A that is not finite, or -1 */
+    double value;
+} sli_failure;
+
 struct sl_factor {
     sl_allocator allocator;
     sl_stats stats;       /* the factor group and the error fields */
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     double null_tolerance;
-    int is_good;      /* L and D hold a factor */
-    double *L;        /* the panels */
-    double *D;        /* n pivots */
-    double *buffer;   /* kernel scratch */
     sl_method method;
-    /* multifrontal */
-    double *waiting;   /* S->waiting: update matrices on their way to the parents */
-    double *magnitude; /* rows of the tallest front: what its diagonal was made of */
+    int is_good;    /* L and D hold a factor */
+    double *L;      /* the panels */
+    double *D;      /* n pivots */
+    double *buffer; /* kernel scratch, for each worker */
+    /* multifrontal; what a worker needs stands once for each */
+    sl_threads threads;
+    sli_schedule schedule;
+    double *waiting;       /* schedule.waiting: update matrices on their way to the parents */
+    double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
+    double *inverse;       /* SLI_FRONT_INVERSE */
+    sli_failure *failures; /* one */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
@@ -8171,6 +8575,23 @@ struct sl_factor {
     uint64_t *list;   /* n_supers: the reach of row k */
     uint64_t *list_scratch;
 };
+
+/* Fills a failure in and returns its status. */
+SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
+                              sl_int position, double value) {
+    f->status = status;
+    f->super = super;
+    f->pivot = pivot;
+    f->position = position;
+    f->value = value;
+    return status;
+}
+
+SLI_INLINE void sli_keep_first_failure(sli_failure *f, const sli_failure *other) {
+    if (other->status != SL_OK && (f->status == SL_OK || other->super < f->super)) {
+        *f = *other;
+    }
+}
 
 /* The column of A that holds position p. */
 static sl_int sli_column_of(const sl_csc *A, sl_int p) {
@@ -8186,40 +8607,46 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Puts A's entries into supernode s's panel, over zeros. */
-static sl_status sli_panel_load(sl_factor *F, const sl_csc *A, sl_int s) {
+/* Adds A's entries to supernode s's panel. */
+static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
+                               sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    const size_t size = (size_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
     sl_off m;
-    memset(F->L + S->panel_begin[s], 0, size * sizeof(double));
     for (m = S->map_begin[s]; m < S->map_begin[s + 1]; m++) {
         const double a = A->x[S->map_from[m]];
         if (!sli_is_finite(a)) {
-            const sl_int p = S->map_from[m];
-            return sli_fail_at(&F->stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), a);
+            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, S->map_from[m], a);
         }
         F->L[S->map_to[m]] += a;
     }
     return SL_OK;
 }
 
-/* Refuses a pivot that is not a number or null against what it was made of; otherwise counts it. */
-static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double magnitude) {
+/* Refuses a pivot that is not a number or null against what it was made of. */
+SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
+                                     sli_failure *failure) {
     const double size = fabs(pivot);
-    sl_stats *stats = &F->stats;
     if (!sli_is_finite(pivot)) {
-        return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
+        return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
-    if (size == 0.0 || size <= F->null_tolerance * magnitude) {
-        stats->null++;
-        return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
+    if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
-    stats->positive += pivot > 0.0;
-    stats->negative += pivot < 0.0;
-    stats->pivot_min = k == 0 || size < stats->pivot_min ? size : stats->pivot_min;
-    stats->pivot_max = k == 0 || size > stats->pivot_max ? size : stats->pivot_max;
-    F->D[k] = pivot;
     return SL_OK;
+}
+
+/* Counts and bounds of the first pivots. */
+static void sli_count_pivots(sl_stats *stats, const double *D, sl_int count) {
+    sl_int k;
+    stats->positive = stats->negative = 0;
+    stats->pivot_min = stats->pivot_max = count > 0 ? fabs(D[0]) : 0.0;
+    for (k = 0; k < count; k++) {
+        const double size = fabs(D[k]);
+        stats->positive += D[k] > 0.0;
+        stats->negative += D[k] < 0.0;
+        stats->pivot_min = size < stats->pivot_min ? size : stats->pivot_min;
+        stats->pivot_max = size > stats->pivot_max ? size : stats->pivot_max;
+    }
 }
 
 #endif
@@ -8269,31 +8696,32 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
 }
 
 /* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
-static sl_status sli_uplooking(sl_factor *F, const sl_csc *A) {
+static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k;
-    if (S->n > 0) {
-        memset(F->x, 0, (size_t)S->n * sizeof(double));
-    }
     for (k = 0; k < S->n; k++) {
         F->head[k] = -1;
+        F->x[k] = 0.0;
     }
     for (k = 0; k < S->n && status == SL_OK; k++) {
         const sl_int s = S->super_of[k], q = k - S->super_first[s];
-        double *diagonal, pivot, magnitude;
+        double *panel = F->L + S->panel_begin[s], *diagonal, pivot, magnitude;
         if (q == 0) {
-            status = sli_panel_load(F, A, s);
+            const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+            memset(panel, 0, (size_t)size * sizeof(double));
+            status = sli_panel_add(F, A, s, failure);
             if (status != SL_OK) {
                 break;
             }
         }
-        diagonal = F->L + S->panel_begin[s] + sli_panel_at(S->steps[s].width, q, q);
+        diagonal = panel + sli_panel_at(S->steps[s].width, q, q);
         pivot = *diagonal;
         magnitude = fabs(pivot);
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
-        status = sli_take_pivot(F, k, pivot, magnitude);
+        F->D[k] = pivot;
+        status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
             sli_wait_for_row(F, s);
@@ -8305,62 +8733,235 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A) {
 #endif
 /* end src/impl/uplooking.h */
 /* begin src/impl/multifrontal.h */
-/* multifrontal.h: the supernodal factorization: front by front, every child handing its update matrix to its parent */
+/* multifrontal.h: the supernodal factorization: front by front, each handing its update matrix to its parent */
 #ifndef SLI_MULTIFRONTAL_H
 #define SLI_MULTIFRONTAL_H
 
-/* The front of supernode s: A, then what the children hand over, the last child first. */
-static sl_status sli_front_load(sl_factor *F, const sl_csc *A, sl_int s, double *update) {
+/* One call's worth of work for several workers: the subtrees that they do by themselves, then a front
+ * above them in which each takes some row tiles. */
+typedef struct sli_job {
+    sl_factor *F;
+    const sl_csc *A;
+    sl_int super, group; /* the front, and its group of column tiles */
+    sli_front front;
+} sli_job;
+
+/* A front of this many flops takes some 50 us, and is shared out at some 2 us a step. */
+#define SLI_SHARED_FLOPS 4e6
+
+static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+    const sli_step *step = &F->S->steps[s];
+    const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
+    sli_front f;
+    f.panel = F->L + step->panel;
+    f.width = step->width;
+    f.below = step->below;
+    f.update = F->waiting + F->schedule.waiting_begin[s];
+    f.D = F->D + step->column;
+    f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
+    f.inverse = F->inverse + (ptrdiff_t)worker * SLI_FRONT_INVERSE;
+    return f;
+}
+
+SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
+    return sli_tiles(f->width + f->below);
+}
+
+/* Clears row tiles t0 .. t1-1 of a front. */
+static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
+    const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
+    memset(f->panel + from, 0, (size_t)size * sizeof(double));
+    if (f->below > 0 && t1 > whole) {
+        const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+        memset(f->update + at, 0, (size_t)(end - at) * sizeof(double));
+    }
+}
+
+/* A's entries onto the cleared panel, and what its diagonal is made of so far. */
+static sl_status sli_front_load(sl_factor *F, const sl_csc *A, const sli_front *f, sl_int s,
+                                sli_failure *failure) {
+    const sl_status status = sli_panel_add(F, A, s, failure);
+    sl_int k;
+    for (k = 0; k < f->width; k++) {
+        f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
+    }
+    for (; k < SLI_TILE * sli_front_tiles(f); k++) {
+        f->magnitude[k] = 0.0;
+    }
+    return status;
+}
+
+/* What the children hand over to row tiles t0 .. t1-1, the last child first. */
+static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int t0,
+                               sl_int t1) {
     const sl_symbolic *S = F->S;
-    const sli_step *step = &S->steps[s];
-    const sl_int w = step->width, tiles = sli_tiles(w + step->below);
-    double *panel = F->L + step->panel;
-    const sl_status status = sli_panel_load(F, A, s);
-    sl_int k, c;
-    if (status != SL_OK) {
-        return status;
-    }
-    for (k = 0; k < w; k++) {
-        F->magnitude[k] = fabs(panel[sli_panel_at(w, k, k)]);
-    }
-    memset(F->magnitude + w, 0, (size_t)(SLI_TILE * tiles - w) * sizeof(double));
-    memset(update, 0, (size_t)sli_update_size(w, step->below) * sizeof(double));
+    sl_int c, k;
     for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
         const sl_int *places = S->places + S->rows_begin[c];
-        const double *from = F->waiting + S->waiting_begin[c];
-        const double *magnitude =
-            from + sli_update_size(child->width, child->below) + child->width % SLI_TILE;
-        F->kernels->assemble(from, child->width, child->below, places, panel, w, update);
-        for (k = 0; k < child->below; k++) {
-            F->magnitude[places[k]] += magnitude[k];
+        const double *from = F->waiting + F->schedule.waiting_begin[c];
+        const double *magnitude = from + child->width % SLI_TILE +
+                                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
+        const sl_int first = sli_lower_bound(places, child->below, SLI_TILE * t0);
+        const sl_int last = sli_lower_bound(places, child->below, SLI_TILE * t1);
+        F->kernels->assemble(f, from, child->width, places, first, last);
+        for (k = first; k < last; k++) {
+            f->magnitude[places[k]] += magnitude[k];
+        }
+    }
+}
+
+/* A finished front: its magnitudes go where the update matrix waits. A null pivot is a failure. */
+static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
+                                  sli_failure *failure) {
+    const sl_int first = F->S->steps[s].column, whole = f->width / SLI_TILE;
+    const sl_int tiles = sli_update_tiles(f->width, f->below);
+    sl_int k;
+    memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + SLI_TILE * (ptrdiff_t)whole,
+           SLI_TILE * (size_t)tiles * sizeof(double));
+    for (k = 0; k < f->width; k++) {
+        const sl_status status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+        if (status != SL_OK) {
+            return status;
         }
     }
     return SL_OK;
 }
 
-/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
-static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A) {
-    const sl_symbolic *S = F->S;
-    sl_status status = SL_OK;
-    sl_int s, k;
-    for (s = 0; s < S->n_supers && status == SL_OK; s++) {
-        const sli_step *step = &S->steps[s];
-        const sl_int w = step->width, whole = w / SLI_TILE * SLI_TILE;
-        double *update = F->waiting + S->waiting_begin[s];
-        status = sli_front_load(F, A, s, update);
-        if (status == SL_OK) {
-            F->kernels->front(F->L + step->panel, w, step->below, update, F->D + step->column,
-                              F->magnitude, F->buffer);
-            memcpy(update + sli_update_size(w, step->below), F->magnitude + whole,
-                   (size_t)(sli_waiting_size(step) - sli_update_size(w, step->below)) *
-                       sizeof(double));
+/* The whole of supernode s's front by one worker. */
+static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
+                                 sli_failure *failure) {
+    const sli_kernels *kernels = F->kernels;
+    const sli_front f = sli_front_of(F, s, worker);
+    const sl_int tiles = sli_front_tiles(&f), ends = sli_tiles(f.width);
+    double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+    sl_int c0;
+    sl_status status;
+    sli_front_clear(&f, 0, tiles);
+    status = sli_front_load(F, A, &f, s, failure);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_front_assemble(F, &f, s, 0, tiles);
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        kernels->pivots(&f, c0, scratch);
+        kernels->rows(&f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+    }
+    if (f.below > 0) {
+        kernels->update(&f, f.width / SLI_TILE, tiles, scratch);
+    }
+    return sli_front_finish(F, &f, s, failure);
+}
+
+/* Worker k's subtrees. A failure ends its subtree only: the first failure of all must be found. */
+static void sli_do_tasks(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sli_schedule *plan = &job->F->schedule;
+    sl_int m, s;
+    for (m = 0; m < plan->n_tasks; m++) {
+        sli_failure failure;
+        sl_status status = SL_OK;
+        if (plan->worker[m] != k) {
+            continue;
         }
-        for (k = 0; k < w && status == SL_OK; k++) {
-            status = sli_take_pivot(F, step->column + k, F->D[step->column + k], F->magnitude[k]);
+        for (s = plan->first[m]; s <= plan->last[m] && status == SL_OK; s++) {
+            status = sli_front_alone(job->F, job->A, s, k, &failure);
+            if (status != SL_OK) {
+                sli_keep_first_failure(&job->F->failures[k], &failure);
+            }
         }
     }
-    return status;
+}
+
+/* Row tiles of worker k: of first .. last-1 in equal parts, or, where the rows grow longer as in a
+ * triangle, in parts of equal area. */
+static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
+    const double share = (double)k / workers;
+    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
+}
+
+static void sli_shared_clear(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    sli_front_clear(&job->front, sli_part(0, tiles, k, workers, 1),
+                    sli_part(0, tiles, k + 1, workers, 1));
+}
+
+static void sli_shared_assemble(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    sli_front_assemble(job->F, &job->front, job->super, sli_part(0, tiles, k, workers, 1),
+                       sli_part(0, tiles, k + 1, workers, 1));
+}
+
+static void sli_shared_rows(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_factor *F = job->F;
+    const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    const sl_int c1 = sli_min(job->group + SLI_GROUP, sli_tiles(job->front.width));
+    F->kernels->rows(&job->front, job->group, sli_part(c1, tiles, k, workers, 0),
+                     sli_part(c1, tiles, k + 1, workers, 0),
+                     F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
+}
+
+static void sli_shared_update(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_factor *F = job->F;
+    const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    const sl_int whole = job->front.width / SLI_TILE;
+    F->kernels->update(&job->front, sli_part(whole, tiles, k, workers, 1),
+                       sli_part(whole, tiles, k + 1, workers, 1),
+                       F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
+}
+
+/* The whole of a front by all workers. */
+static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
+    sl_factor *F = job->F;
+    const sl_threads *threads = &F->threads;
+    const sl_int workers = F->schedule.workers;
+    sl_status status;
+    job->front = sli_front_of(F, job->super, 0);
+    sli_parallel(threads, workers, sli_shared_clear, job);
+    status = sli_front_load(F, job->A, &job->front, job->super, failure);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_parallel(threads, workers, sli_shared_assemble, job);
+    for (job->group = 0; job->group < sli_tiles(job->front.width); job->group += SLI_GROUP) {
+        F->kernels->pivots(&job->front, job->group, F->buffer);
+        sli_parallel(threads, workers, sli_shared_rows, job);
+    }
+    if (job->front.below > 0) {
+        sli_parallel(threads, workers, sli_shared_update, job);
+    }
+    return sli_front_finish(F, &job->front, job->super, failure);
+}
+
+/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
+static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+    const sli_schedule *plan = &F->schedule;
+    sli_job job;
+    sl_int m, k;
+    memset(&job, 0, sizeof job);
+    job.F = F;
+    job.A = A;
+    for (k = 0; k < plan->workers; k++) {
+        F->failures[k].status = SL_OK;
+    }
+    sli_parallel(&F->threads, plan->workers, sli_do_tasks, &job);
+    for (k = 0; k < plan->workers; k++) {
+        sli_keep_first_failure(failure, &F->failures[k]);
+    }
+    for (m = 0; m < plan->n_tops && failure->status == SL_OK; m++) {
+        job.super = plan->top[m];
+        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
+            (void)sli_front_shared(&job, failure);
+        } else {
+            (void)sli_front_alone(F, A, job.super, 0, failure);
+        }
+    }
+    return failure->status;
 }
 
 #endif
@@ -8371,15 +8972,20 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A) {
 #define SLI_FACTOR_H
 
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
-    const size_t n = (size_t)F->S->n, supers = (size_t)F->S->n_supers;
+    const sl_symbolic *S = F->S;
+    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+    const size_t workers = (size_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
     if (F->method == SL_METHOD_SUPERNODAL) {
-        F->buffer = SLI_TAKE(b, double, SLI_FRONT_SCRATCH);
-        F->magnitude = SLI_TAKE(b, double, SLI_TILE * (size_t)sli_tiles(F->S->tallest));
-        F->waiting = SLI_TAKE(b, double, F->S->waiting);
+        const size_t rows = SLI_TILE * (size_t)sli_tiles(S->tallest);
+        F->buffer = SLI_TAKE(b, double, workers *(size_t)sli_front_scratch(S->widest));
+        F->magnitude = SLI_TAKE(b, double, workers *rows);
+        F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
+        F->failures = SLI_TAKE(b, sli_failure, workers);
+        sli_schedule_layout(&F->schedule, b, S);
     } else {
-        F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
+        F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
         F->x = SLI_TAKE(b, double, n);
         F->head = SLI_TAKE(b, sl_int, n);
         F->next = SLI_TAKE(b, sl_int, supers);
@@ -8387,7 +8993,32 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->list = SLI_TAKE(b, uint64_t, supers);
         F->list_scratch = SLI_TAKE(b, uint64_t, supers);
     }
-    F->L = SLI_TAKE(b, double, F->S->panel_begin[F->S->n_supers]);
+    F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+}
+
+/* Who does what, in a supernodal factorization, and the memory for what is under way. */
+static sl_status sli_factor_schedule(sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sli_block b = {NULL, 0, 0};
+    sli_planning w;
+    sl_status status = SL_OK;
+    int pass;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_planning_layout(&w, &b, S->n_supers, F->schedule.workers);
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_schedule_fill(&F->schedule, S, &w);
+        sli_free(&F->allocator, b.base);
+        b.base = NULL;
+        b.used = 0;
+        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+            F->waiting = SLI_TAKE(&b, double, F->schedule.waiting);
+            F->stats.bytes_factor += pass == 0 ? b.used : 0;
+            status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+        }
+    }
+    return status;
 }
 
 /* Whether A can be the matrix that S was made from. */
@@ -8416,8 +9047,24 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
+/* Pivots in numbers, and a failure in the caller's rows. */
+static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+    sl_int good = F->S->n; /* pivots before the failure */
+    F->stats.null = f->status == SL_ERR_PIVOT;
+    if (f->status != SL_OK && f->pivot >= 0) {
+        good = f->pivot;
+        sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
+    } else if (f->status != SL_OK) {
+        good = F->S->super_first[f->super];
+        sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
+                    f->value);
+    }
+    sli_count_pivots(&F->stats, F->D, good);
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
+    sli_failure failure;
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL) {
@@ -8429,9 +9076,10 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
         return status;
     }
     sli_stats_clear_error(&F->stats);
-    F->stats.positive = F->stats.negative = F->stats.null = 0;
-    F->stats.pivot_min = F->stats.pivot_max = 0.0;
-    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A) : sli_uplooking(F, A);
+    memset(&failure, 0, sizeof failure);
+    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
+                                               : sli_uplooking(F, A, &failure);
+    sli_factor_tell(F, A, &failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = status == SL_OK;
     if (stats != NULL) {
@@ -8480,6 +9128,11 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.null_tolerance =
         opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
     draft.method = sli_method(S, opt);
+    draft.schedule.workers = 1;
+    if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
+        draft.threads = opt->threads;
+        draft.schedule.workers = sli_workers(&opt->threads);
+    }
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
@@ -8494,7 +9147,12 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         draft.stats.isa = draft.kernels->isa;
         draft.stats.method = draft.method;
         *F = draft;
-        status = sl_factor_refactor(F, A, stats);
+        if (F->method == SL_METHOD_SUPERNODAL) {
+            status = sli_factor_schedule(F);
+        }
+        if (status == SL_OK) {
+            status = sl_factor_refactor(F, A, stats);
+        }
         if (status == SL_OK) {
             *out = F;
         } else {
@@ -8507,6 +9165,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
 SL_API void sl_factor_free(sl_factor *F) {
     if (F != NULL) {
         const sl_allocator a = F->allocator;
+        sli_free(&a, F->waiting);
         sli_free(&a, F);
     }
 }
@@ -9215,6 +9874,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_INLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
+#undef SLI_ALIGNED
 #undef SLI_ASSERT
 #undef SLI_ALIGN
 #undef SLI_TAKE
@@ -9230,8 +9890,9 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_LOW8
 #undef SLI_GROUP
 #undef SLI_CHUNK
-#undef SLI_FRONT_OWN
-#undef SLI_FRONT_SCRATCH
+#undef SLI_FRONT_INVERSE
+#undef SLI_TASKS_A_WORKER
+#undef SLI_SHARED_FLOPS
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
 /* end src/impl/leave.h */

@@ -28,6 +28,7 @@ extern "C" {
 #include "impl/alloc.h"
 #include "impl/sort.h"
 #include "impl/cpu.h"
+#include "impl/parallel.h"
 /* L1 kernels: raw arrays only */
 #include "impl/kernels.h"
 #include "impl/isa_scalar.h"
@@ -49,6 +50,7 @@ extern "C" {
 #include "impl/supernodes.h"
 #include "impl/structure.h"
 #include "impl/fronts.h"
+#include "impl/schedule.h"
 #include "impl/symbolic.h"
 #include "impl/reach.h"
 /* L4 numbers */

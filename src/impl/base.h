@@ -28,10 +28,12 @@
 #if defined(__GNUC__)
 #define SLI_INLINE __attribute__((unused)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))
+#define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 #define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
 #else
 #define SLI_INLINE static inline
 #define SLI_TARGET(list)
+#define SLI_ALIGNED(variable) variable
 #define SLI_UNROLL
 #endif
 

@@ -174,5 +174,7 @@ static const sli_kernels SLV_NAME(kernels) = {
     {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
     {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
     SLV_NAME(row),
-    SLV_NAME(front),
+    SLV_NAME(pivots),
+    SLV_NAME(rows),
+    SLV_NAME(update),
     SLV_NAME(assemble)};

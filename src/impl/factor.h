@@ -5,20 +5,25 @@
 #include "../public/factor.h"
 #include "csc.h"
 #include "graph.h"
-#include "select.h"
 #include "multifrontal.h"
+#include "select.h"
 #include "uplooking.h"
 
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
-    const size_t n = (size_t)F->S->n, supers = (size_t)F->S->n_supers;
+    const sl_symbolic *S = F->S;
+    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+    const size_t workers = (size_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
     if (F->method == SL_METHOD_SUPERNODAL) {
-        F->buffer = SLI_TAKE(b, double, SLI_FRONT_SCRATCH);
-        F->magnitude = SLI_TAKE(b, double, SLI_TILE * (size_t)sli_tiles(F->S->tallest));
-        F->waiting = SLI_TAKE(b, double, F->S->waiting);
+        const size_t rows = SLI_TILE * (size_t)sli_tiles(S->tallest);
+        F->buffer = SLI_TAKE(b, double, workers *(size_t)sli_front_scratch(S->widest));
+        F->magnitude = SLI_TAKE(b, double, workers *rows);
+        F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
+        F->failures = SLI_TAKE(b, sli_failure, workers);
+        sli_schedule_layout(&F->schedule, b, S);
     } else {
-        F->buffer = SLI_TAKE(b, double, sli_scratch_size(F->S->tallest, 0, 1));
+        F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
         F->x = SLI_TAKE(b, double, n);
         F->head = SLI_TAKE(b, sl_int, n);
         F->next = SLI_TAKE(b, sl_int, supers);
@@ -26,7 +31,32 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->list = SLI_TAKE(b, uint64_t, supers);
         F->list_scratch = SLI_TAKE(b, uint64_t, supers);
     }
-    F->L = SLI_TAKE(b, double, F->S->panel_begin[F->S->n_supers]);
+    F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+}
+
+/* Who does what, in a supernodal factorization, and the memory for what is under way. */
+static sl_status sli_factor_schedule(sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sli_block b = {NULL, 0, 0};
+    sli_planning w;
+    sl_status status = SL_OK;
+    int pass;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_planning_layout(&w, &b, S->n_supers, F->schedule.workers);
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_schedule_fill(&F->schedule, S, &w);
+        sli_free(&F->allocator, b.base);
+        b.base = NULL;
+        b.used = 0;
+        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+            F->waiting = SLI_TAKE(&b, double, F->schedule.waiting);
+            F->stats.bytes_factor += pass == 0 ? b.used : 0;
+            status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+        }
+    }
+    return status;
 }
 
 /* Whether A can be the matrix that S was made from. */
@@ -55,8 +85,24 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
+/* Pivots in numbers, and a failure in the caller's rows. */
+static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+    sl_int good = F->S->n; /* pivots before the failure */
+    F->stats.null = f->status == SL_ERR_PIVOT;
+    if (f->status != SL_OK && f->pivot >= 0) {
+        good = f->pivot;
+        sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
+    } else if (f->status != SL_OK) {
+        good = F->S->super_first[f->super];
+        sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
+                    f->value);
+    }
+    sli_count_pivots(&F->stats, F->D, good);
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
+    sli_failure failure;
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL) {
@@ -68,9 +114,10 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
         return status;
     }
     sli_stats_clear_error(&F->stats);
-    F->stats.positive = F->stats.negative = F->stats.null = 0;
-    F->stats.pivot_min = F->stats.pivot_max = 0.0;
-    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A) : sli_uplooking(F, A);
+    memset(&failure, 0, sizeof failure);
+    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
+                                               : sli_uplooking(F, A, &failure);
+    sli_factor_tell(F, A, &failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = status == SL_OK;
     if (stats != NULL) {
@@ -119,6 +166,11 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.null_tolerance =
         opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
     draft.method = sli_method(S, opt);
+    draft.schedule.workers = 1;
+    if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
+        draft.threads = opt->threads;
+        draft.schedule.workers = sli_workers(&opt->threads);
+    }
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
@@ -133,7 +185,12 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         draft.stats.isa = draft.kernels->isa;
         draft.stats.method = draft.method;
         *F = draft;
-        status = sl_factor_refactor(F, A, stats);
+        if (F->method == SL_METHOD_SUPERNODAL) {
+            status = sli_factor_schedule(F);
+        }
+        if (status == SL_OK) {
+            status = sl_factor_refactor(F, A, stats);
+        }
         if (status == SL_OK) {
             *out = F;
         } else {
@@ -146,6 +203,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
 SL_API void sl_factor_free(sl_factor *F) {
     if (F != NULL) {
         const sl_allocator a = F->allocator;
+        sli_free(&a, F->waiting);
         sli_free(&a, F);
     }
 }

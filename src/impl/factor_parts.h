@@ -3,9 +3,18 @@
 #define SLI_FACTOR_PARTS_H
 
 #include "csc.h"
+#include "schedule.h"
 #include "select.h"
 #include "status.h"
-#include "symbolic_types.h"
+
+/* The first thing that went wrong in a factorization. */
+typedef struct sli_failure {
+    sl_status status;
+    sl_int super;    /* the supernode it happened in */
+    sl_int pivot;    /* the pivot that is null or not finite, or -1 */
+    sl_int position; /* the entry of A that is not finite, or -1 */
+    double value;
+} sli_failure;
 
 struct sl_factor {
     sl_allocator allocator;
@@ -13,14 +22,18 @@ struct sl_factor {
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     double null_tolerance;
-    int is_good;      /* L and D hold a factor */
-    double *L;        /* the panels */
-    double *D;        /* n pivots */
-    double *buffer;   /* kernel scratch */
     sl_method method;
-    /* multifrontal */
-    double *waiting;   /* S->waiting: update matrices on their way to the parents */
-    double *magnitude; /* rows of the tallest front: what its diagonal was made of */
+    int is_good;    /* L and D hold a factor */
+    double *L;      /* the panels */
+    double *D;      /* n pivots */
+    double *buffer; /* kernel scratch, for each worker */
+    /* multifrontal; what a worker needs stands once for each */
+    sl_threads threads;
+    sli_schedule schedule;
+    double *waiting;       /* schedule.waiting: update matrices on their way to the parents */
+    double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
+    double *inverse;       /* SLI_FRONT_INVERSE */
+    sli_failure *failures; /* one */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
@@ -29,6 +42,23 @@ struct sl_factor {
     uint64_t *list;   /* n_supers: the reach of row k */
     uint64_t *list_scratch;
 };
+
+/* Fills a failure in and returns its status. */
+SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
+                              sl_int position, double value) {
+    f->status = status;
+    f->super = super;
+    f->pivot = pivot;
+    f->position = position;
+    f->value = value;
+    return status;
+}
+
+SLI_INLINE void sli_keep_first_failure(sli_failure *f, const sli_failure *other) {
+    if (other->status != SL_OK && (f->status == SL_OK || other->super < f->super)) {
+        *f = *other;
+    }
+}
 
 /* The column of A that holds position p. */
 static sl_int sli_column_of(const sl_csc *A, sl_int p) {
@@ -44,40 +74,46 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Puts A's entries into supernode s's panel, over zeros. */
-static sl_status sli_panel_load(sl_factor *F, const sl_csc *A, sl_int s) {
+/* Adds A's entries to supernode s's panel. */
+static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
+                               sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    const size_t size = (size_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
     sl_off m;
-    memset(F->L + S->panel_begin[s], 0, size * sizeof(double));
     for (m = S->map_begin[s]; m < S->map_begin[s + 1]; m++) {
         const double a = A->x[S->map_from[m]];
         if (!sli_is_finite(a)) {
-            const sl_int p = S->map_from[m];
-            return sli_fail_at(&F->stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), a);
+            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, S->map_from[m], a);
         }
         F->L[S->map_to[m]] += a;
     }
     return SL_OK;
 }
 
-/* Refuses a pivot that is not a number or null against what it was made of; otherwise counts it. */
-static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double magnitude) {
+/* Refuses a pivot that is not a number or null against what it was made of. */
+SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
+                                     sli_failure *failure) {
     const double size = fabs(pivot);
-    sl_stats *stats = &F->stats;
     if (!sli_is_finite(pivot)) {
-        return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
+        return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
-    if (size == 0.0 || size <= F->null_tolerance * magnitude) {
-        stats->null++;
-        return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
+    if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
-    stats->positive += pivot > 0.0;
-    stats->negative += pivot < 0.0;
-    stats->pivot_min = k == 0 || size < stats->pivot_min ? size : stats->pivot_min;
-    stats->pivot_max = k == 0 || size > stats->pivot_max ? size : stats->pivot_max;
-    F->D[k] = pivot;
     return SL_OK;
+}
+
+/* Counts and bounds of the first pivots. */
+static void sli_count_pivots(sl_stats *stats, const double *D, sl_int count) {
+    sl_int k;
+    stats->positive = stats->negative = 0;
+    stats->pivot_min = stats->pivot_max = count > 0 ? fabs(D[0]) : 0.0;
+    for (k = 0; k < count; k++) {
+        const double size = fabs(D[k]);
+        stats->positive += D[k] > 0.0;
+        stats->negative += D[k] < 0.0;
+        stats->pivot_min = size < stats->pivot_min ? size : stats->pivot_min;
+        stats->pivot_max = size > stats->pivot_max ? size : stats->pivot_max;
+    }
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* front.inl.h: one front of the multifrontal factorization: its panel is factored, its update matrix updated */
+/* front.inl.h: a front of the multifrontal factorization: its panel factored, its update matrix made and handed on */
 
 /* l(rows, k) = x(rows, k) / d(k), by the reciprocal where that loses nothing */
 #define SLI_SCALE(l, x, k)                                                                         \
@@ -63,20 +63,20 @@
         SLV_STORE((q) + SLI_TILE * (k), l)                                                         \
     }
 
-/* Column tile c of a panel whose columns before it are done: 8 pivots, or fewer in the last one. */
-SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int tiles, sl_int c,
-                                             double *D, double *magnitude, double *scratch) {
-    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    double *p = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-    double *x = scratch, *sums = scratch + 64, *reciprocal = scratch + 72, *against = scratch + 80;
-    int by_reciprocal = 1, safe = 1;
+/* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
+SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    double *D = f->D + first, *magnitude = f->magnitude + first;
+    double *reciprocal = inverse, *against = inverse + SLI_TILE;
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    double *sums = x + SLI_TILE * SLI_TILE;
+    int by_reciprocal, safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
     SLI_EACH8(SLI_DECLARE, 0)
-    D += first;
-    magnitude += first;
     SLV_LOAD(m, magnitude)
     SLI_EACH8(SLI_LOAD, p)
     SLI_EACH8(SLI_PIVOT, p)
@@ -84,10 +84,26 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
     for (t = columns; t < SLI_TILE; t++) { /* rows below that share the last tile of pivots */
         magnitude[t] = sums[t];
     }
-    by_reciprocal = safe;
-    for (t = c + 1; t < tiles; t++) {
-        double *q = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-        magnitude += SLI_TILE;
+    if (!safe) {
+        reciprocal[0] = 0.0;
+    }
+}
+
+/* Column tile c of row tiles t0 .. t1-1, all below its pivots. */
+SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                                                const double *inverse) {
+    const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+    const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    const double *D = f->D + first, *reciprocal = inverse, *against = inverse + SLI_TILE;
+    const int by_reciprocal = reciprocal[0] != 0.0;
+    sl_int t;
+    for (t = t0; t < t1; t++) {
+        double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
+        double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+        SLV_DECLARE(b)
+        SLV_DECLARE(l)
+        SLV_DECLARE(m)
+        SLI_EACH8(SLI_DECLARE, 0)
         SLV_LOAD(m, magnitude)
         SLI_EACH8(SLI_LOAD, q)
         SLI_EACH8(SLI_SOLVE, q)
@@ -104,66 +120,86 @@ SLV_FUNCTION static void SLV_NAME(eliminate)(double *panel, sl_int w, sl_int til
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-SLV_FUNCTION static void SLV_NAME(front)(double *panel, sl_int w, sl_int u, double *update,
-                                         double *D, double *magnitude, double *scratch) {
-    const sl_int tiles = sli_tiles(w + u), ends = sli_tiles(w), whole = w / SLI_TILE;
-    double *B = scratch + SLI_FRONT_OWN;
-    sl_int c0, c;
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        const sl_int c1 = sli_min(c0 + SLI_GROUP, ends);
-        SLV_NAME(product)(panel, w, D, tiles, c0, c1, 0, SLI_TILE * c0, panel, w, 0, B);
-        for (c = c0; c < c1; c++) {
-            SLV_NAME(product)(panel, w, D, tiles, c, c + 1, SLI_TILE * c0, SLI_TILE * c, panel, w,
-                              0, B);
-            SLV_NAME(eliminate)(panel, w, tiles, c, D, magnitude, scratch);
-        }
+/* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                                                sl_int t1, double *B) {
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
+     B);
+}
+
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+        SLV_NAME(catch_up)(f, c0, c, c, c1, B);
+        SLV_NAME(pivots_of_tile)(f, c, inverse);
+        SLV_NAME(rows_of_tile)(f, c, c + 1, c1, inverse);
     }
-    if (u > 0) {
-        for (c0 = whole; c0 < tiles; c0 += SLI_GROUP) {
-            SLV_NAME(product)(panel, w, D, tiles, c0, sli_min(c0 + SLI_GROUP, tiles), 0, w, update,
-                              SLI_TILE * (tiles - whole), whole, B);
-        }
+}
+
+SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                        double *B) {
+    const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
+    sl_int c;
+    SLV_NAME(product)
+    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    for (c = c0; c < c1; c++) {
+        SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
+        SLV_NAME(rows_of_tile)
+        (f, c, t0, t1, f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int c;
+    for (c = whole; c < t1; c += SLI_GROUP) {
+        SLV_NAME(product)
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
+         SLI_TILE * (t1 - whole), whole, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, sl_int u,
-                                            const sl_int *place, double *panel, sl_int w,
-                                            double *update) {
-    const sl_int skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    const sl_int from_width = SLI_TILE * sli_tiles(skipped + u), update_width = INT32_MAX;
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
+                                            const sl_int *places, sl_int first,
+                                            sl_int last) {
+    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
     sl_int row, end, split = 0, i;
-    while (split < u && place[split] < w) {
+    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
         split++;
     }
-    for (row = 0; row < u; row = end) {
-        const sl_int lane = (skipped + row) % SLI_TILE, tile = place[row] / SLI_TILE;
-        const double *source = from + sli_tile_offset(from_width, (skipped + row) / SLI_TILE) +
+    for (row = first; row < last; row = end) {
+        const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
+        const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
+        double *to = f->panel + sli_tile_offset(w, tile);
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row; end < u && end - row < SLI_TILE - lane && place[end] / SLI_TILE == tile;
-             end++) {
-            lanes[end - row] = place[end] % SLI_TILE;
+        for (end = row;
+             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+            lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
-            const sl_int in_panel = sli_min(end, split);
-            double *to = panel + sli_tile_offset(w, tile);
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < in_panel; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
+            for (i = 0; i < end && i < split; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
                                source + SLI_TILE * (ptrdiff_t)i)
             }
-            if (end > split) {
-                to = update + sli_tile_offset(update_width, tile - whole) -
+            if (i < end) {
+                to = f->update + sli_triangle_offset(tile - whole) -
                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-                for (i = split; i < end; i++) {
-                    SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)place[i],
-                                   source + SLI_TILE * (ptrdiff_t)i)
-                }
+            }
+            for (; i < end; i++) {
+                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
+                               source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }

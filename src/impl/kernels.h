@@ -98,10 +98,14 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
  * that the rows below keep their lanes. What its first w % 8 rows and columns and the part above the
  * diagonal hold means nothing. */
 
-/* Doubles of the update matrix of w columns and u rows below. */
-SLI_INLINE sl_off sli_update_size(sl_int w, sl_int u) {
-    const sl_off tiles = u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
-    return 32 * tiles * (tiles + 1);
+/* Where row tile t of a triangle starts, in doubles. */
+SLI_INLINE sl_off sli_triangle_offset(sl_int t) {
+    return 32 * (sl_off)t * (t + 1);
+}
+
+/* Row tiles of the update matrix of w columns and u rows below. */
+SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
+    return u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
 }
 
 /* Column tiles that are updated together, and columns they are updated by at a time: what a row tile
@@ -109,29 +113,52 @@ SLI_INLINE sl_off sli_update_size(sl_int w, sl_int u) {
 #define SLI_GROUP 8
 #define SLI_CHUNK 256
 
-/* Doubles for the elimination of one tile, and of scratch for a front in all. */
-#define SLI_FRONT_OWN 128
-#define SLI_FRONT_SCRATCH (SLI_FRONT_OWN + SLI_GROUP * SLI_TILE * SLI_CHUNK)
+/* Doubles of scratch for fronts of some width. */
+SLI_INLINE sl_int sli_front_scratch(sl_int width) {
+    return SLI_GROUP * SLI_TILE * sli_min(width, SLI_CHUNK);
+}
 
-/* Factors a front: on entry panel and update hold A and what the children hand over, magnitude (one
- * for every row of the tiles) what that is made of in absolute value; on return the panel holds L, D
- * the w pivots, update has lost L D L', and magnitude is that of the pivot in the w rows and has
- * gained |L D L'| in the others. Null pivots are told by the caller. */
-typedef void (*sli_front_kernel)(double *panel, sl_int width, sl_int below, double *update,
-                                 double *D, double *magnitude, double *scratch);
+/* Doubles of a front's inverse. */
+#define SLI_FRONT_INVERSE (2 * SLI_GROUP * SLI_TILE)
 
-/* Adds the update matrix of a child of from_width columns and from_below rows below to its parent's
- * front; place: the local row in the parent of each of those rows, ascending. */
-typedef void (*sli_assemble_kernel)(const double *from, sl_int from_width, sl_int from_below,
-                                    const sl_int *place, double *panel, sl_int width,
-                                    double *update);
+typedef struct sli_front {
+    double *panel;
+    sl_int width, below;
+    double *update;
+    double *D;         /* width pivots */
+    double *magnitude; /* 8 a tile: what each diagonal entry was made of, in absolute value */
+    double *inverse;   /* 16 a column tile: 1/d, or 0 first where they are out of range; -sign d */
+} sli_front;
+
+/* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On
+ * entry panel and update hold A and what the children hand over, magnitude their absolute values. At
+ * the end the panel holds L, D the pivots, update has lost L D L'; magnitude is that of the pivot in
+ * the rows of the panel and has gained |L D L'| in the others. Every row tile goes its own way, so
+ * that row tiles may be shared out. Null pivots are the caller's to find. */
+
+/* A group's row tiles of pivots. */
+typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch);
+
+/* A group's row tiles t0 .. t1-1, all below its pivots. */
+typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                double *scratch);
+
+/* Row tiles t0 .. t1-1 of the update matrix, all in or below the last tile of pivots. */
+typedef void (*sli_update_kernel)(const sli_front *f, sl_int t0, sl_int t1, double *scratch);
+
+/* Adds rows first .. last-1 of the update matrix of a child of some width to its parent's front; places: the local row in the parent of each of the child's rows below, ascending.
+ * No two calls for one front may run at once on rows of one tile. */
+typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int from_width,
+                                    const sl_int *places, sl_int first, sl_int last);
 
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
     sli_backward_kernel backward[SLI_LANES_COUNT];
     sli_row_kernel row;
-    sli_front_kernel front;
+    sli_pivots_kernel pivots;
+    sli_rows_kernel rows;
+    sli_update_kernel update;
     sli_assemble_kernel assemble;
 } sli_kernels;
 

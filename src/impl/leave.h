@@ -4,6 +4,7 @@
 #undef SLI_INLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
+#undef SLI_ALIGNED
 #undef SLI_ASSERT
 #undef SLI_ALIGN
 #undef SLI_TAKE
@@ -19,7 +20,8 @@
 #undef SLI_LOW8
 #undef SLI_GROUP
 #undef SLI_CHUNK
-#undef SLI_FRONT_OWN
-#undef SLI_FRONT_SCRATCH
+#undef SLI_FRONT_INVERSE
+#undef SLI_TASKS_A_WORKER
+#undef SLI_SHARED_FLOPS
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY

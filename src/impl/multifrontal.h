@@ -1,62 +1,234 @@
-/* multifrontal.h: the supernodal factorization: front by front, every child handing its update matrix to its parent */
+/* multifrontal.h: the supernodal factorization: front by front, each handing its update matrix to its parent */
 #ifndef SLI_MULTIFRONTAL_H
 #define SLI_MULTIFRONTAL_H
 
 #include "factor_parts.h"
-#include "fronts.h"
 
-/* The front of supernode s: A, then what the children hand over, the last child first. */
-static sl_status sli_front_load(sl_factor *F, const sl_csc *A, sl_int s, double *update) {
+/* One call's worth of work for several workers: the subtrees that they do by themselves, then a front
+ * above them in which each takes some row tiles. */
+typedef struct sli_job {
+    sl_factor *F;
+    const sl_csc *A;
+    sl_int super, group; /* the front, and its group of column tiles */
+    sli_front front;
+} sli_job;
+
+/* A front of this many flops takes some 50 us, and is shared out at some 2 us a step. */
+#define SLI_SHARED_FLOPS 4e6
+
+static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+    const sli_step *step = &F->S->steps[s];
+    const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
+    sli_front f;
+    f.panel = F->L + step->panel;
+    f.width = step->width;
+    f.below = step->below;
+    f.update = F->waiting + F->schedule.waiting_begin[s];
+    f.D = F->D + step->column;
+    f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
+    f.inverse = F->inverse + (ptrdiff_t)worker * SLI_FRONT_INVERSE;
+    return f;
+}
+
+SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
+    return sli_tiles(f->width + f->below);
+}
+
+/* Clears row tiles t0 .. t1-1 of a front. */
+static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
+    const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
+    memset(f->panel + from, 0, (size_t)size * sizeof(double));
+    if (f->below > 0 && t1 > whole) {
+        const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+        memset(f->update + at, 0, (size_t)(end - at) * sizeof(double));
+    }
+}
+
+/* A's entries onto the cleared panel, and what its diagonal is made of so far. */
+static sl_status sli_front_load(sl_factor *F, const sl_csc *A, const sli_front *f, sl_int s,
+                                sli_failure *failure) {
+    const sl_status status = sli_panel_add(F, A, s, failure);
+    sl_int k;
+    for (k = 0; k < f->width; k++) {
+        f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
+    }
+    for (; k < SLI_TILE * sli_front_tiles(f); k++) {
+        f->magnitude[k] = 0.0;
+    }
+    return status;
+}
+
+/* What the children hand over to row tiles t0 .. t1-1, the last child first. */
+static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int t0,
+                               sl_int t1) {
     const sl_symbolic *S = F->S;
-    const sli_step *step = &S->steps[s];
-    const sl_int w = step->width, tiles = sli_tiles(w + step->below);
-    double *panel = F->L + step->panel;
-    const sl_status status = sli_panel_load(F, A, s);
-    sl_int k, c;
-    if (status != SL_OK) {
-        return status;
-    }
-    for (k = 0; k < w; k++) {
-        F->magnitude[k] = fabs(panel[sli_panel_at(w, k, k)]);
-    }
-    memset(F->magnitude + w, 0, (size_t)(SLI_TILE * tiles - w) * sizeof(double));
-    memset(update, 0, (size_t)sli_update_size(w, step->below) * sizeof(double));
+    sl_int c, k;
     for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
         const sl_int *places = S->places + S->rows_begin[c];
-        const double *from = F->waiting + S->waiting_begin[c];
-        const double *magnitude =
-            from + sli_update_size(child->width, child->below) + child->width % SLI_TILE;
-        F->kernels->assemble(from, child->width, child->below, places, panel, w, update);
-        for (k = 0; k < child->below; k++) {
-            F->magnitude[places[k]] += magnitude[k];
+        const double *from = F->waiting + F->schedule.waiting_begin[c];
+        const double *magnitude = from + child->width % SLI_TILE +
+                                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
+        const sl_int first = sli_lower_bound(places, child->below, SLI_TILE * t0);
+        const sl_int last = sli_lower_bound(places, child->below, SLI_TILE * t1);
+        F->kernels->assemble(f, from, child->width, places, first, last);
+        for (k = first; k < last; k++) {
+            f->magnitude[places[k]] += magnitude[k];
+        }
+    }
+}
+
+/* A finished front: its magnitudes go where the update matrix waits. A null pivot is a failure. */
+static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
+                                  sli_failure *failure) {
+    const sl_int first = F->S->steps[s].column, whole = f->width / SLI_TILE;
+    const sl_int tiles = sli_update_tiles(f->width, f->below);
+    sl_int k;
+    memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + SLI_TILE * (ptrdiff_t)whole,
+           SLI_TILE * (size_t)tiles * sizeof(double));
+    for (k = 0; k < f->width; k++) {
+        const sl_status status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+        if (status != SL_OK) {
+            return status;
         }
     }
     return SL_OK;
 }
 
-/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
-static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A) {
-    const sl_symbolic *S = F->S;
-    sl_status status = SL_OK;
-    sl_int s, k;
-    for (s = 0; s < S->n_supers && status == SL_OK; s++) {
-        const sli_step *step = &S->steps[s];
-        const sl_int w = step->width, whole = w / SLI_TILE * SLI_TILE;
-        double *update = F->waiting + S->waiting_begin[s];
-        status = sli_front_load(F, A, s, update);
-        if (status == SL_OK) {
-            F->kernels->front(F->L + step->panel, w, step->below, update, F->D + step->column,
-                              F->magnitude, F->buffer);
-            memcpy(update + sli_update_size(w, step->below), F->magnitude + whole,
-                   (size_t)(sli_waiting_size(step) - sli_update_size(w, step->below)) *
-                       sizeof(double));
+/* The whole of supernode s's front by one worker. */
+static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
+                                 sli_failure *failure) {
+    const sli_kernels *kernels = F->kernels;
+    const sli_front f = sli_front_of(F, s, worker);
+    const sl_int tiles = sli_front_tiles(&f), ends = sli_tiles(f.width);
+    double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+    sl_int c0;
+    sl_status status;
+    sli_front_clear(&f, 0, tiles);
+    status = sli_front_load(F, A, &f, s, failure);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_front_assemble(F, &f, s, 0, tiles);
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        kernels->pivots(&f, c0, scratch);
+        kernels->rows(&f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+    }
+    if (f.below > 0) {
+        kernels->update(&f, f.width / SLI_TILE, tiles, scratch);
+    }
+    return sli_front_finish(F, &f, s, failure);
+}
+
+/* Worker k's subtrees. A failure ends its subtree only: the first failure of all must be found. */
+static void sli_do_tasks(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sli_schedule *plan = &job->F->schedule;
+    sl_int m, s;
+    for (m = 0; m < plan->n_tasks; m++) {
+        sli_failure failure;
+        sl_status status = SL_OK;
+        if (plan->worker[m] != k) {
+            continue;
         }
-        for (k = 0; k < w && status == SL_OK; k++) {
-            status = sli_take_pivot(F, step->column + k, F->D[step->column + k], F->magnitude[k]);
+        for (s = plan->first[m]; s <= plan->last[m] && status == SL_OK; s++) {
+            status = sli_front_alone(job->F, job->A, s, k, &failure);
+            if (status != SL_OK) {
+                sli_keep_first_failure(&job->F->failures[k], &failure);
+            }
         }
     }
-    return status;
+}
+
+/* Row tiles of worker k: of first .. last-1 in equal parts, or, where the rows grow longer as in a
+ * triangle, in parts of equal area. */
+static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
+    const double share = (double)k / workers;
+    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
+}
+
+static void sli_shared_clear(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    sli_front_clear(&job->front, sli_part(0, tiles, k, workers, 1),
+                    sli_part(0, tiles, k + 1, workers, 1));
+}
+
+static void sli_shared_assemble(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    sli_front_assemble(job->F, &job->front, job->super, sli_part(0, tiles, k, workers, 1),
+                       sli_part(0, tiles, k + 1, workers, 1));
+}
+
+static void sli_shared_rows(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_factor *F = job->F;
+    const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    const sl_int c1 = sli_min(job->group + SLI_GROUP, sli_tiles(job->front.width));
+    F->kernels->rows(&job->front, job->group, sli_part(c1, tiles, k, workers, 0),
+                     sli_part(c1, tiles, k + 1, workers, 0),
+                     F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
+}
+
+static void sli_shared_update(void *data, sl_int k) {
+    const sli_job *job = (const sli_job *)data;
+    const sl_factor *F = job->F;
+    const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
+    const sl_int whole = job->front.width / SLI_TILE;
+    F->kernels->update(&job->front, sli_part(whole, tiles, k, workers, 1),
+                       sli_part(whole, tiles, k + 1, workers, 1),
+                       F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
+}
+
+/* The whole of a front by all workers. */
+static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
+    sl_factor *F = job->F;
+    const sl_threads *threads = &F->threads;
+    const sl_int workers = F->schedule.workers;
+    sl_status status;
+    job->front = sli_front_of(F, job->super, 0);
+    sli_parallel(threads, workers, sli_shared_clear, job);
+    status = sli_front_load(F, job->A, &job->front, job->super, failure);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_parallel(threads, workers, sli_shared_assemble, job);
+    for (job->group = 0; job->group < sli_tiles(job->front.width); job->group += SLI_GROUP) {
+        F->kernels->pivots(&job->front, job->group, F->buffer);
+        sli_parallel(threads, workers, sli_shared_rows, job);
+    }
+    if (job->front.below > 0) {
+        sli_parallel(threads, workers, sli_shared_update, job);
+    }
+    return sli_front_finish(F, &job->front, job->super, failure);
+}
+
+/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
+static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+    const sli_schedule *plan = &F->schedule;
+    sli_job job;
+    sl_int m, k;
+    memset(&job, 0, sizeof job);
+    job.F = F;
+    job.A = A;
+    for (k = 0; k < plan->workers; k++) {
+        F->failures[k].status = SL_OK;
+    }
+    sli_parallel(&F->threads, plan->workers, sli_do_tasks, &job);
+    for (k = 0; k < plan->workers; k++) {
+        sli_keep_first_failure(failure, &F->failures[k]);
+    }
+    for (m = 0; m < plan->n_tops && failure->status == SL_OK; m++) {
+        job.super = plan->top[m];
+        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
+            (void)sli_front_shared(&job, failure);
+        } else {
+            (void)sli_front_alone(F, A, job.super, 0, failure);
+        }
+    }
+    return failure->status;
 }
 
 #endif

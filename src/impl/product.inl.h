@@ -79,13 +79,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
     }
 }
 
-/* Tiles of the lower triangle: rows c0 .. tiles-1, columns c0 .. c1-1, lose L D L' over the panel's
- * columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
- * + 64 (c - target_first), and has columns up to last_column. Taken in chunks of columns j, so that
+/* Tiles of the lower triangle, row tiles t0 .. t1-1 and column tiles c0 .. c1-1 (t0 >= c0), lose
+ * L D L' over the panel's columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
+ * + 64 (c - target_first). Taken in chunks of columns j, so that
  * what a row tile needs stays in the first cache and what the group of column tiles needs in the
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                                           sl_int tiles, sl_int c0, sl_int c1, sl_int j0, sl_int j1,
+                                           sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
+                                           sl_int j1,
                                            double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
@@ -96,11 +97,11 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
                            B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
-        for (t = c0; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
             double *C = target + sli_tile_offset(target_width, t - target_first);
 #if SLV_TILES == 2
-            const int is_pair = t + 1 < tiles;
+            const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
             double *C1 =

@@ -18,6 +18,20 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
     return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
+/* How many of count ascending numbers are below a bound. */
+static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
+    sl_int low = 0, high = count;
+    while (low < high) {
+        const sl_int middle = low + (high - low) / 2;
+        if (a[middle] < bound) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 #define SLI_SORT_SMALL                                                                             \
     48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
 

@@ -63,7 +63,6 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->steps = SLI_TAKE(b, sli_step, supers);
     S->descendant = SLI_TAKE(b, sl_int, supers);
     S->places = SLI_TAKE(b, sl_int, rows);
-    S->waiting_begin = SLI_TAKE(b, sl_off, supers);
     S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->map_from = SLI_TAKE(b, sl_int, entries);
     S->map_to = SLI_TAKE(b, sl_off, entries);
@@ -138,7 +137,6 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_fill_steps(S);
     sli_fill_descendants(S);
     sli_fill_places(S, w->scratch);
-    sli_fill_waiting(S, w->scratch);
     sli_analyse_stats(S, w->scratch, stats);
 }
 

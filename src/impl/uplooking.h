@@ -45,31 +45,32 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
 }
 
 /* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
-static sl_status sli_uplooking(sl_factor *F, const sl_csc *A) {
+static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k;
-    if (S->n > 0) {
-        memset(F->x, 0, (size_t)S->n * sizeof(double));
-    }
     for (k = 0; k < S->n; k++) {
         F->head[k] = -1;
+        F->x[k] = 0.0;
     }
     for (k = 0; k < S->n && status == SL_OK; k++) {
         const sl_int s = S->super_of[k], q = k - S->super_first[s];
-        double *diagonal, pivot, magnitude;
+        double *panel = F->L + S->panel_begin[s], *diagonal, pivot, magnitude;
         if (q == 0) {
-            status = sli_panel_load(F, A, s);
+            const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+            memset(panel, 0, (size_t)size * sizeof(double));
+            status = sli_panel_add(F, A, s, failure);
             if (status != SL_OK) {
                 break;
             }
         }
-        diagonal = F->L + S->panel_begin[s] + sli_panel_at(S->steps[s].width, q, q);
+        diagonal = panel + sli_panel_at(S->steps[s].width, q, q);
         pivot = *diagonal;
         magnitude = fabs(pivot);
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
-        status = sli_take_pivot(F, k, pivot, magnitude);
+        F->D[k] = pivot;
+        status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
             sli_wait_for_row(F, s);
