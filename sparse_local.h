@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: d9d4cc4dc5c836f4
+ * FNV-1a of all that follows this comment, license aside: 78880030b95b5709
  *
  * Contents
  *         (what a user reads)
@@ -13,49 +13,49 @@
  *    583  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    659  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    726  impl/status.h              status codes in words, and the error fields of stats
- *    782  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    879  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    940  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    660  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    727  impl/status.h              status codes in words, and the error fields of stats
+ *    783  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    880  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    941  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    978  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1080  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1125  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1155  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1723  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1768  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1947  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1971  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2019  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2428  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2807  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3625  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4479  impl/select.h              the kernel table for an instruction set
+ *    979  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1081  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1126  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1156  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1724  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1769  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1948  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1972  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2020  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2429  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2808  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3626  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4480  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4512  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4929  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5002  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4513  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4930  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5003  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5356  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5393  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5525  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5611  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5752  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5837  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5910  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6070  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6146  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6420  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5357  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5394  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5526  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5612  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5753  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5838  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5911  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6071  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6147  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6421  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6563  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6713  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6936  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   6992  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7201  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7241  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6584  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6734  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   6957  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7013  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7222  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7262  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7543  impl/leave.h               takes every internal macro away again
+ *   7564  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -597,7 +597,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
- *  Cost     O(nb + nx + rows of the supernodes reached), nothing O(n); the same number of 4-byte integers kept.
+ *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
+ *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
  *  Threads  reads S; the plan is immutable and may be shared.
  *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
  *  Example  tests/test_plan.c
@@ -6506,17 +6507,36 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     }
 }
 
+/* The last of the steps low..high that starts at or before a row; one does. Steps ascend. */
+SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high, sl_int row) {
+    while (low < high) {
+        const sl_int middle = low + (high - low + 1) / 2;
+        if (steps[middle].column <= row) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+#define SLI_CLIMB 8 /* ancestors that cost about what a look-up among a few thousand steps costs */
+
 /* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
- */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at,
+ * The owner of the next row is mostly a few ancestors up; where it is not, climbing on would make a
+ * tree of one long branch quadratic, so that it is looked up among all `count` steps. */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int count, sl_int at,
                              sl_int *places) {
     const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
     const sl_int below = steps[at].below;
     sl_int i = 0;
     while (i < below) {
-        sl_int end, shift;
-        at = steps[at].up;
-        end = steps[at].column + sli_step_columns(&steps[at]);
+        sl_int end, shift, climbed = 0;
+        do {
+            at = climbed++ < SLI_CLIMB ? steps[at].up
+                                       : sli_reach_find(steps, at + 1, count - 1, rows[i]);
+            end = steps[at].column + sli_step_columns(&steps[at]);
+        } while (rows[i] >= end);
         shift = steps[at].base - steps[at].column;
         for (; i < below && rows[i] < end; i++) {
             places[i] = rows[i] + shift;
@@ -6524,7 +6544,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach). */
+/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows skip
+ * ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
@@ -6550,7 +6571,7 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
                           (sli_tiles(step->width + step->below) - step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, at, rows + placed);
+        sli_reach_places(S, steps, R->count, at, rows + placed);
         placed += steps[at].below;
     }
     R->steps = steps;
@@ -7562,6 +7583,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_LOW8
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
+#undef SLI_CLIMB
 /* end src/impl/leave.h */
 #endif
 

@@ -91,6 +91,14 @@ static inline void gen_edges_path(gen_list_t *t, uint64_t *state) {
     }
 }
 
+/* the path over the first m rows, closed to a ring */
+static inline void gen_edges_ring(gen_list_t *t, sl_int m, uint64_t *state) {
+    for (sl_int k = 1; k < m; k++) {
+        gen_add(t, k, k - 1, gen_real(state));
+    }
+    gen_add(t, m - 1, 0, gen_real(state));
+}
+
 /* row c is tied to all the others */
 static inline void gen_edges_star(gen_list_t *t, sl_int c, uint64_t *state) {
     for (sl_int k = 0; k < t->n; k++) {

@@ -19,3 +19,4 @@
 #undef SLI_LOW8
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
+#undef SLI_CLIMB

@@ -16,7 +16,8 @@
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
- *  Cost     O(nb + nx + rows of the supernodes reached), nothing O(n); the same number of 4-byte integers kept.
+ *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
+ *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
  *  Threads  reads S; the plan is immutable and may be shared.
  *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
  *  Example  tests/test_plan.c
