@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 78880030b95b5709
+ * FNV-1a of all that follows this comment, license aside: 2dec0821eed1472a
  *
  * Contents
  *         (what a user reads)
@@ -16,46 +16,46 @@
  *    660  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
  *    727  impl/status.h              status codes in words, and the error fields of stats
  *    783  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    880  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    941  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    881  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    942  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    979  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1081  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1126  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1156  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1724  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1769  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1948  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1972  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2020  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2429  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2808  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3626  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4480  impl/select.h              the kernel table for an instruction set
+ *    980  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1082  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1127  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1157  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1725  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1770  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1949  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1973  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2021  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2430  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2809  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3627  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4481  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4513  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4930  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5003  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4514  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4931  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5004  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5357  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5394  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5526  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5612  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5753  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5838  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5911  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6071  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6147  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6421  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5358  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5395  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5527  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5613  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5754  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5839  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5912  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6072  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6148  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6422  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6584  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6734  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6957  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7013  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7222  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7262  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6585  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6735  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   6958  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7014  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7223  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7263  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7564  impl/leave.h               takes every internal macro away again
+ *   7565  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -842,14 +842,15 @@ typedef struct sli_block {
     int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. */
-SLI_INLINE void *sli_take(sli_block *b, size_t count, size_t size) {
+/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits: those
+ * of L may pass 2^32 where size_t has no more than that. */
+SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     size_t at = b->used, bytes;
     if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
         b->overflow = 1;
         return NULL;
     }
-    bytes = (count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     if (bytes > SIZE_MAX - b->used) {
         b->overflow = 1;
         return NULL;
@@ -873,7 +874,7 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 }
 
 /* Arrays of the two index types and of doubles, cut from a block. */
-#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (size_t)(count), sizeof(type)))
+#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 
 #endif
 /* end src/impl/alloc.h */
@@ -4792,7 +4793,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
             return status;
         }
         T = sl_matrix_view(transpose);
-        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
+        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
         status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);
@@ -6164,7 +6165,7 @@ typedef struct sli_analysis {
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
-    const size_t n = (size_t)rows;
+    const uint64_t n = (uint64_t)rows; /* 5 n may pass 2^32 */
     w->n = rows;
     w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
     w->rows.to = SLI_TAKE(b, sl_int, nnz);
@@ -7054,8 +7055,8 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
-    v->y = SLI_TAKE(b, double, (size_t)q->forward.columns *(size_t)lanes);
-    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (size_t)q->backward.columns *(size_t)lanes);
+    v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
+    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 

@@ -283,7 +283,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
             return status;
         }
         T = sl_matrix_view(transpose);
-        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
+        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
         status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);

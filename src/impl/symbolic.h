@@ -23,7 +23,7 @@ typedef struct sli_analysis {
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
-    const size_t n = (size_t)rows;
+    const uint64_t n = (uint64_t)rows; /* 5 n may pass 2^32 */
     w->n = rows;
     w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
     w->rows.to = SLI_TAKE(b, sl_int, nnz);
