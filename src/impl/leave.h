@@ -20,3 +20,4 @@
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
 #undef SLI_CLIMB
+#undef SLI_ZEROS_SMALL
