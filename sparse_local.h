@@ -1,61 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 192b04a5e84de4f7
+ * FNV-1a of all that follows this comment, license aside: e81d6ac4f4938ac3
  *
  * Contents
  *         (what a user reads)
  *     63  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    107  public/config.h            what a user may set before including the header, the version, and the integer types
- *    153  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    300  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    415  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    474  public/factor.h            the numbers: P A P' = L D L'
- *    541  public/solve.h             full solves, and the workspace that every solve writes to
- *    583  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    108  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    154  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    302  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    417  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    479  public/factor.h            the numbers: P A P' = L D L'
+ *    546  public/solve.h             full solves, and the workspace that every solve writes to
+ *    588  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    660  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    727  impl/status.h              status codes in words, and the error fields of stats
- *    783  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    881  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    942  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    665  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    732  impl/status.h              status codes in words, and the error fields of stats
+ *    788  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    886  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    947  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    980  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1082  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1127  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1157  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1725  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1770  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1949  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1973  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2021  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2430  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2809  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3627  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4481  impl/select.h              the kernel table for an instruction set
+ *    985  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1087  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1132  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1162  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1730  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1775  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1954  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1978  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2026  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2435  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2814  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3632  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4486  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4514  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4931  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5004  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4519  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4936  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5009  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5358  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5395  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5527  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5613  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5754  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5839  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5912  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6077  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6153  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6427  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5363  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5400  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5532  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5646  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5790  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5875  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5948  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6113  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6189  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6463  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6590  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6740  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6963  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7019  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7228  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7268  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6626  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6776  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   6999  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7055  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7264  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7304  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7570  impl/leave.h               takes every internal macro away again
+ *   7606  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -88,7 +88,8 @@
  *              a set of columns closed under parent.
  * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and
  *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements.
- *              Row numbers, also those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
+ *              Row numbers, also those in errors, are the caller's. The library itself never prints, never aborts
+ *              and has no mutable globals; what METIS does while it orders stands at sl_symbolic_create.
  * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
  *              solve on one factor, each with its own sl_work.
  *
@@ -236,7 +237,8 @@ typedef struct sl_options {
     const sl_int
         *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *
-        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default;
+                          its numbering and debug level are not read */
     sl_relaxation relaxation;
     sl_isa isa;
     double
@@ -426,12 +428,15 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
  *  stats  [out]  the symbolic group; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position);
- *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position),
+ *           metis_options that METIS would refuse; SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
- *  Threads  METIS_NodeND draws from rand() of the C library: with SL_ORDERING_METIS, calls in several threads at once
- *           are safe only if rand() is, and may then order differently from run to run.
+ *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS, or the default with it) it resets
+ *           rand() of the C library by srand() and draws from it, traps SIGABRT and SIGTERM of the whole process, and
+ *           prints a line if it runs out of memory. Calls in several threads at once are safe only if rand() is, and
+ *           may then order differently from run to run. Other orderings do nothing of this and run in any number of
+ *           threads.
  *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
  *  Example  tests/test_symbolic.c
  */
@@ -5533,6 +5538,33 @@ static uint64_t sli_fingerprint(const sl_csc *A) {
 
 #include <metis.h>
 
+/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does not
+ * read may be anything. -1 is METIS's own choice. */
+static int sli_metis_options_are_sound(const sl_int *wished) {
+    static const struct {
+        int option, low, high;
+    } sli_ranges[] = {
+        {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
+        {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
+        {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
+        {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
+        {METIS_OPTION_NITER, 1, INT32_MAX},
+        {METIS_OPTION_COMPRESS, 0, 1},
+        {METIS_OPTION_CCORDER, 0, 1},
+        {METIS_OPTION_PFACTOR, 0, INT32_MAX},
+        {METIS_OPTION_NSEPS, 1, INT32_MAX},
+        {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on one half may be empty, again and again */
+    };
+    size_t k;
+    for (k = 0; wished != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
+        const sl_int value = wished[sli_ranges[k].option];
+        if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* The component's graph as METIS wants it: its own numbering, no edge twice. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
                             const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
@@ -5590,6 +5622,7 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         options[k] = metis_options[k];
     }
     options[METIS_OPTION_NUMBERING] = 0;
+    options[METIS_OPTION_DBGLVL] = 0; /* anything else prints */
     result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
     if (result == METIS_OK) {
         for (k = 0; k < count;
@@ -5705,6 +5738,9 @@ static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, con
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
+    if (!sli_metis_options_are_sound(opt != NULL ? opt->metis_options : NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
     memset(&G, 0, sizeof G);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         G.n = A->n_cols;

@@ -85,7 +85,8 @@ typedef struct sl_options {
     const sl_int
         *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *
-        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default;
+                          its numbering and debug level are not read */
     sl_relaxation relaxation;
     sl_isa isa;
     double
