@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e81d6ac4f4938ac3
+ * FNV-1a of all that follows this comment, license aside: efa88b2ea26be291
  *
  * Contents
  *         (what a user reads)
@@ -34,28 +34,28 @@
  *   4486  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
  *   4519  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4936  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5009  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4939  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5012  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5363  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5400  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5532  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5646  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5790  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5875  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5948  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6113  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6189  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6463  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5366  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5403  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5535  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5649  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5793  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5878  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5951  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6116  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6192  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6466  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6626  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6776  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   6999  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7055  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7264  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7304  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6629  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6779  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7002  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7058  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7267  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7307  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7606  impl/leave.h               takes every internal macro away again
+ *   7609  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -373,7 +373,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
 
 /** Finds which triangle a square matrix stores, and that a matrix storing both has a symmetric pattern.
  *
- *  out    [out]  the triangle.
+ *  out    [out]  the triangle; on error untouched.
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
@@ -4782,16 +4782,16 @@ static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark
     return SL_OK;
 }
 
-/* The triangle of a checked square matrix. */
+/* The triangle of a checked square matrix; *out is left alone on error. */
 static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                                   sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
+    const sl_triangle found = sli_triangle_scan(A);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
     sl_int *mark;
     sl_status status = SL_OK;
-    *out = sli_triangle_scan(A);
-    if (*out == SL_TRIANGLE_BOTH) {
+    if (found == SL_TRIANGLE_BOTH) {
         pattern.x = NULL;
         status = sl_matrix_transpose(&transpose, &pattern, opt);
         if (status != SL_OK) {
@@ -4802,6 +4802,9 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
         status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);
+    }
+    if (status == SL_OK) {
+        *out = found;
     }
     return status;
 }

@@ -88,7 +88,7 @@ static void triangle_names_the_lonely_entry(void **state) {
     /* (2,0) has no mirror image, while (1,0) has */
     const sl_int p[4] = {0, 2, 3, 3}, i[3] = {1, 2, 0};
     sl_csc A = {3, 3, p, i, NULL};
-    sl_triangle found = SL_TRIANGLE_NONE;
+    sl_triangle found = SL_TRIANGLE_UPPER; /* neither is, and so it stays */
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&A, &found, NULL, &stats));
@@ -106,6 +106,7 @@ static void triangle_names_the_lonely_entry(void **state) {
     A.n_rows = 3;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_triangle(&A, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_triangle(NULL, &found, NULL, NULL));
+    assert_int_equal(found, SL_TRIANGLE_UPPER);
 }
 
 static void triangle_random_against_dense(void **state) {

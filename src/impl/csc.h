@@ -267,16 +267,16 @@ static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark
     return SL_OK;
 }
 
-/* The triangle of a checked square matrix. */
+/* The triangle of a checked square matrix; *out is left alone on error. */
 static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                                   sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
+    const sl_triangle found = sli_triangle_scan(A);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
     sl_int *mark;
     sl_status status = SL_OK;
-    *out = sli_triangle_scan(A);
-    if (*out == SL_TRIANGLE_BOTH) {
+    if (found == SL_TRIANGLE_BOTH) {
         pattern.x = NULL;
         status = sl_matrix_transpose(&transpose, &pattern, opt);
         if (status != SL_OK) {
@@ -287,6 +287,9 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
         status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);
+    }
+    if (status == SL_OK) {
+        *out = found;
     }
     return status;
 }

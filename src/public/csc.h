@@ -73,7 +73,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
 
 /** Finds which triangle a square matrix stores, and that a matrix storing both has a symmetric pattern.
  *
- *  out    [out]  the triangle.
+ *  out    [out]  the triangle; on error untouched.
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
