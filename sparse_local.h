@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: efa88b2ea26be291
+ * FNV-1a of all that follows this comment, license aside: 178af82860e495f1
  *
  * Contents
  *         (what a user reads)
@@ -7,55 +7,55 @@
  *    108  public/config.h            what a user may set before including the header, the version, and the integer types
  *    154  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
  *    302  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    417  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    479  public/factor.h            the numbers: P A P' = L D L'
- *    546  public/solve.h             full solves, and the workspace that every solve writes to
- *    588  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    418  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    480  public/factor.h            the numbers: P A P' = L D L'
+ *    547  public/solve.h             full solves, and the workspace that every solve writes to
+ *    589  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    665  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    732  impl/status.h              status codes in words, and the error fields of stats
- *    788  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    886  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    947  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    666  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    737  impl/status.h              status codes in words, and the error fields of stats
+ *    793  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    891  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    952  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    985  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1087  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1132  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1162  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1730  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1775  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1954  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1978  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2026  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2435  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2814  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3632  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4486  impl/select.h              the kernel table for an instruction set
+ *    990  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1092  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1137  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1167  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1735  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1780  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1959  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1983  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2031  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2440  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2819  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3637  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4491  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4519  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4939  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5012  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4524  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4947  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5020  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5366  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5403  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5535  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5649  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5793  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5878  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5951  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6116  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6192  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6466  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5374  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5411  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5543  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5657  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5801  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5886  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5959  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6124  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6200  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6474  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6629  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6779  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7002  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7058  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7267  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7307  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6637  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6787  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7010  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7066  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7275  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7315  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7609  impl/leave.h               takes every internal macro away again
+ *   7617  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -181,8 +181,8 @@ SL_API const char *sl_status_string(sl_status status);
  *  that stores both, the pattern must be symmetric and the LOWER triangle's values are the ones read.
  */
 typedef struct sl_csc {
-    sl_int n_rows;
-    sl_int n_cols;
+    sl_int n_rows;   /* 0 .. 2^31 - 8: more is SL_ERR_TOO_LARGE wherever a matrix is checked */
+    sl_int n_cols;   /* the same */
     const sl_int *p; /* n_cols + 1 positions, ascending, p[0] = 0 */
     const sl_int *i; /* p[n_cols] row indices in 0..n_rows-1 */
     const double *x; /* p[n_cols] values; NULL: pattern only (enough for sl_symbolic_create) */
@@ -312,7 +312,8 @@ typedef struct sl_work sl_work;         /* scratch of one thread */
  *  x      [in]   count values; NULL: a pattern without values.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  error_row, error_column of an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets, or than 2^31-8 rows or
+ *           columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
  *  Threads  any number on distinct outputs.
  */
@@ -704,6 +705,10 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #else
 #define SLI_ASSERT(condition) ((void)0)
 #endif
+
+/* Most rows or columns of a matrix: rounded up to whole tiles of 8 they fit an sl_int, and so does
+ * the n + 1 after a loop that includes n. */
+#define SLI_ROWS_MAX (INT32_MAX - 7)
 
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
     return a < b ? a : b;
@@ -4539,6 +4544,9 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
         return SL_ERR_ARGUMENT;
     }
+    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
     if (A->n_cols == 0) {
         return SL_OK;
     }
@@ -4719,7 +4727,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
     if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
         return SL_ERR_ARGUMENT;
     }
-    if (count > INT32_MAX) {
+    if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
         return SL_ERR_TOO_LARGE;
     }
     for (k = 0; k < count; k++) {
@@ -5192,7 +5200,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
             return SL_ERR_IO;
         }
-        if (size[k] > INT32_MAX - 1) {
+        if (size[k] > SLI_ROWS_MAX) {
             return SL_ERR_TOO_LARGE;
         }
     }
@@ -7614,6 +7622,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_ASSERT
+#undef SLI_ROWS_MAX
 #undef SLI_ALIGN
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL

@@ -56,6 +56,17 @@ static void check_names_what_is_malformed(void **state) {
     assert_int_equal(stats.error_column, 2);
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, NULL));
 
+    bad = good; /* the first size that is too large; p is not read */
+    bad.n_rows = INT32_MAX - 6;
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_csc_check(&bad, &stats));
+    bad.n_rows--;
+    SL_CHECK(sl_csc_check(&bad, &stats));
+    bad.n_cols = INT32_MAX - 6;
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_csc_check(&bad, &stats));
+    bad.n_rows = bad.n_cols = INT32_MAX;
+    sl_symbolic *S = NULL;
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_symbolic_create(&S, &bad, NULL, &stats));
+
     bad = good; /* a rectangle is fine here */
     bad.n_rows = 5;
     SL_CHECK(sl_csc_check(&bad, NULL));

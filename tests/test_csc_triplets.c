@@ -69,6 +69,9 @@ static void triplets_wrong_arguments(void **state) {
     const sl_int good[2] = {0, 1}, bad[2] = {0, 5}, negative[2] = {-1, 0};
     const double x[2] = {1, 1};
     sl_matrix *M = (sl_matrix *)(void *)&M;
+    counter_t counter = counter_make(); /* sizes are refused before memory is asked for */
+    sl_options no_memory = options_counted(&counter);
+    counter.fail_at = 0;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, bad, good, x, NULL, &stats));
@@ -83,6 +86,9 @@ static void triplets_wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, NULL, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, good, NULL, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(NULL, 2, 2, 2, good, good, x, NULL, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_matrix_from_triplets(&M, 2, INT32_MAX, 2, good, good, x, &no_memory, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_matrix_from_triplets(&M, INT32_MAX - 6, 2, 2, good, good, x, &no_memory, NULL));
+    SL_EXPECT(SL_ERR_MEMORY, sl_matrix_from_triplets(&M, INT32_MAX - 7, 2, 2, good, good, x, &no_memory, NULL));
     SL_EXPECT(SL_ERR_TOO_LARGE,
               sl_matrix_from_triplets(&M, 2, 2, (sl_off)INT32_MAX + 1, good, good, x, NULL, NULL));
     assert_null(M);

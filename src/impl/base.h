@@ -42,6 +42,10 @@
 #define SLI_ASSERT(condition) ((void)0)
 #endif
 
+/* Most rows or columns of a matrix: rounded up to whole tiles of 8 they fit an sl_int, and so does
+ * the n + 1 after a loop that includes n. */
+#define SLI_ROWS_MAX (INT32_MAX - 7)
+
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
     return a < b ? a : b;
 }

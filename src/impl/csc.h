@@ -24,6 +24,9 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
         return SL_ERR_ARGUMENT;
     }
+    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
     if (A->n_cols == 0) {
         return SL_OK;
     }
@@ -204,7 +207,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
     if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
         return SL_ERR_ARGUMENT;
     }
-    if (count > INT32_MAX) {
+    if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
         return SL_ERR_TOO_LARGE;
     }
     for (k = 0; k < count; k++) {

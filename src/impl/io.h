@@ -182,7 +182,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
             return SL_ERR_IO;
         }
-        if (size[k] > INT32_MAX - 1) {
+        if (size[k] > SLI_ROWS_MAX) {
             return SL_ERR_TOO_LARGE;
         }
     }

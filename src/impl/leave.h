@@ -5,6 +5,7 @@
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_ASSERT
+#undef SLI_ROWS_MAX
 #undef SLI_ALIGN
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL

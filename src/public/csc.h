@@ -12,7 +12,8 @@
  *  x      [in]   count values; NULL: a pattern without values.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  error_row, error_column of an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets, or than 2^31-8 rows or
+ *           columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
  *  Threads  any number on distinct outputs.
  */

@@ -29,8 +29,8 @@ SL_API const char *sl_status_string(sl_status status);
  *  that stores both, the pattern must be symmetric and the LOWER triangle's values are the ones read.
  */
 typedef struct sl_csc {
-    sl_int n_rows;
-    sl_int n_cols;
+    sl_int n_rows;   /* 0 .. 2^31 - 8: more is SL_ERR_TOO_LARGE wherever a matrix is checked */
+    sl_int n_cols;   /* the same */
     const sl_int *p; /* n_cols + 1 positions, ascending, p[0] = 0 */
     const sl_int *i; /* p[n_cols] row indices in 0..n_rows-1 */
     const double *x; /* p[n_cols] values; NULL: pattern only (enough for sl_symbolic_create) */
