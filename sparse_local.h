@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 178af82860e495f1
+ * FNV-1a of all that follows this comment, license aside: e6f73182c536fa24
  *
  * Contents
  *         (what a user reads)
@@ -34,28 +34,28 @@
  *   4491  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
  *   4524  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4947  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5020  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4948  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5021  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5374  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5411  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5543  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5657  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5801  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5886  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5959  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6124  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6200  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6474  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5375  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5412  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5544  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5658  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5802  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5887  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5960  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6125  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6201  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6475  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6637  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6787  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7010  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7066  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7275  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7315  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6638  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6788  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7011  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7067  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7276  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7316  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7617  impl/leave.h               takes every internal macro away again
+ *   7618  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -395,7 +395,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
  *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; it may be B itself (then
- *                         ldr = ldb) where backward_error is NULL.
+ *                         ldr = ldb) where backward_error is NULL; must not overlap X.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
  *                         0 where r = 0, NaN where r has one; may be NULL.
@@ -4919,7 +4919,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         return SL_OK;
     }
     if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
-        (sli_nnz(A) > 0 && A->x == NULL) || (backward_error != NULL && R == B)) {
+        (sli_nnz(A) > 0 && A->x == NULL) || R == X ||
+        (R == B && (backward_error != NULL || ldr != ldb))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = sli_triangle_scan(A);

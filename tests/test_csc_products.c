@@ -74,6 +74,15 @@ static void residual_and_backward_error(void **state) {
     assert_true(fabs(eta[1] - 0.5 / 8.0) < 1e-15); /* 0.5 / (4 * 1 + 4) */
     SL_CHECK(sl_csc_residual(&A, B, 2, NULL, X, 2, B, 2, 3)); /* in place of B */
     SAME_VALUES(B, wanted, 6);
+    /* one column upon another, the columns still to be read, or X, which every entry of A reads */
+    double apart[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const double kept[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, NULL, X, 2, apart, 3, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 3, NULL, X, 2, apart, 2, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, NULL, apart, 2, B, 2, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, eta, apart, 2, B, 2, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, eta, X, 2, apart, 2, 3));
+    SAME_VALUES(apart, kept, 9);
     X[1] = NAN;
     SL_CHECK(sl_csc_residual(&A, R, 2, eta, X, 2, B, 2, 1));
     assert_true(eta[0] != eta[0]);

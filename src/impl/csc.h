@@ -399,7 +399,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         return SL_OK;
     }
     if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
-        (sli_nnz(A) > 0 && A->x == NULL) || (backward_error != NULL && R == B)) {
+        (sli_nnz(A) > 0 && A->x == NULL) || R == X ||
+        (R == B && (backward_error != NULL || ldr != ldb))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = sli_triangle_scan(A);

@@ -95,7 +95,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
  *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; it may be B itself (then
- *                         ldr = ldb) where backward_error is NULL.
+ *                         ldr = ldb) where backward_error is NULL; must not overlap X.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
  *                         0 where r = 0, NaN where r has one; may be NULL.
