@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e6f73182c536fa24
+ * FNV-1a of all that follows this comment, license aside: dfc2ed3c67db17f2
  *
  * Contents
  *         (what a user reads)
@@ -34,28 +34,28 @@
  *   4491  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
  *   4524  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4948  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5021  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4950  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5023  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5375  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5412  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5544  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5658  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5802  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5887  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5960  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6125  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6201  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6475  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5377  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5414  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5546  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5660  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5804  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5889  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5962  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6127  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6203  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6477  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6638  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6788  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7011  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7067  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7276  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7316  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6640  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6790  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7013  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7069  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7278  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7318  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7618  impl/leave.h               takes every internal macro away again
+ *   7620  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -398,7 +398,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
  *                         ldr = ldb) where backward_error is NULL; must not overlap X.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
- *                         0 where r = 0, NaN where r has one; may be NULL.
+ *                         0 where r = 0, NaN where r has one or the denominator overflows; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
@@ -4869,10 +4869,20 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     return SL_OK;
 }
 
-/* The largest row sum of |A|, A symmetric; sums: n numbers of scratch. A NaN stays one. */
+/* The largest magnitude among n numbers, NaN if one is: fmax would pass over it. */
+static double sli_largest(const double *x, sl_int n) {
+    double largest = 0.0;
+    sl_int i;
+    for (i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
+        largest = size <= largest || largest != largest ? largest : size;
+    }
+    return largest;
+}
+
+/* The largest row sum of |A|, A symmetric, NaN if A has one; sums: n numbers of scratch. */
 static double sli_csc_norm(const sl_csc *A, double *sums) {
     const sl_triangle triangle = sli_triangle_scan(A);
-    double norm = 0.0;
     sl_int j, p;
     memset(sums, 0, (size_t)A->n_cols * sizeof(double));
     for (j = 0; j < A->n_cols; j++) {
@@ -4883,21 +4893,14 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
             }
         }
     }
-    for (j = 0; j < A->n_cols; j++) {
-        norm = sums[j] <= norm ? norm : sums[j];
-    }
-    return norm;
+    return sli_largest(sums, A->n_cols);
 }
 
-/* The largest magnitude among n numbers; fmax would hide a NaN, this keeps it. */
-static double sli_largest(const double *x, sl_int n) {
-    double largest = 0.0;
-    sl_int i;
-    for (i = 0; i < n; i++) {
-        const double size = fabs(x[i]);
-        largest = size <= largest || largest != largest ? largest : size;
-    }
-    return largest;
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0 that
+ * the quotient would be. */
+static double sli_backward_error(double r, double a, double x, double b) {
+    const double size = a * x + b;
+    return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
 }
 
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
@@ -4929,15 +4932,14 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     }
     for (r = 0; r < nrhs; r++) {
         const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
-        double *res = R + (size_t)r * ldr, largest;
+        double *res = R + (size_t)r * ldr;
         if (res != b) {
             memcpy(res, b, rows * sizeof(double));
         }
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
-            largest = sli_largest(res, n);
-            backward_error[r] =
-                largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+            backward_error[r] = sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n),
+                                                   sli_largest(b, n));
         }
     }
     return SL_OK;

@@ -95,6 +95,34 @@ static void residual_and_backward_error(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(NULL, R, 2, eta, X, 2, B, 2, 1));
 }
 
+/* What r is small against cannot be told once it is no number any more: the answer is NaN, and not 0. */
+static void backward_error_of_what_overflows(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 3, 4, 5}, i[5] = {0, 1, 2, 1, 2};
+    double x[5] = {1e308, 1e308, 1, 1e308, 1}, R[3], eta;
+    sl_csc A = {3, 3, p, i, x};
+    double X[3] = {1e-300, 0, 0}, B[3] = {1, 1, 1};
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1)); /* the row sum overflows */
+    assert_true(isfinite(R[0]) && R[0] != 0 && eta != eta);
+    x[0] = x[1] = x[3] = 1e200; /* ||A|| ||x|| overflows, what x meets in A does not */
+    X[0] = 0;
+    X[2] = 1e200;
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(isfinite(R[0]) && R[0] != 0 && eta != eta);
+    X[2] = 0;
+    B[0] = 0; /* r = b = 0: nothing is wrong with that */
+    B[1] = B[2] = 0;
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(eta == 0);
+    x[0] = NAN; /* the first row sum; the ones after it are numbers */
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(eta != eta);
+    x[0] = 1e200;
+    B[1] = INFINITY;
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(eta != eta);
+}
+
 static void residual_is_the_same_for_every_style(void **state) {
     (void)state;
     gen_list_t t = gen_make(GEN_RANDOM, 40, 0, 8);
@@ -121,6 +149,7 @@ int main(void) {
         cmocka_unit_test(multiply_reads_as_the_factorization_does),
         cmocka_unit_test(multiply_as_stored),
         cmocka_unit_test(residual_and_backward_error),
+        cmocka_unit_test(backward_error_of_what_overflows),
         cmocka_unit_test(residual_is_the_same_for_every_style),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -349,10 +349,20 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     return SL_OK;
 }
 
-/* The largest row sum of |A|, A symmetric; sums: n numbers of scratch. A NaN stays one. */
+/* The largest magnitude among n numbers, NaN if one is: fmax would pass over it. */
+static double sli_largest(const double *x, sl_int n) {
+    double largest = 0.0;
+    sl_int i;
+    for (i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
+        largest = size <= largest || largest != largest ? largest : size;
+    }
+    return largest;
+}
+
+/* The largest row sum of |A|, A symmetric, NaN if A has one; sums: n numbers of scratch. */
 static double sli_csc_norm(const sl_csc *A, double *sums) {
     const sl_triangle triangle = sli_triangle_scan(A);
-    double norm = 0.0;
     sl_int j, p;
     memset(sums, 0, (size_t)A->n_cols * sizeof(double));
     for (j = 0; j < A->n_cols; j++) {
@@ -363,21 +373,14 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
             }
         }
     }
-    for (j = 0; j < A->n_cols; j++) {
-        norm = sums[j] <= norm ? norm : sums[j];
-    }
-    return norm;
+    return sli_largest(sums, A->n_cols);
 }
 
-/* The largest magnitude among n numbers; fmax would hide a NaN, this keeps it. */
-static double sli_largest(const double *x, sl_int n) {
-    double largest = 0.0;
-    sl_int i;
-    for (i = 0; i < n; i++) {
-        const double size = fabs(x[i]);
-        largest = size <= largest || largest != largest ? largest : size;
-    }
-    return largest;
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0 that
+ * the quotient would be. */
+static double sli_backward_error(double r, double a, double x, double b) {
+    const double size = a * x + b;
+    return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
 }
 
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
@@ -409,15 +412,14 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     }
     for (r = 0; r < nrhs; r++) {
         const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
-        double *res = R + (size_t)r * ldr, largest;
+        double *res = R + (size_t)r * ldr;
         if (res != b) {
             memcpy(res, b, rows * sizeof(double));
         }
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
-            largest = sli_largest(res, n);
-            backward_error[r] =
-                largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+            backward_error[r] = sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n),
+                                                   sli_largest(b, n));
         }
     }
     return SL_OK;

@@ -98,7 +98,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
  *                         ldr = ldb) where backward_error is NULL; must not overlap X.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
- *                         0 where r = 0, NaN where r has one; may be NULL.
+ *                         0 where r = 0, NaN where r has one or the denominator overflows; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
