@@ -1,61 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: dfc2ed3c67db17f2
+ * FNV-1a of all that follows this comment, license aside: 2926eddb90d6173c
  *
  * Contents
  *         (what a user reads)
  *     63  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    108  public/config.h            what a user may set before including the header, the version, and the integer types
  *    154  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    302  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    418  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    480  public/factor.h            the numbers: P A P' = L D L'
- *    547  public/solve.h             full solves, and the workspace that every solve writes to
- *    589  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    303  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    420  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    482  public/factor.h            the numbers: P A P' = L D L'
+ *    549  public/solve.h             full solves, and the workspace that every solve writes to
+ *    591  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    666  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    737  impl/status.h              status codes in words, and the error fields of stats
- *    793  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    891  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    952  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    668  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    739  impl/status.h              status codes in words, and the error fields of stats
+ *    795  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    898  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    959  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    990  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1092  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1137  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1167  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1735  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1780  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1959  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1983  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2031  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2440  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2819  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3637  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4491  impl/select.h              the kernel table for an instruction set
+ *    997  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1099  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1144  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1174  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1742  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1787  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1966  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   1990  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2038  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2447  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2826  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3644  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4498  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4524  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4950  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5023  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4531  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4959  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5033  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5377  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5414  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5546  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5660  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5804  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5889  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5962  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6127  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6203  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6477  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5387  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5424  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5556  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5670  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5814  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5899  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5972  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6137  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6213  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6489  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6640  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6790  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7013  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7069  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7278  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7318  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6652  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6802  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7026  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7086  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7295  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7335  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7620  impl/leave.h               takes every internal macro away again
+ *   7637  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -224,7 +224,8 @@ typedef enum sl_isa {
     SL_ISA_NEON
 } sl_isa;
 
-/** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
+/** Memory for the objects. Both functions NULL: malloc and free; one alone is SL_ERR_ARGUMENT. Every object keeps a
+ *  copy. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
     void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
@@ -386,7 +387,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *  reading  [in]   SL_AS_SYMMETRIC: A square, read as the factorization does; SL_AS_STORED: any shape.
  *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X.
  *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
- *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted (sl_csc_check).  Cost  O(nnz nrhs).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT, an unknown reading too. The pattern is trusted (sl_csc_check).
+ *  Cost     O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                                 size_t ldy, const double *X, size_t ldx,
@@ -408,8 +410,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or unsymmetric where symmetry is claimed; SL_ERR_IO;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, an unknown reading; SL_ERR_PATTERN: malformed, or unsymmetric where
+ *           symmetry is claimed; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 
@@ -430,8 +432,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
  *  stats  [out]  the symbolic group; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position),
- *           metis_options that METIS would refuse; SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           an unknown ordering or relaxation, metis_options that METIS would refuse; SL_ERR_PATTERN;
+ *           SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
  *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS, or the default with it) it resets
  *           rand() of the C library by srand() and draws from it, traps SIGABRT and SIGTERM of the whole process, and
@@ -805,6 +807,11 @@ SLI_INLINE void *sli_malloc_default(void *context, size_t bytes) {
 SLI_INLINE void sli_free_default(void *context, void *block) {
     (void)context;
     free(block);
+}
+
+/* Whether the caller gives both functions of an allocator, or none. */
+SLI_INLINE int sli_allocator_is_whole(const sl_options *opt) {
+    return opt == NULL || (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
 }
 
 /* The caller's allocator, or malloc and free. */
@@ -4724,7 +4731,8 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
+    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL)) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
@@ -4747,7 +4755,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sl_csc_check(A, NULL);
+    status = sli_allocator_is_whole(opt) ? sl_csc_check(A, NULL) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }
@@ -4823,7 +4831,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     if (status != SL_OK) {
         return status;
     }
-    if (out == NULL || A->n_rows != A->n_cols) {
+    if (out == NULL || A->n_rows != A->n_cols || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     return sli_csc_triangle(A, out, opt, stats);
@@ -4851,7 +4859,8 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                  const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
-    if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+    if (A == NULL || nrhs < 0 || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
+        (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
         return SL_ERR_ARGUMENT;
     }
     if (nrhs == 0 || A->n_rows == 0) {
@@ -4996,7 +5005,8 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL)) {
+    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -5241,7 +5251,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (text == NULL) {
+    if (text == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     r.at = text;
@@ -5291,7 +5301,7 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (path == NULL) {
+    if (path == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "rb");
@@ -5359,7 +5369,7 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
     if (status != SL_OK) {
         return status;
     }
-    if (path == NULL) {
+    if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "wb");
@@ -6414,7 +6424,9 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols) {
+    if (A->n_rows != A->n_cols || !sli_allocator_is_whole(opt) ||
+        (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
+         opt->relaxation != SL_RELAXATION_NONE)) {
         return SL_ERR_ARGUMENT;
     }
     memset(&w, 0, sizeof w);
@@ -6875,7 +6887,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance)) {
+    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_factor_check(S, A);
@@ -6980,7 +6993,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL) {
+    if (F == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     if (!F->is_good) {
@@ -7040,6 +7053,10 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
 SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (!sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
@@ -7459,7 +7476,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sli_check_sets(S, bset, nb, xset, nx);
+    status = sli_allocator_is_whole(opt) ? sli_check_sets(S, bset, nb, xset, nx) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }

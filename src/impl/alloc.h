@@ -17,6 +17,11 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
     free(block);
 }
 
+/* Whether the caller gives both functions of an allocator, or none. */
+SLI_INLINE int sli_allocator_is_whole(const sl_options *opt) {
+    return opt == NULL || (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
+}
+
 /* The caller's allocator, or malloc and free. */
 SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     sl_allocator a;

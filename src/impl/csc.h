@@ -204,7 +204,8 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
+    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL)) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
@@ -227,7 +228,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sl_csc_check(A, NULL);
+    status = sli_allocator_is_whole(opt) ? sl_csc_check(A, NULL) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }
@@ -303,7 +304,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     if (status != SL_OK) {
         return status;
     }
-    if (out == NULL || A->n_rows != A->n_cols) {
+    if (out == NULL || A->n_rows != A->n_cols || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     return sli_csc_triangle(A, out, opt, stats);
@@ -331,7 +332,8 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                  const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
-    if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+    if (A == NULL || nrhs < 0 || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
+        (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
         return SL_ERR_ARGUMENT;
     }
     if (nrhs == 0 || A->n_rows == 0) {

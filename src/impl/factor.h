@@ -91,7 +91,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance)) {
+    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_factor_check(S, A);
@@ -196,7 +197,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL) {
+    if (F == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     if (!F->is_good) {

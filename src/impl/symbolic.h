@@ -217,7 +217,9 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols) {
+    if (A->n_rows != A->n_cols || !sli_allocator_is_whole(opt) ||
+        (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
+         opt->relaxation != SL_RELAXATION_NONE)) {
         return SL_ERR_ARGUMENT;
     }
     memset(&w, 0, sizeof w);

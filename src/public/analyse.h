@@ -14,8 +14,8 @@
  *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
  *  stats  [out]  the symbolic group; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position),
- *           metis_options that METIS would refuse; SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           an unknown ordering or relaxation, metis_options that METIS would refuse; SL_ERR_PATTERN;
+ *           SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
  *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS, or the default with it) it resets
  *           rand() of the C library by srand() and draws from it, traps SIGABRT and SIGTERM of the whole process, and

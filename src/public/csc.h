@@ -86,7 +86,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *  reading  [in]   SL_AS_SYMMETRIC: A square, read as the factorization does; SL_AS_STORED: any shape.
  *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X.
  *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
- *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted (sl_csc_check).  Cost  O(nnz nrhs).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT, an unknown reading too. The pattern is trusted (sl_csc_check).
+ *  Cost     O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                                 size_t ldy, const double *X, size_t ldx,
@@ -108,8 +109,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or unsymmetric where symmetry is claimed; SL_ERR_IO;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, an unknown reading; SL_ERR_PATTERN: malformed, or unsymmetric where
+ *           symmetry is claimed; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 

@@ -72,7 +72,8 @@ typedef enum sl_isa {
     SL_ISA_NEON
 } sl_isa;
 
-/** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
+/** Memory for the objects. Both functions NULL: malloc and free; one alone is SL_ERR_ARGUMENT. Every object keeps a
+ *  copy. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
     void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
