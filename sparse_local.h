@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 2926eddb90d6173c
+ * FNV-1a of all that follows this comment, license aside: b7415c7a3bd8e8f2
  *
  * Contents
  *         (what a user reads)
@@ -49,13 +49,13 @@
  *   6489  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
  *   6652  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6802  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7026  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7086  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7295  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7335  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6804  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7028  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7088  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7297  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7337  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7637  impl/leave.h               takes every internal macro away again
+ *   7639  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6749,7 +6749,9 @@ static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double mag
     if (!sli_is_finite(pivot)) {
         return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
     }
-    if (size == 0.0 || size <= F->null_tolerance * magnitude) {
+    /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
+    if (size == 0.0 ||
+        (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
         stats->null++;
         return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
     }
