@@ -1,61 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: b7415c7a3bd8e8f2
+ * FNV-1a of all that follows this comment, license aside: abbd0545662b430b
  *
  * Contents
  *         (what a user reads)
  *     63  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    108  public/config.h            what a user may set before including the header, the version, and the integer types
- *    154  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    303  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    420  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    482  public/factor.h            the numbers: P A P' = L D L'
- *    549  public/solve.h             full solves, and the workspace that every solve writes to
- *    591  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    157  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    306  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    426  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    488  public/factor.h            the numbers: P A P' = L D L'
+ *    557  public/solve.h             full solves, and the workspace that every solve writes to
+ *    606  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    668  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    739  impl/status.h              status codes in words, and the error fields of stats
- *    795  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    898  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    959  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    685  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    761  impl/status.h              status codes in words, and the error fields of stats
+ *    817  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    920  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    981  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *    997  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1099  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1144  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1174  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1742  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1787  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   1966  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   1990  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2038  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2447  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   2826  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   3644  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   4498  impl/select.h              the kernel table for an instruction set
+ *   1019  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1121  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1166  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1196  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1764  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1809  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   1988  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2012  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2060  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   2469  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   2848  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   3666  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   4520  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   4531  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   4959  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5033  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   4553  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   4981  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   5055  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5387  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5424  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5556  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5670  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5814  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5899  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5972  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   6137  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   6213  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   6489  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   5409  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5446  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5578  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5692  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5836  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5921  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5994  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   6159  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   6235  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   6511  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   6652  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6804  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7028  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7088  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   7297  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   7337  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   6674  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   6826  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7050  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7110  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   7319  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   7359  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   7639  impl/leave.h               takes every internal macro away again
+ *   7661  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -119,6 +119,9 @@
  *  SL_STATIC                     everything static: private copy of the library in one source file.
  *  SL_NO_METIS                   build without METIS: natural and given orderings only.
  *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
+ *
+ * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity
+ * away: they refuse that with an #error. Files that only include the declarations may use what they like.
  */
 #define SL_VERSION_MAJOR 0
 #define SL_VERSION_MINOR 1
@@ -344,7 +347,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
 
 /** The transpose of a stored matrix (SL_AS_STORED); rows come out ascending, duplicates stay.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n_rows + n_cols + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n_rows + n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
                                                     const sl_options *opt);
@@ -354,7 +358,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  A matrix that stores one triangle gives the lower triangle of C; one that stores both gives both.
  *
  *  perm   [in]   n entries, a permutation of 0..n-1.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
@@ -369,7 +373,9 @@ SL_API void sl_matrix_free(sl_matrix *M);
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
  *  stats  [out]  error_column and, for an index out of range, error_row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN.  Cost  O(n_cols + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more rows or
+ *           columns than sl_csc allows.
+ *  Cost     O(n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
 
@@ -377,7 +383,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *
  *  out    [out]  the triangle; on error untouched.
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
                                                 const sl_options *opt, sl_stats *stats);
@@ -496,7 +502,7 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
  *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
- *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_MEMORY.
+ *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_TOO_LARGE: L is beyond size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2); nnz_panels doubles kept.
  *  Threads  any number at once on one S.
  *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
@@ -509,7 +515,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
 /** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
  *
  *  F      [in,out]  on error F holds no factor and every solve refuses it, until a refactor succeeds.
- *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY and SL_ERR_UNSUPPORTED aside.
+ *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY, SL_ERR_TOO_LARGE and SL_ERR_UNSUPPORTED aside.
  *  Threads          nobody else may use F meanwhile.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
@@ -527,8 +533,10 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
 
-/** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
- *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
+/** L as a matrix in compressed columns, with its unit diagonal, rows ascending.
+ *
+ *  Its entries are the places of the panels that are not exactly zero: those that relaxation or padding fills with
+ *  zeros are left out, and so is an entry of L that came out as zero by cancellation.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
  */
@@ -563,10 +571,16 @@ SL_API void sl_work_free(sl_work *W);
 /** Bytes that a workspace holds now. */
 SL_API size_t sl_work_bytes(const sl_work *W);
 
-/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing. */
+/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs);
 
-/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing. */
+/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
 
 /** Solves A X = B.
@@ -575,9 +589,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
  *                (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of about two alone.
+ *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of two to three alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY: W had to grow and could not.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
+ *           could not.
  *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
@@ -602,9 +617,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  S      [in]   analysis of A, n columns; borrowed, must outlive the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order, none twice; NULL (with nb ignored): all n. b is 0 elsewhere.
  *  xset   [in]   nx rows of A in 0..n-1, any order, none twice; NULL (with nx ignored): all n.
+ *                An empty set is a pointer that is not NULL with nb or nx = 0; nothing is read there.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
  *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
  *  Threads  reads S; the plan is immutable and may be shared.
@@ -631,7 +647,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) flops a right-hand side; nothing O(n); no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -643,7 +660,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -669,6 +686,11 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 /* base.h: the system headers, everything that depends on the compiler, and small integer helpers */
 #ifndef SLI_BASE_H
 #define SLI_BASE_H
+
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) ||                                               \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "sparse_local.h: compile its bodies without -ffast-math, which takes the checks for NaN away"
+#endif
 
 #include <errno.h>
 #include <float.h>

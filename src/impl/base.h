@@ -4,6 +4,11 @@
 
 #include "../public/config.h"
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) ||                                               \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "sparse_local.h: compile its bodies without -ffast-math, which takes the checks for NaN away"
+#endif
+
 #include <errno.h>
 #include <float.h>
 #include <locale.h>

@@ -43,7 +43,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
 
 /** The transpose of a stored matrix (SL_AS_STORED); rows come out ascending, duplicates stay.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n_rows + n_cols + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n_rows + n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
                                                     const sl_options *opt);
@@ -53,7 +54,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  A matrix that stores one triangle gives the lower triangle of C; one that stores both gives both.
  *
  *  perm   [in]   n entries, a permutation of 0..n-1.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
@@ -68,7 +69,9 @@ SL_API void sl_matrix_free(sl_matrix *M);
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
  *  stats  [out]  error_column and, for an index out of range, error_row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN.  Cost  O(n_cols + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more rows or
+ *           columns than sl_csc allows.
+ *  Cost     O(n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
 
@@ -76,7 +79,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
  *
  *  out    [out]  the triangle; on error untouched.
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
                                                 const sl_options *opt, sl_stats *stats);
