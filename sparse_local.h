@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: abbd0545662b430b
+ * FNV-1a of all that follows this comment, license aside: 758c40fe72af262d
  *
  * Contents
  *         (what a user reads)
@@ -35,23 +35,23 @@
  *         (L2 storage)
  *   4553  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
  *   4981  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   5055  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   5054  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   5409  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   5446  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   5578  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   5692  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   5836  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   5921  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   5994  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   5408  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   5445  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   5577  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   5691  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   5835  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   5920  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   5993  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
  *   6159  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
  *   6235  impl/symbolic.h            the analysis, from the pattern of A to the places of L
  *   6511  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
  *   6674  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   6826  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   7050  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   7110  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   6825  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   7049  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   7109  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
  *   7319  impl/solve.h               full solves: the query in which everything is known and everything wanted
  *   7359  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
@@ -881,8 +881,8 @@ typedef struct sli_block {
     int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits: those
- * of L may pass 2^32 where size_t has no more than that. */
+/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits:
+ * those of L may pass 2^32 where size_t has no more than that. */
 SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     size_t at = b->used, bytes;
     if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
@@ -4927,8 +4927,8 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
     return sli_largest(sums, A->n_cols);
 }
 
-/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0 that
- * the quotient would be. */
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0
+ * that the quotient would be. */
 static double sli_backward_error(double r, double a, double x, double b) {
     const double size = a * x + b;
     return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
@@ -4969,8 +4969,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         }
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
-            backward_error[r] = sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n),
-                                                   sli_largest(b, n));
+            backward_error[r] =
+                sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
         }
     }
     return SL_OK;
@@ -5027,8 +5027,7 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) ||
-        !sli_allocator_is_whole(opt)) {
+    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -5584,8 +5583,8 @@ static uint64_t sli_fingerprint(const sl_csc *A) {
 
 #include <metis.h>
 
-/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does not
- * read may be anything. -1 is METIS's own choice. */
+/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does
+ * not read may be anything. -1 is METIS's own choice. */
 static int sli_metis_options_are_sound(const sl_int *wished) {
     static const struct {
         int option, low, high;
@@ -6038,14 +6037,15 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 }
 
 /* Most zeros of a group of up to 8 columns: on a path 28 of 44 places are, 0.64, and on 2D grids no
- * such group has more. Every group's places stay below 1 / (1 - 0.70) = 3.4 times its entries, also
+ * such group has more. Every group's places stay below 1 / (1 - 0.70) = 3.34 times its entries, also
  * where short columns hang on tall ones. */
 #define SLI_ZEROS_SMALL 0.70
 
 /* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not
  * their flops; the thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
 static int sli_may_merge(sl_int width, double z) {
-    return (width <= 8 && z < SLI_ZEROS_SMALL) || (width <= 16 && z < 0.30) || (width <= 48 && z < 0.15) || z < 0.05;
+    return (width <= 8 && z < SLI_ZEROS_SMALL) || (width <= 16 && z < 0.30) ||
+           (width <= 48 && z < 0.15) || z < 0.05;
 }
 
 /* Zeros that joining child c to p adds: c's columns grow to p's rows. */
@@ -6634,8 +6634,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows skip
- * ancestors. */
+/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows
+ * skip many ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
@@ -6772,8 +6772,7 @@ static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double mag
         return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
     }
     /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
-    if (size == 0.0 ||
-        (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
+    if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
         stats->null++;
         return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
     }
@@ -7152,7 +7151,8 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
     v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
-    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
+    v->x =
+        q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 

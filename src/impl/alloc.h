@@ -67,8 +67,8 @@ typedef struct sli_block {
     int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits: those
- * of L may pass 2^32 where size_t has no more than that. */
+/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits:
+ * those of L may pass 2^32 where size_t has no more than that. */
 SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     size_t at = b->used, bytes;
     if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {

@@ -378,8 +378,8 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
     return sli_largest(sums, A->n_cols);
 }
 
-/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0 that
- * the quotient would be. */
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0
+ * that the quotient would be. */
 static double sli_backward_error(double r, double a, double x, double b) {
     const double size = a * x + b;
     return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
@@ -420,8 +420,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         }
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
-            backward_error[r] = sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n),
-                                                   sli_largest(b, n));
+            backward_error[r] =
+                sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
         }
     }
     return SL_OK;

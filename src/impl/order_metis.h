@@ -9,8 +9,8 @@
 
 #include <metis.h>
 
-/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does not
- * read may be anything. -1 is METIS's own choice. */
+/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does
+ * not read may be anything. -1 is METIS's own choice. */
 static int sli_metis_options_are_sound(const sl_int *wished) {
     static const struct {
         int option, low, high;

@@ -126,8 +126,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows skip
- * ancestors. */
+/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows
+ * skip many ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;

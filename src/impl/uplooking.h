@@ -104,8 +104,7 @@ static sl_status sli_take_pivot(sl_factor *F, sl_int k, double pivot, double mag
         return sli_fail_at(stats, SL_ERR_NOT_FINITE, F->S->perm[k], -1, pivot);
     }
     /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
-    if (size == 0.0 ||
-        (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
+    if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
         stats->null++;
         return sli_fail_at(stats, SL_ERR_PIVOT, F->S->perm[k], -1, pivot);
     }
