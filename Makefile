@@ -15,7 +15,7 @@ ASK ?=
 MESH ?=
 ## FUZZ_SECONDS  how long each fuzzer runs
 FUZZ_SECONDS ?= 20
-## B        folder of everything that is built
+## B        folder of objects, test programs and the bench; what is the same for all of them stays in build
 B ?= build
 ## V        1 shows every command
 V ?=

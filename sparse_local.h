@@ -1,68 +1,68 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 114f217454af9f9c
+ * FNV-1a of all that follows this comment, license aside: 872841d1ce404b66
  *
  * Contents
  *         (what a user reads)
  *     70  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    114  public/config.h            what a user may set before including the header, the version, and the integer types
- *    160  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    328  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    443  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    502  public/factor.h            the numbers: P A P' = L D L'
- *    569  public/solve.h             full solves, and the workspace that every solve writes to
- *    611  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    115  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    164  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    334  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    454  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    516  public/factor.h            the numbers: P A P' = L D L'
+ *    585  public/solve.h             full solves, and the workspace that every solve writes to
+ *    634  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    687  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    756  impl/status.h              status codes in words, and the error fields of stats
- *    812  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    909  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    984  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1021  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    713  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    791  impl/status.h              status codes in words, and the error fields of stats
+ *    847  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    950  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1025  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1062  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1055  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1219  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1315  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1345  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1913  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1958  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2095  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   2304  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2487  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2522  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2625  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   3034  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3774  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   4969  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   6214  impl/select.h              the kernel table for an instruction set
+ *   1096  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1260  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1356  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1386  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1954  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1999  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2136  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   2345  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2528  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2563  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2666  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   3075  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3815  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   5010  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6255  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6247  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6664  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6737  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6288  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6716  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6789  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   7091  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   7130  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7262  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7348  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7489  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7574  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7647  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7807  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   7883  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *   7924  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *   8117  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8395  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7143  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7182  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7314  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7428  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7572  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7657  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7730  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7896  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   7972  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *   8013  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *   8206  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8486  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8538  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8654  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8735  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *   8969  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   9263  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9319  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9528  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9568  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8649  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8766  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8847  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *   9081  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   9382  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9442  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9652  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9692  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   9870  impl/leave.h               takes every internal macro away again
+ *   9994  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -95,7 +95,8 @@
  *              a set of columns closed under parent.
  * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and
  *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements.
- *              Row numbers, also those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
+ *              Row numbers, also those in errors, are the caller's. The library itself never prints, never aborts
+ *              and has no mutable globals; what METIS does while it orders stands at sl_symbolic_create.
  * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
  *              solve on one factor, each with its own sl_work.
  *
@@ -125,6 +126,9 @@
  *  SL_STATIC                     everything static: private copy of the library in one source file.
  *  SL_NO_METIS                   build without METIS: natural and given orderings only.
  *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
+ *
+ * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity
+ * away: they refuse that with an #error. Files that only include the declarations may use what they like.
  */
 #define SL_VERSION_MAJOR 0
 #define SL_VERSION_MINOR 1
@@ -187,8 +191,8 @@ SL_API const char *sl_status_string(sl_status status);
  *  that stores both, the pattern must be symmetric and the LOWER triangle's values are the ones read.
  */
 typedef struct sl_csc {
-    sl_int n_rows;
-    sl_int n_cols;
+    sl_int n_rows;   /* 0 .. 2^31 - 8: more is SL_ERR_TOO_LARGE wherever a matrix is checked */
+    sl_int n_cols;   /* the same */
     const sl_int *p; /* n_cols + 1 positions, ascending, p[0] = 0 */
     const sl_int *i; /* p[n_cols] row indices in 0..n_rows-1 */
     const double *x; /* p[n_cols] values; NULL: pattern only (enough for sl_symbolic_create) */
@@ -248,7 +252,8 @@ typedef struct sl_threads {
     void *context;       /* handed to run */
 } sl_threads;
 
-/** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
+/** Memory for the objects. Both functions NULL: malloc and free; one alone is SL_ERR_ARGUMENT. Every object keeps a
+ *  copy. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
     void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
@@ -261,7 +266,8 @@ typedef struct sl_options {
     const sl_int
         *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *
-        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default;
+                          its numbering and debug level are not read */
     sl_relaxation relaxation;
     sl_isa isa;
     sl_method method;
@@ -338,7 +344,8 @@ typedef struct sl_work sl_work;         /* scratch of one thread */
  *  x      [in]   count values; NULL: a pattern without values.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  error_row, error_column of an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets, or than 2^31-8 rows or
+ *           columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
  *  Threads  any number on distinct outputs.
  */
@@ -368,7 +375,8 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
 
 /** The transpose of a stored matrix (SL_AS_STORED); rows come out ascending, duplicates stay.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n_rows + n_cols + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n_rows + n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
                                                     const sl_options *opt);
@@ -378,7 +386,7 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
  *  A matrix that stores one triangle gives the lower triangle of C; one that stores both gives both.
  *
  *  perm   [in]   n entries, a permutation of 0..n-1.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
@@ -393,15 +401,17 @@ SL_API void sl_matrix_free(sl_matrix *M);
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
  *  stats  [out]  error_column and, for an index out of range, error_row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN.  Cost  O(n_cols + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more rows or
+ *           columns than sl_csc allows.
+ *  Cost     O(n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
 
 /** Finds which triangle a square matrix stores, and that a matrix storing both has a symmetric pattern.
  *
- *  out    [out]  the triangle.
+ *  out    [out]  the triangle; on error untouched.
  *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_MEMORY.  Cost  O(n + nnz).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.  Cost  O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
                                                 const sl_options *opt, sl_stats *stats);
@@ -411,7 +421,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *ou
  *  reading  [in]   SL_AS_SYMMETRIC: A square, read as the factorization does; SL_AS_STORED: any shape.
  *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X.
  *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
- *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted (sl_csc_check).  Cost  O(nnz nrhs).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT, an unknown reading too. The pattern is trusted (sl_csc_check).
+ *  Cost     O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                                 size_t ldy, const double *X, size_t ldx,
@@ -420,10 +431,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
  *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; it may be B itself (then
- *                         ldr = ldb) where backward_error is NULL.
+ *                         ldr = ldb) where backward_error is NULL; must not overlap X.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
  *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
- *                         0 where r = 0, NaN where r has one; may be NULL.
+ *                         0 where r = 0, NaN where r has one or the denominator overflows; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
@@ -433,8 +444,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or unsymmetric where symmetry is claimed; SL_ERR_IO;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, an unknown reading; SL_ERR_PATTERN: malformed, or unsymmetric where
+ *           symmetry is claimed; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 
@@ -454,12 +465,15 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
  *  stats  [out]  the symbolic group; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position);
- *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position),
+ *           an unknown ordering or relaxation, metis_options that METIS would refuse; SL_ERR_PATTERN;
+ *           SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
- *  Threads  METIS_NodeND draws from rand() of the C library: with SL_ORDERING_METIS, calls in several threads at once
- *           are safe only if rand() is, and may then order differently from run to run.
+ *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS, or the default with it) it resets
+ *           rand() of the C library by srand() and draws from it, traps SIGABRT and SIGTERM of the whole process, and
+ *           prints a line if it runs out of memory. Calls in several threads at once are safe only if rand() is, and
+ *           may then order differently from run to run. Other orderings do nothing of this and run in any number of
+ *           threads.
  *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
  *  Example  tests/test_symbolic.c
  */
@@ -516,7 +530,7 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
  *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
- *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_MEMORY.
+ *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_TOO_LARGE: L is beyond size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2); nnz_panels doubles kept.
  *  Threads  any number at once on one S.
  *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
@@ -529,7 +543,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
 /** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
  *
  *  F      [in,out]  on error F holds no factor and every solve refuses it, until a refactor succeeds.
- *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY and SL_ERR_UNSUPPORTED aside.
+ *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY, SL_ERR_TOO_LARGE and SL_ERR_UNSUPPORTED aside.
  *  Threads          nobody else may use F meanwhile.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
@@ -547,8 +561,10 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
 
-/** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
- *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
+/** L as a matrix in compressed columns, with its unit diagonal, rows ascending.
+ *
+ *  Its entries are the places of the panels that are not exactly zero: those that relaxation or padding fills with
+ *  zeros are left out, and so is an entry of L that came out as zero by cancellation.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
  */
@@ -583,10 +599,16 @@ SL_API void sl_work_free(sl_work *W);
 /** Bytes that a workspace holds now. */
 SL_API size_t sl_work_bytes(const sl_work *W);
 
-/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing. */
+/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs);
 
-/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing. */
+/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
 
 /** Solves A X = B.
@@ -595,9 +617,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
  *                (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of about two alone.
+ *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of two to three alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY: W had to grow and could not.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
+ *           could not.
  *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
@@ -622,10 +645,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  S      [in]   analysis of A, n columns; borrowed, must outlive the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order, none twice; NULL (with nb ignored): all n. b is 0 elsewhere.
  *  xset   [in]   nx rows of A in 0..n-1, any order, none twice; NULL (with nx ignored): all n.
+ *                An empty set is a pointer that is not NULL with nb or nx = 0; nothing is read there.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
- *  Cost     O(nb + nx + rows of the supernodes reached), nothing O(n); the same number of 4-byte integers kept.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
+ *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
  *  Threads  reads S; the plan is immutable and may be shared.
  *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
  *  Example  tests/test_plan.c
@@ -650,7 +675,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) flops a right-hand side; nothing O(n); no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -662,7 +688,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -688,6 +714,11 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 /* base.h: the system headers, everything that depends on the compiler, and small integer helpers */
 #ifndef SLI_BASE_H
 #define SLI_BASE_H
+
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) ||                                               \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "sparse_local.h: compile its bodies without -ffast-math, which takes the checks for NaN away"
+#endif
 
 #include <errno.h>
 #include <float.h>
@@ -728,6 +759,10 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #else
 #define SLI_ASSERT(condition) ((void)0)
 #endif
+
+/* Most rows or columns of a matrix: rounded up to whole tiles of 8 they fit an sl_int, and so does
+ * the n + 1 after a loop that includes n. */
+#define SLI_ROWS_MAX (INT32_MAX - 7)
 
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
     return a < b ? a : b;
@@ -826,6 +861,11 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
     free(block);
 }
 
+/* Whether the caller gives both functions of an allocator, or none. */
+SLI_INLINE int sli_allocator_is_whole(const sl_options *opt) {
+    return opt == NULL || (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
+}
+
 /* The caller's allocator, or malloc and free. */
 SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     sl_allocator a;
@@ -871,14 +911,15 @@ typedef struct sli_block {
     int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. */
-SLI_INLINE void *sli_take(sli_block *b, size_t count, size_t size) {
+/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits:
+ * those of L may pass 2^32 where size_t has no more than that. */
+SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     size_t at = b->used, bytes;
     if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
         b->overflow = 1;
         return NULL;
     }
-    bytes = (count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     if (bytes > SIZE_MAX - b->used) {
         b->overflow = 1;
         return NULL;
@@ -902,7 +943,7 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 }
 
 /* Arrays of the two index types and of doubles, cut from a block. */
-#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (size_t)(count), sizeof(type)))
+#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 
 #endif
 /* end src/impl/alloc.h */
@@ -6267,6 +6308,9 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
         return SL_ERR_ARGUMENT;
     }
+    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
     if (A->n_cols == 0) {
         return SL_OK;
     }
@@ -6444,10 +6488,11 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
+    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL)) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
-    if (count > INT32_MAX) {
+    if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
         return SL_ERR_TOO_LARGE;
     }
     for (k = 0; k < count; k++) {
@@ -6467,7 +6512,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sl_csc_check(A, NULL);
+    status = sli_allocator_is_whole(opt) ? sl_csc_check(A, NULL) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }
@@ -6510,26 +6555,29 @@ static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark
     return SL_OK;
 }
 
-/* The triangle of a checked square matrix. */
+/* The triangle of a checked square matrix; *out is left alone on error. */
 static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                                   sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
+    const sl_triangle found = sli_triangle_scan(A);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
     sl_int *mark;
     sl_status status = SL_OK;
-    *out = sli_triangle_scan(A);
-    if (*out == SL_TRIANGLE_BOTH) {
+    if (found == SL_TRIANGLE_BOTH) {
         pattern.x = NULL;
         status = sl_matrix_transpose(&transpose, &pattern, opt);
         if (status != SL_OK) {
             return status;
         }
         T = sl_matrix_view(transpose);
-        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
+        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
         status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);
+    }
+    if (status == SL_OK) {
+        *out = found;
     }
     return status;
 }
@@ -6540,7 +6588,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     if (status != SL_OK) {
         return status;
     }
-    if (out == NULL || A->n_rows != A->n_cols) {
+    if (out == NULL || A->n_rows != A->n_cols || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     return sli_csc_triangle(A, out, opt, stats);
@@ -6568,7 +6616,8 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                  const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
-    if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+    if (A == NULL || nrhs < 0 || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
+        (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
         return SL_ERR_ARGUMENT;
     }
     if (nrhs == 0 || A->n_rows == 0) {
@@ -6586,10 +6635,20 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     return SL_OK;
 }
 
-/* The largest row sum of |A|, A symmetric; sums: n numbers of scratch. A NaN stays one. */
+/* The largest magnitude among n numbers, NaN if one is: fmax would pass over it. */
+static double sli_largest(const double *x, sl_int n) {
+    double largest = 0.0;
+    sl_int i;
+    for (i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
+        largest = size <= largest || largest != largest ? largest : size;
+    }
+    return largest;
+}
+
+/* The largest row sum of |A|, A symmetric, NaN if A has one; sums: n numbers of scratch. */
 static double sli_csc_norm(const sl_csc *A, double *sums) {
     const sl_triangle triangle = sli_triangle_scan(A);
-    double norm = 0.0;
     sl_int j, p;
     memset(sums, 0, (size_t)A->n_cols * sizeof(double));
     for (j = 0; j < A->n_cols; j++) {
@@ -6600,21 +6659,14 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
             }
         }
     }
-    for (j = 0; j < A->n_cols; j++) {
-        norm = sums[j] <= norm ? norm : sums[j];
-    }
-    return norm;
+    return sli_largest(sums, A->n_cols);
 }
 
-/* The largest magnitude among n numbers; fmax would hide a NaN, this keeps it. */
-static double sli_largest(const double *x, sl_int n) {
-    double largest = 0.0;
-    sl_int i;
-    for (i = 0; i < n; i++) {
-        const double size = fabs(x[i]);
-        largest = size <= largest || largest != largest ? largest : size;
-    }
-    return largest;
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0
+ * that the quotient would be. */
+static double sli_backward_error(double r, double a, double x, double b) {
+    const double size = a * x + b;
+    return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
 }
 
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
@@ -6636,7 +6688,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         return SL_OK;
     }
     if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
-        (sli_nnz(A) > 0 && A->x == NULL) || (backward_error != NULL && R == B)) {
+        (sli_nnz(A) > 0 && A->x == NULL) || R == X ||
+        (R == B && (backward_error != NULL || ldr != ldb))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = sli_triangle_scan(A);
@@ -6645,15 +6698,14 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     }
     for (r = 0; r < nrhs; r++) {
         const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
-        double *res = R + (size_t)r * ldr, largest;
+        double *res = R + (size_t)r * ldr;
         if (res != b) {
             memcpy(res, b, rows * sizeof(double));
         }
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
-            largest = sli_largest(res, n);
             backward_error[r] =
-                largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+                sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
         }
     }
     return SL_OK;
@@ -6710,7 +6762,7 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL)) {
+    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -6917,7 +6969,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
             return SL_ERR_IO;
         }
-        if (size[k] > INT32_MAX - 1) {
+        if (size[k] > SLI_ROWS_MAX) {
             return SL_ERR_TOO_LARGE;
         }
     }
@@ -6955,7 +7007,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (text == NULL) {
+    if (text == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     r.at = text;
@@ -7005,7 +7057,7 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (path == NULL) {
+    if (path == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "rb");
@@ -7073,7 +7125,7 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
     if (status != SL_OK) {
         return status;
     }
-    if (path == NULL) {
+    if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "wb");
@@ -7268,6 +7320,33 @@ static uint64_t sli_fingerprint(const sl_csc *A) {
 
 #include <metis.h>
 
+/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does
+ * not read may be anything. -1 is METIS's own choice. */
+static int sli_metis_options_are_sound(const sl_int *wished) {
+    static const struct {
+        int option, low, high;
+    } sli_ranges[] = {
+        {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
+        {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
+        {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
+        {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
+        {METIS_OPTION_NITER, 1, INT32_MAX},
+        {METIS_OPTION_COMPRESS, 0, 1},
+        {METIS_OPTION_CCORDER, 0, 1},
+        {METIS_OPTION_PFACTOR, 0, INT32_MAX},
+        {METIS_OPTION_NSEPS, 1, INT32_MAX},
+        {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on one half may be empty, again and again */
+    };
+    size_t k;
+    for (k = 0; wished != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
+        const sl_int value = wished[sli_ranges[k].option];
+        if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* The component's graph as METIS wants it: its own numbering, no edge twice. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
                             const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
@@ -7325,6 +7404,7 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         options[k] = metis_options[k];
     }
     options[METIS_OPTION_NUMBERING] = 0;
+    options[METIS_OPTION_DBGLVL] = 0; /* anything else prints */
     result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
     if (result == METIS_OK) {
         for (k = 0; k < count;
@@ -7440,6 +7520,9 @@ static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, con
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
+    if (!sli_metis_options_are_sound(opt != NULL ? opt->metis_options : NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
     memset(&G, 0, sizeof G);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         G.n = A->n_cols;
@@ -7690,10 +7773,16 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     }
 }
 
+/* Most zeros of a group of up to 8 columns: on a path 28 of 44 places are, 0.64, and on 2D grids no
+ * such group has more. Every group's places stay below 1 / (1 - 0.70) = 3.34 times its entries, also
+ * where short columns hang on tall ones. */
+#define SLI_ZEROS_SMALL 0.70
+
 /* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not
  * their flops; the thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
 static int sli_may_merge(sl_int width, double z) {
-    return width <= 8 || (width <= 16 && z < 0.30) || (width <= 48 && z < 0.15) || z < 0.05;
+    return (width <= 8 && z < SLI_ZEROS_SMALL) || (width <= 16 && z < 0.30) ||
+           (width <= 48 && z < 0.15) || z < 0.05;
 }
 
 /* Zeros that joining child c to p adds: c's columns grow to p's rows. */
@@ -8134,7 +8223,7 @@ typedef struct sli_analysis {
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
-    const size_t n = (size_t)rows;
+    const uint64_t n = (uint64_t)rows; /* 5 n may pass 2^32 */
     w->n = rows;
     w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
     w->rows.to = SLI_TAKE(b, sl_int, nnz);
@@ -8332,7 +8421,9 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols) {
+    if (A->n_rows != A->n_cols || !sli_allocator_is_whole(opt) ||
+        (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
+         opt->relaxation != SL_RELAXATION_NONE)) {
         return SL_ERR_ARGUMENT;
     }
     memset(&w, 0, sizeof w);
@@ -8481,17 +8572,36 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     }
 }
 
+/* The last of the steps low..high that starts at or before a row; one does. Steps ascend. */
+SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high, sl_int row) {
+    while (low < high) {
+        const sl_int middle = low + (high - low + 1) / 2;
+        if (steps[middle].column <= row) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+#define SLI_CLIMB 8 /* ancestors that cost about what a look-up among a few thousand steps costs */
+
 /* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
- */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at,
+ * The owner of the next row is mostly a few ancestors up; where it is not, climbing on would make a
+ * tree of one long branch quadratic, so that it is looked up among all `count` steps. */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int count, sl_int at,
                              sl_int *places) {
     const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
     const sl_int below = steps[at].below;
     sl_int i = 0;
     while (i < below) {
-        sl_int end, shift;
-        at = steps[at].up;
-        end = steps[at].column + sli_step_columns(&steps[at]);
+        sl_int end, shift, climbed = 0;
+        do {
+            at = climbed++ < SLI_CLIMB ? steps[at].up
+                                       : sli_reach_find(steps, at + 1, count - 1, rows[i]);
+            end = steps[at].column + sli_step_columns(&steps[at]);
+        } while (rows[i] >= end);
         shift = steps[at].base - steps[at].column;
         for (; i < below && rows[i] < end; i++) {
             places[i] = rows[i] + shift;
@@ -8499,7 +8609,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach). */
+/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows
+ * skip many ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
@@ -8525,7 +8636,7 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
                           (sli_tiles(step->width + step->below) - step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, at, rows + placed);
+        sli_reach_places(S, steps, R->count, at, rows + placed);
         placed += steps[at].below;
     }
     R->steps = steps;
@@ -8629,6 +8740,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot,
     if (!sli_is_finite(pivot)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
+    /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
     if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
@@ -8974,12 +9086,12 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-    const size_t workers = (size_t)F->schedule.workers;
+    const uint64_t workers = (uint64_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
     if (F->method == SL_METHOD_SUPERNODAL) {
-        const size_t rows = SLI_TILE * (size_t)sli_tiles(S->tallest);
-        F->buffer = SLI_TAKE(b, double, workers *(size_t)sli_front_scratch(S->widest));
+        const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
+        F->buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
@@ -9098,6 +9210,12 @@ static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
+/* Are the method and the number of threads such as exist? */
+static int sli_way_is_known(const sl_options *opt) {
+    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           opt->threads.count >= 0);
+}
+
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     (void)S;
     return opt == NULL || opt->method == SL_METHOD_AUTO ? SL_METHOD_SUPERNODAL : opt->method;
@@ -9115,7 +9233,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance)) {
+    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
+        !sli_allocator_is_whole(opt) || !sli_way_is_known(opt)) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_factor_check(S, A);
@@ -9131,7 +9250,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.schedule.workers = 1;
     if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
         draft.threads = opt->threads;
-        draft.schedule.workers = sli_workers(&opt->threads);
+        draft.schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(S->n_supers, 1));
     }
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
@@ -9230,7 +9349,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL) {
+    if (F == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     if (!F->is_good) {
@@ -9290,6 +9409,10 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
 SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (!sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
@@ -9360,8 +9483,9 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
-    v->y = SLI_TAKE(b, double, (size_t)q->forward.columns *(size_t)lanes);
-    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (size_t)q->backward.columns *(size_t)lanes);
+    v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
+    v->x =
+        q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 
@@ -9709,7 +9833,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sli_check_sets(S, bset, nb, xset, nx);
+    status = sli_allocator_is_whole(opt) ? sli_check_sets(S, bset, nb, xset, nx) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }
@@ -9876,6 +10000,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_UNROLL
 #undef SLI_ALIGNED
 #undef SLI_ASSERT
+#undef SLI_ROWS_MAX
 #undef SLI_ALIGN
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
@@ -9895,6 +10020,8 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_SHARED_FLOPS
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
+#undef SLI_CLIMB
+#undef SLI_ZEROS_SMALL
 /* end src/impl/leave.h */
 #endif
 

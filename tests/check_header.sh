@@ -150,6 +150,12 @@ promise "SL_VERIFY" \
 promise "-O0 and -O3" \
     "$cc -O0 -I. $dir/one.c -o $dir/o0 $libs && $dir/o0 && $cc -O3 -I. $dir/one.c -o $dir/o3 $libs && $dir/o3"
 
+promise "-ffast-math refuses the bodies, not the declarations" \
+    "$cc -O1 -I. -ffast-math -fsyntax-only $dir/user.c && $cc -Ofast -I. -fsyntax-only $dir/user.c &&
+     for flag in -ffast-math -Ofast -ffinite-math-only; do
+         ! $cc -O1 -I. \$flag -fsyntax-only $dir/bodies.c 2>$dir/refused && grep -q 'NaN' $dir/refused || exit 1
+     done"
+
 # ---- C++ ----
 
 for compiler in $cxx clang++; do

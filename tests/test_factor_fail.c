@@ -234,6 +234,27 @@ static void an_overflow_on_the_way_is_named(void **state) {
     sl_symbolic_free(S);
 }
 
+/* 1e308 - 1e308 + 1e308: the magnitudes overflow, the pivot does not, and nothing of it was lost */
+static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 2, 1, 2, 2};
+    const double x[5] = {1, 1e154, -1, 1e154, 1e308};
+    sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    for (int k = 0; k < isas.count; k++) {
+        sl_factor *F = NULL;
+        opt.isa = isas.isa[k];
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+        assert_true(fabs(sl_factor_view(F).D[2] - 1e308) <= 1e293);
+        sl_factor_free(F);
+    }
+    sl_symbolic_free(S);
+}
+
 /* subnormal and huge scales: finite answers or a status, never a NaN inside a factor that claims to be good */
 static void extreme_scales(void **state) {
     (void)state;
@@ -333,6 +354,7 @@ int main(void) {
         cmocka_unit_test(null_tolerance_is_obeyed),
         cmocka_unit_test(not_finite_entries_are_named),
         cmocka_unit_test(an_overflow_on_the_way_is_named),
+        cmocka_unit_test(an_overflow_of_magnitudes_is_no_null_pivot),
         cmocka_unit_test(extreme_scales),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(stats_travel),

@@ -54,8 +54,11 @@ static sl_status permute(fixture_t *f, const sl_options *opt) {
 }
 
 static sl_status triangle(fixture_t *f, const sl_options *opt) {
-    sl_triangle found;
-    return sl_csc_triangle(&f->y.M.view, &found, opt, NULL);
+    const sl_triangle none = SL_TRIANGLE_NONE; /* a grid has edges */
+    sl_triangle found = none;
+    sl_status status = sl_csc_triangle(&f->y.M.view, &found, opt, NULL);
+    assert_true((found != none) == (status == SL_OK));
+    return status;
 }
 
 static sl_status symbolic_with(fixture_t *f, const sl_options *opt, sl_ordering ordering) {
@@ -338,11 +341,57 @@ static void objects_outlive_a_broken_allocator(void **state) {
     COUNTER_CLEAN(&counter);
 }
 
+/* Refuses what no test needs and remembers it. */
+static void *allocate_little(void *context, size_t bytes) {
+    size_t *refused = (size_t *)context;
+    if (bytes < (size_t)1 << 28) {
+        return malloc(bytes);
+    }
+    *refused = bytes;
+    return NULL;
+}
+
+static void release_little(void *context, void *block) {
+    (void)context;
+    free(block);
+}
+
+/* A star eliminated from its centre: L is dense, and its count of doubles, 2^32 + 194624, has 194624 in its lower 32
+ * bits. Where a size_t has no more than those, the factor is refused and not made that small. */
+static void a_count_beyond_32_bits_is_not_cut(void **state) {
+    (void)state;
+    size_t refused = 0;
+    sl_options opt = options_none();
+    gen_matrix_t M = gen_matrix(GEN_STAR, 92680, 1, 1);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.allocator.allocate = allocate_little;
+    opt.allocator.release = release_little;
+    opt.allocator.context = &refused;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
+    assert_int_equal(refused, 0);
+    assert_true(stats.nnz_panels == ((sl_off)1 << 32) + 194624);
+#if SIZE_MAX > 0xFFFFFFFFu
+    SL_EXPECT(SL_ERR_MEMORY, sl_factor_create(&F, S, &M.view, &opt, NULL));
+    assert_true(refused / sizeof(double) >= (size_t)stats.nnz_panels);
+#else
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_factor_create(&F, S, &M.view, &opt, NULL));
+    assert_int_equal(refused, 0);
+#endif
+    assert_null(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(reading_may_fail),
         cmocka_unit_test(objects_outlive_a_broken_allocator),
+        cmocka_unit_test(a_count_beyond_32_bits_is_not_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,8 @@
 /* test_plan_cost.c: a plan holds just the reach of its sets, costs what that reach costs, and solves allocate nothing */
+#include <time.h>
+
 #include "problem.h"
+#include "question.h"
 
 /* ---- the reach by a plain walk along the rows of L's panels ---- */
 
@@ -271,6 +274,81 @@ static void nothing_grows_with_n(void **state) {
     }
 }
 
+/* ---- time ---- */
+
+typedef enum branch_t { BRANCH_PATH, BRANCH_RING, BRANCH_WHEEL } branch_t;
+
+/* One long branch in natural order: every tree column has a child. In the ring and the wheel (a ring and, as the last
+ * row, its hub) each supernode also has a row at the far end of the branch. */
+static problem_t branch_make(branch_t kind, sl_int n) {
+    gen_list_t t = gen_list(n);
+    uint64_t seed = 11;
+    sl_options opt = options_none();
+    problem_t y = {{NULL, NULL, NULL, {0, 0, NULL, NULL, NULL}}, NULL, NULL};
+    if (kind == BRANCH_PATH) {
+        gen_edges_path(&t, &seed);
+    } else {
+        gen_edges_ring(&t, kind == BRANCH_WHEEL ? n - 1 : n, &seed);
+    }
+    if (kind == BRANCH_WHEEL) {
+        gen_edges_star(&t, n - 1, &seed);
+    }
+    gen_dominate(&t, 1, &seed);
+    y.M = gen_store(&t, gen_style(0), 1);
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+    gen_list_free(&t);
+    return y;
+}
+
+/* Processor time of a plan from the leaf of the branch: the best of five. */
+static double seconds_of_a_plan(const sl_symbolic *S) {
+    const sl_int leaf = 0;
+    double best = 1e30;
+    for (int round = 0; round < 5; round++) {
+        sl_plan *P = NULL;
+        const clock_t begin = clock();
+        SL_CHECK(sl_plan_create(&P, S, &leaf, 1, &leaf, 1, NULL, NULL));
+        const double seconds = (double)(clock() - begin) / (double)CLOCKS_PER_SEC;
+        best = seconds < best ? seconds : best;
+        sl_plan_free(P);
+    }
+    return best;
+}
+
+/* The reach of a leaf is the whole branch, of as many supernodes with the far row as without it: a plan takes at most a
+ * few times as long. Climbing to the far row step by step took a thousand times as long on these, and more with n. */
+static void a_row_at_the_far_end_of_a_branch_is_found_at_once(void **state) {
+    (void)state;
+    double seconds[3];
+    for (int kind = BRANCH_PATH; kind <= BRANCH_WHEEL; kind++) {
+        problem_t y = branch_make((branch_t)kind, 150000);
+        seconds[kind] = seconds_of_a_plan(y.S);
+        problem_free(&y);
+    }
+    print_message("plan of a path %.2f ms, of a ring %.2f ms, of a wheel %.2f ms\n", 1e3 * seconds[BRANCH_PATH],
+                  1e3 * seconds[BRANCH_RING], 1e3 * seconds[BRANCH_WHEEL]);
+    /* a millisecond more, where the clock is that coarse */
+    assert_true(seconds[BRANCH_RING] <= 15 * seconds[BRANCH_PATH] + 1e-3);
+    assert_true(seconds[BRANCH_WHEEL] <= 15 * seconds[BRANCH_PATH] + 1e-3);
+}
+
+static void far_rows_are_the_right_ones(void **state) {
+    (void)state;
+    for (int kind = BRANCH_PATH; kind <= BRANCH_WHEEL; kind++) {
+        for (sl_int n = 4; n < 3000; n = 3 * n + 1) {
+            problem_t y = branch_make((branch_t)kind, n);
+            for (uint64_t seed = 0; seed < 6; seed++) {
+                question_t q = ask(y.F, n, seed % 2 ? 1 : n / 4, 1 + (sl_int)seed % 3, 2, seed);
+                answer(y.S, y.F, &q, NULL);
+                forget(&q);
+            }
+            problem_free(&y);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_reach_is_that_of_a_graph_search),
@@ -278,6 +356,8 @@ int main(void) {
         cmocka_unit_test(the_reach_of_everything_is_everything),
         cmocka_unit_test(solves_allocate_nothing_once_grown),
         cmocka_unit_test(nothing_grows_with_n),
+        cmocka_unit_test(a_row_at_the_far_end_of_a_branch_is_found_at_once),
+        cmocka_unit_test(far_rows_are_the_right_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -170,69 +170,6 @@ static void every_style_gives_the_same_analysis(void **state) {
     gen_list_free(&t);
 }
 
-static void relaxation_merges_and_stays_small(void **state) {
-    (void)state;
-    static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_GRID3, GEN_PATH, GEN_FOREST};
-    for (int k = 0; k < 4; k++) {
-        gen_matrix_t M = gen_matrix(kinds[k], 2500, 1, 9);
-        sl_options opt = options_none();
-        sl_stats relaxed, exact;
-        memset(&relaxed, 0, sizeof relaxed);
-        memset(&exact, 0, sizeof exact);
-        sl_symbolic *S = analyse(&M.view, &opt, &relaxed);
-        opt.relaxation = SL_RELAXATION_NONE;
-        sl_symbolic *T = analyse(&M.view, &opt, &exact);
-        assert_true(relaxed.supernodes < exact.supernodes / 2);
-        assert_int_equal(relaxed.supernodes_fundamental, exact.supernodes);
-        assert_int_equal(relaxed.nnz_l, exact.nnz_l);
-        assert_true(exact.nnz_panels >= exact.nnz_l - exact.n);
-        sl_symbolic_view_t v = sl_symbolic_view(S), w = sl_symbolic_view(T);
-        NOTHING_WRONG(check_supernodes(&v));
-        NOTHING_WRONG(check_supernodes(&w));
-        NOTHING_WRONG(check_postorder(v.n_supers, v.super_parent));
-        NOTHING_WRONG(check_postorder(w.n_supers, w.super_parent));
-        sl_symbolic_free(S);
-        sl_symbolic_free(T);
-        gen_matrix_free(&M);
-    }
-}
-
-static void metis_options_are_handed_on(void **state) {
-    (void)state;
-    gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 2);
-    sl_options opt = options_none();
-    opt.ordering = SL_ORDERING_METIS;
-    sl_stats stats;
-    memset(&stats, 0, sizeof stats);
-    sl_symbolic *S = NULL;
-    sl_status status = sl_symbolic_create(&S, &M.view, &opt, &stats);
-    if (status == SL_ERR_UNSUPPORTED) { /* built without METIS */
-        gen_matrix_free(&M);
-        skip();
-    }
-    SL_CHECK(status);
-    /* METIS on a 30 x 30 grid must beat the natural order, whose L has about 30 n entries */
-    assert_true(stats.nnz_l < 15 * (sl_off)stats.n);
-    sl_int metis[40];
-    for (int k = 0; k < 40; k++) {
-        metis[k] = -1; /* all default: the same as none */
-    }
-    opt.metis_options = metis;
-    sl_symbolic *T = analyse(&M.view, &opt, NULL);
-    sl_symbolic_view_t v = sl_symbolic_view(S), w = sl_symbolic_view(T);
-    assert_memory_equal(v.perm, w.perm, (size_t)v.n * sizeof(sl_int));
-    sl_symbolic_free(T);
-    /* some other seed (option 8 of METIS 5): still right, and another order */
-    metis[8] = 4711;
-    T = analyse(&M.view, &opt, NULL);
-    w = sl_symbolic_view(T);
-    NOTHING_WRONG(check_permutation(w.n, w.perm, w.iperm));
-    assert_int_not_equal(memcmp(v.perm, w.perm, (size_t)v.n * sizeof(sl_int)), 0);
-    sl_symbolic_free(T);
-    sl_symbolic_free(S);
-    gen_matrix_free(&M);
-}
-
 static void wrong_arguments(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_GRID2, 9, 1, 2);
@@ -353,8 +290,6 @@ int main(void) {
         cmocka_unit_test(many_random_patterns),
         cmocka_unit_test(a_given_order_is_followed),
         cmocka_unit_test(every_style_gives_the_same_analysis),
-        cmocka_unit_test(relaxation_merges_and_stays_small),
-        cmocka_unit_test(metis_options_are_handed_on),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(hostile_arrays),
         cmocka_unit_test(large_graphs_do_not_recurse),

@@ -17,6 +17,11 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
     free(block);
 }
 
+/* Whether the caller gives both functions of an allocator, or none. */
+SLI_INLINE int sli_allocator_is_whole(const sl_options *opt) {
+    return opt == NULL || (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
+}
+
 /* The caller's allocator, or malloc and free. */
 SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     sl_allocator a;
@@ -62,14 +67,15 @@ typedef struct sli_block {
     int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. */
-SLI_INLINE void *sli_take(sli_block *b, size_t count, size_t size) {
+/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits:
+ * those of L may pass 2^32 where size_t has no more than that. */
+SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     size_t at = b->used, bytes;
     if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
         b->overflow = 1;
         return NULL;
     }
-    bytes = (count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     if (bytes > SIZE_MAX - b->used) {
         b->overflow = 1;
         return NULL;
@@ -93,6 +99,6 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 }
 
 /* Arrays of the two index types and of doubles, cut from a block. */
-#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (size_t)(count), sizeof(type)))
+#define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 
 #endif

@@ -4,6 +4,11 @@
 
 #include "../public/config.h"
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) ||                                               \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "sparse_local.h: compile its bodies without -ffast-math, which takes the checks for NaN away"
+#endif
+
 #include <errno.h>
 #include <float.h>
 #include <locale.h>
@@ -43,6 +48,10 @@
 #else
 #define SLI_ASSERT(condition) ((void)0)
 #endif
+
+/* Most rows or columns of a matrix: rounded up to whole tiles of 8 they fit an sl_int, and so does
+ * the n + 1 after a loop that includes n. */
+#define SLI_ROWS_MAX (INT32_MAX - 7)
 
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
     return a < b ? a : b;

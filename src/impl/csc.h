@@ -24,6 +24,9 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
         return SL_ERR_ARGUMENT;
     }
+    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
     if (A->n_cols == 0) {
         return SL_OK;
     }
@@ -201,10 +204,11 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL))) {
+    if (n_rows < 0 || n_cols < 0 || count < 0 || (count > 0 && (i == NULL || j == NULL)) ||
+        !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
-    if (count > INT32_MAX) {
+    if (count > INT32_MAX || n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX) {
         return SL_ERR_TOO_LARGE;
     }
     for (k = 0; k < count; k++) {
@@ -224,7 +228,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sl_csc_check(A, NULL);
+    status = sli_allocator_is_whole(opt) ? sl_csc_check(A, NULL) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }
@@ -267,26 +271,29 @@ static sl_status sli_csc_mirrored(const sl_csc *A, const sl_csc *T, sl_int *mark
     return SL_OK;
 }
 
-/* The triangle of a checked square matrix. */
+/* The triangle of a checked square matrix; *out is left alone on error. */
 static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                                   sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
+    const sl_triangle found = sli_triangle_scan(A);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
     sl_int *mark;
     sl_status status = SL_OK;
-    *out = sli_triangle_scan(A);
-    if (*out == SL_TRIANGLE_BOTH) {
+    if (found == SL_TRIANGLE_BOTH) {
         pattern.x = NULL;
         status = sl_matrix_transpose(&transpose, &pattern, opt);
         if (status != SL_OK) {
             return status;
         }
         T = sl_matrix_view(transpose);
-        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
+        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
         status = mark == NULL ? SL_ERR_MEMORY : sli_csc_mirrored(A, &T, mark, stats);
         sli_free(&a, mark);
         sl_matrix_free(transpose);
+    }
+    if (status == SL_OK) {
+        *out = found;
     }
     return status;
 }
@@ -297,7 +304,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     if (status != SL_OK) {
         return status;
     }
-    if (out == NULL || A->n_rows != A->n_cols) {
+    if (out == NULL || A->n_rows != A->n_cols || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     return sli_csc_triangle(A, out, opt, stats);
@@ -325,7 +332,8 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
                                  const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
-    if (A == NULL || nrhs < 0 || (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+    if (A == NULL || nrhs < 0 || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
+        (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
         return SL_ERR_ARGUMENT;
     }
     if (nrhs == 0 || A->n_rows == 0) {
@@ -343,10 +351,20 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     return SL_OK;
 }
 
-/* The largest row sum of |A|, A symmetric; sums: n numbers of scratch. A NaN stays one. */
+/* The largest magnitude among n numbers, NaN if one is: fmax would pass over it. */
+static double sli_largest(const double *x, sl_int n) {
+    double largest = 0.0;
+    sl_int i;
+    for (i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
+        largest = size <= largest || largest != largest ? largest : size;
+    }
+    return largest;
+}
+
+/* The largest row sum of |A|, A symmetric, NaN if A has one; sums: n numbers of scratch. */
 static double sli_csc_norm(const sl_csc *A, double *sums) {
     const sl_triangle triangle = sli_triangle_scan(A);
-    double norm = 0.0;
     sl_int j, p;
     memset(sums, 0, (size_t)A->n_cols * sizeof(double));
     for (j = 0; j < A->n_cols; j++) {
@@ -357,21 +375,14 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
             }
         }
     }
-    for (j = 0; j < A->n_cols; j++) {
-        norm = sums[j] <= norm ? norm : sums[j];
-    }
-    return norm;
+    return sli_largest(sums, A->n_cols);
 }
 
-/* The largest magnitude among n numbers; fmax would hide a NaN, this keeps it. */
-static double sli_largest(const double *x, sl_int n) {
-    double largest = 0.0;
-    sl_int i;
-    for (i = 0; i < n; i++) {
-        const double size = fabs(x[i]);
-        largest = size <= largest || largest != largest ? largest : size;
-    }
-    return largest;
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0
+ * that the quotient would be. */
+static double sli_backward_error(double r, double a, double x, double b) {
+    const double size = a * x + b;
+    return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
 }
 
 SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
@@ -393,7 +404,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         return SL_OK;
     }
     if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
-        (sli_nnz(A) > 0 && A->x == NULL) || (backward_error != NULL && R == B)) {
+        (sli_nnz(A) > 0 && A->x == NULL) || R == X ||
+        (R == B && (backward_error != NULL || ldr != ldb))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = sli_triangle_scan(A);
@@ -402,15 +414,14 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     }
     for (r = 0; r < nrhs; r++) {
         const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
-        double *res = R + (size_t)r * ldr, largest;
+        double *res = R + (size_t)r * ldr;
         if (res != b) {
             memcpy(res, b, rows * sizeof(double));
         }
         sli_add_product(A, triangle, -1.0, res, x);
         if (backward_error != NULL) {
-            largest = sli_largest(res, n);
             backward_error[r] =
-                largest == 0.0 ? 0.0 : largest / (norm * sli_largest(x, n) + sli_largest(b, n));
+                sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
         }
     }
     return SL_OK;

@@ -12,12 +12,12 @@
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-    const size_t workers = (size_t)F->schedule.workers;
+    const uint64_t workers = (uint64_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
     if (F->method == SL_METHOD_SUPERNODAL) {
-        const size_t rows = SLI_TILE * (size_t)sli_tiles(S->tallest);
-        F->buffer = SLI_TAKE(b, double, workers *(size_t)sli_front_scratch(S->widest));
+        const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
+        F->buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
@@ -136,6 +136,12 @@ static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
+/* Are the method and the number of threads such as exist? */
+static int sli_way_is_known(const sl_options *opt) {
+    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           opt->threads.count >= 0);
+}
+
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     (void)S;
     return opt == NULL || opt->method == SL_METHOD_AUTO ? SL_METHOD_SUPERNODAL : opt->method;
@@ -153,7 +159,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance)) {
+    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
+        !sli_allocator_is_whole(opt) || !sli_way_is_known(opt)) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_factor_check(S, A);
@@ -169,7 +176,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.schedule.workers = 1;
     if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
         draft.threads = opt->threads;
-        draft.schedule.workers = sli_workers(&opt->threads);
+        draft.schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(S->n_supers, 1));
     }
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (draft.kernels == NULL) {
@@ -268,7 +275,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL) {
+    if (F == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     if (!F->is_good) {

@@ -96,6 +96,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot,
     if (!sli_is_finite(pivot)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
+    /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
     if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }

@@ -182,7 +182,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
             return SL_ERR_IO;
         }
-        if (size[k] > INT32_MAX - 1) {
+        if (size[k] > SLI_ROWS_MAX) {
             return SL_ERR_TOO_LARGE;
         }
     }
@@ -220,7 +220,7 @@ SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t lengt
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (text == NULL) {
+    if (text == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     r.at = text;
@@ -270,7 +270,7 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (path == NULL) {
+    if (path == NULL || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "rb");
@@ -338,7 +338,7 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
     if (status != SL_OK) {
         return status;
     }
-    if (path == NULL) {
+    if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "wb");

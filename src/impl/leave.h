@@ -6,6 +6,7 @@
 #undef SLI_UNROLL
 #undef SLI_ALIGNED
 #undef SLI_ASSERT
+#undef SLI_ROWS_MAX
 #undef SLI_ALIGN
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
@@ -25,3 +26,5 @@
 #undef SLI_SHARED_FLOPS
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
+#undef SLI_CLIMB
+#undef SLI_ZEROS_SMALL

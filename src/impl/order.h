@@ -96,6 +96,9 @@ static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, con
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
+    if (!sli_metis_options_are_sound(opt != NULL ? opt->metis_options : NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
     memset(&G, 0, sizeof G);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         G.n = A->n_cols;

@@ -9,6 +9,33 @@
 
 #include <metis.h>
 
+/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does
+ * not read may be anything. -1 is METIS's own choice. */
+static int sli_metis_options_are_sound(const sl_int *wished) {
+    static const struct {
+        int option, low, high;
+    } sli_ranges[] = {
+        {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
+        {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
+        {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
+        {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
+        {METIS_OPTION_NITER, 1, INT32_MAX},
+        {METIS_OPTION_COMPRESS, 0, 1},
+        {METIS_OPTION_CCORDER, 0, 1},
+        {METIS_OPTION_PFACTOR, 0, INT32_MAX},
+        {METIS_OPTION_NSEPS, 1, INT32_MAX},
+        {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on one half may be empty, again and again */
+    };
+    size_t k;
+    for (k = 0; wished != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
+        const sl_int value = wished[sli_ranges[k].option];
+        if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* The component's graph as METIS wants it: its own numbering, no edge twice. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
                             const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
@@ -66,6 +93,7 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         options[k] = metis_options[k];
     }
     options[METIS_OPTION_NUMBERING] = 0;
+    options[METIS_OPTION_DBGLVL] = 0; /* anything else prints */
     result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
     if (result == METIS_OK) {
         for (k = 0; k < count;

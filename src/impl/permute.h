@@ -48,7 +48,7 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL)) {
+    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) || !sli_allocator_is_whole(opt)) {
         return SL_ERR_ARGUMENT;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

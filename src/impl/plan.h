@@ -144,7 +144,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sli_check_sets(S, bset, nb, xset, nx);
+    status = sli_allocator_is_whole(opt) ? sli_check_sets(S, bset, nb, xset, nx) : SL_ERR_ARGUMENT;
     if (status != SL_OK) {
         return status;
     }

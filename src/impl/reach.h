@@ -89,17 +89,36 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     }
 }
 
+/* The last of the steps low..high that starts at or before a row; one does. Steps ascend. */
+SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high, sl_int row) {
+    while (low < high) {
+        const sl_int middle = low + (high - low + 1) / 2;
+        if (steps[middle].column <= row) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+#define SLI_CLIMB 8 /* ancestors that cost about what a look-up among a few thousand steps costs */
+
 /* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
- */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int at,
+ * The owner of the next row is mostly a few ancestors up; where it is not, climbing on would make a
+ * tree of one long branch quadratic, so that it is looked up among all `count` steps. */
+static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int count, sl_int at,
                              sl_int *places) {
     const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
     const sl_int below = steps[at].below;
     sl_int i = 0;
     while (i < below) {
-        sl_int end, shift;
-        at = steps[at].up;
-        end = steps[at].column + sli_step_columns(&steps[at]);
+        sl_int end, shift, climbed = 0;
+        do {
+            at = climbed++ < SLI_CLIMB ? steps[at].up
+                                       : sli_reach_find(steps, at + 1, count - 1, rows[i]);
+            end = steps[at].column + sli_step_columns(&steps[at]);
+        } while (rows[i] >= end);
         shift = steps[at].base - steps[at].column;
         for (; i < below && rows[i] < end; i++) {
             places[i] = rows[i] + shift;
@@ -107,7 +126,8 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach). */
+/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows
+ * skip many ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
@@ -133,7 +153,7 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
                           (sli_tiles(step->width + step->below) - step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, at, rows + placed);
+        sli_reach_places(S, steps, R->count, at, rows + placed);
         placed += steps[at].below;
     }
     R->steps = steps;

@@ -45,8 +45,9 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
-    v->y = SLI_TAKE(b, double, (size_t)q->forward.columns *(size_t)lanes);
-    v->x = q->is_shared ? v->y : SLI_TAKE(b, double, (size_t)q->backward.columns *(size_t)lanes);
+    v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
+    v->x =
+        q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
     v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
 }
 

@@ -24,7 +24,7 @@ typedef struct sli_analysis {
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
-    const size_t n = (size_t)rows;
+    const uint64_t n = (uint64_t)rows; /* 5 n may pass 2^32 */
     w->n = rows;
     w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
     w->rows.to = SLI_TAKE(b, sl_int, nnz);
@@ -222,7 +222,9 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols) {
+    if (A->n_rows != A->n_cols || !sli_allocator_is_whole(opt) ||
+        (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
+         opt->relaxation != SL_RELAXATION_NONE)) {
         return SL_ERR_ARGUMENT;
     }
     memset(&w, 0, sizeof w);

@@ -32,6 +32,10 @@ SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
+    *out = NULL;
+    if (!sli_allocator_is_whole(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
     *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));
     if (*out == NULL) {
         return SL_ERR_MEMORY;

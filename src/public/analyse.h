@@ -13,12 +13,15 @@
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
  *  stats  [out]  the symbolic group; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position);
- *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position),
+ *           an unknown ordering or relaxation, metis_options that METIS would refuse; SL_ERR_PATTERN;
+ *           SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
- *  Threads  METIS_NodeND draws from rand() of the C library: with SL_ORDERING_METIS, calls in several threads at once
- *           are safe only if rand() is, and may then order differently from run to run.
+ *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS, or the default with it) it resets
+ *           rand() of the C library by srand() and draws from it, traps SIGABRT and SIGTERM of the whole process, and
+ *           prints a line if it runs out of memory. Calls in several threads at once are safe only if rand() is, and
+ *           may then order differently from run to run. Other orderings do nothing of this and run in any number of
+ *           threads.
  *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
  *  Example  tests/test_symbolic.c
  */

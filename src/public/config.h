@@ -11,6 +11,9 @@
  *  SL_STATIC                     everything static: private copy of the library in one source file.
  *  SL_NO_METIS                   build without METIS: natural and given orderings only.
  *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
+ *
+ * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity
+ * away: they refuse that with an #error. Files that only include the declarations may use what they like.
  */
 #define SL_VERSION_MAJOR 0
 #define SL_VERSION_MINOR 1

@@ -16,7 +16,7 @@
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
  *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
- *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_MEMORY.
+ *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_TOO_LARGE: L is beyond size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2); nnz_panels doubles kept.
  *  Threads  any number at once on one S.
  *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
@@ -29,7 +29,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
 /** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
  *
  *  F      [in,out]  on error F holds no factor and every solve refuses it, until a refactor succeeds.
- *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY and SL_ERR_UNSUPPORTED aside.
+ *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY, SL_ERR_TOO_LARGE and SL_ERR_UNSUPPORTED aside.
  *  Threads          nobody else may use F meanwhile.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
@@ -47,8 +47,10 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det,
                                                  double *sign);
 
-/** L as a CSC matrix: unit diagonal included, rows ascending, relaxation's zeros left out where the pattern without
- *  relaxation has none is not tested: every stored place of a panel becomes an entry unless it is exactly zero.
+/** L as a matrix in compressed columns, with its unit diagonal, rows ascending.
+ *
+ *  Its entries are the places of the panels that are not exactly zero: those that relaxation or padding fills with
+ *  zeros are left out, and so is an entry of L that came out as zero by cancellation.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
  */

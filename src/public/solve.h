@@ -16,10 +16,16 @@ SL_API void sl_work_free(sl_work *W);
 /** Bytes that a workspace holds now. */
 SL_API size_t sl_work_bytes(const sl_work *W);
 
-/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing. */
+/** Grows W so that full solves on F with up to nrhs right-hand sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs);
 
-/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing. */
+/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
 
 /** Solves A X = B.
@@ -28,9 +34,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
  *                (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of about two alone.
+ *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of two to three alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_MEMORY: W had to grow and could not.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
+ *           could not.
  *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c

@@ -29,8 +29,8 @@ SL_API const char *sl_status_string(sl_status status);
  *  that stores both, the pattern must be symmetric and the LOWER triangle's values are the ones read.
  */
 typedef struct sl_csc {
-    sl_int n_rows;
-    sl_int n_cols;
+    sl_int n_rows;   /* 0 .. 2^31 - 8: more is SL_ERR_TOO_LARGE wherever a matrix is checked */
+    sl_int n_cols;   /* the same */
     const sl_int *p; /* n_cols + 1 positions, ascending, p[0] = 0 */
     const sl_int *i; /* p[n_cols] row indices in 0..n_rows-1 */
     const double *x; /* p[n_cols] values; NULL: pattern only (enough for sl_symbolic_create) */
@@ -90,7 +90,8 @@ typedef struct sl_threads {
     void *context;       /* handed to run */
 } sl_threads;
 
-/** Memory for the objects. All NULL: malloc and free. Every object keeps a copy; both functions are needed. */
+/** Memory for the objects. Both functions NULL: malloc and free; one alone is SL_ERR_ARGUMENT. Every object keeps a
+ *  copy. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
     void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
@@ -103,7 +104,8 @@ typedef struct sl_options {
     const sl_int
         *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
     const sl_int *
-        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default */
+        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default;
+                          its numbering and debug level are not read */
     sl_relaxation relaxation;
     sl_isa isa;
     sl_method method;

@@ -1,0 +1,156 @@
+/* test_csc_products.c: products with a stored matrix, residuals and backward errors */
+#include "check.h"
+
+static void multiply_reads_as_the_factorization_does(void **state) {
+    (void)state;
+    for (int kind = 0; kind < GEN_KINDS; kind++) {
+        gen_list_t t = gen_make((gen_kind_t)kind, 20, 0, 4);
+        for (int which = 0; which < GEN_STYLES; which++) {
+            gen_matrix_t M = gen_store(&t, gen_style(which), 9);
+            sl_int n = t.n;
+            if (gen_style(which).triangle == SL_TRIANGLE_BOTH) { /* values above the diagonal are not read */
+                for (sl_int j = 0; j < n; j++) {
+                    for (sl_int p = M.p[j]; p < M.p[j + 1]; p++) {
+                        M.x[p] = M.i[p] < j ? 1e30 : M.x[p];
+                    }
+                }
+            }
+            double *D = ref_dense(&M.view), *X = test_reals(3 * (size_t)(n + 2)), *Y = test_reals(3 * (size_t)(n + 1));
+            gen_reals(X, 3 * (size_t)(n + 2), 17);
+            SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, Y, (size_t)n + 1, X, (size_t)n + 2, 3));
+            for (sl_int r = 0; r < 3; r++) {
+                for (sl_int i = 0; i < n; i++) {
+                    double sum = 0, size = 0;
+                    for (sl_int j = 0; j < n; j++) {
+                        double term = AT(D, i, j) * X[j + r * (n + 2)];
+                        sum += term;
+                        size += fabs(term);
+                    }
+                    assert_true(fabs(Y[i + r * (n + 1)] - sum) <= 4.0 * (double)(n + 2) * DBL_EPSILON * size);
+                }
+            }
+            free(D);
+            free(X);
+            free(Y);
+            gen_matrix_free(&M);
+        }
+        gen_list_free(&t);
+    }
+}
+
+static void multiply_as_stored(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 2, 2, 5}, i[5] = {1, 0, 1, 1, 0};
+    const double x[5] = {2, 3, 4, 5, 6}, X[6] = {1, 10, 100, -1, -10, -100};
+    double Y[6] = {9, 9, 9, 9, 9, 9};
+    const double wanted[6] = {603, 902, 9, -603, -902, 9}; /* ldy = 3: the gap is not written */
+    sl_csc A = {2, 3, p, i, x};
+    SL_CHECK(sl_csc_multiply(&A, SL_AS_STORED, Y, 3, X, 3, 2));
+    SAME_VALUES(Y, wanted, 6);
+    SL_CHECK(sl_csc_multiply(&A, SL_AS_STORED, Y, 3, X, 3, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_SYMMETRIC, Y, 3, X, 3, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, Y, 1, X, 3, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, Y, 3, X, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, Y, 3, X, 3, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, NULL, 3, X, 3, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, Y, 3, NULL, 3, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(NULL, SL_AS_STORED, Y, 3, X, 3, 1));
+    A.x = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, Y, 3, X, 3, 1));
+    SAME_VALUES(Y, wanted, 6);
+}
+
+static void residual_and_backward_error(void **state) {
+    (void)state;
+    /* [2 1; 1 3], row sums 3 and 4 */
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double x[3] = {2, 1, 3};
+    sl_csc A = {2, 2, p, i, x};
+    double X[6] = {1, 1, 1, 1, 0, 0}, B[6] = {3, 4, 3.5, 4, 0, 0}, R[6], eta[3];
+    SL_CHECK(sl_csc_residual(&A, R, 2, eta, X, 2, B, 2, 3));
+    const double wanted[6] = {0, 0, 0.5, 0, 0, 0};
+    SAME_VALUES(R, wanted, 6);
+    assert_true(eta[0] == 0.0 && eta[2] == 0.0);
+    assert_true(fabs(eta[1] - 0.5 / 8.0) < 1e-15); /* 0.5 / (4 * 1 + 4) */
+    SL_CHECK(sl_csc_residual(&A, B, 2, NULL, X, 2, B, 2, 3)); /* in place of B */
+    SAME_VALUES(B, wanted, 6);
+    /* one column upon another, the columns still to be read, or X, which every entry of A reads */
+    double apart[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const double kept[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, NULL, X, 2, apart, 3, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 3, NULL, X, 2, apart, 2, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, NULL, apart, 2, B, 2, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, eta, apart, 2, B, 2, 3));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, apart, 2, eta, X, 2, apart, 2, 3));
+    SAME_VALUES(apart, kept, 9);
+    X[1] = NAN;
+    SL_CHECK(sl_csc_residual(&A, R, 2, eta, X, 2, B, 2, 1));
+    assert_true(eta[0] != eta[0]);
+    SL_CHECK(sl_csc_residual(&A, R, 2, eta, X, 2, B, 2, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, R, 1, eta, X, 2, B, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, R, 2, eta, X, 1, B, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, R, 2, eta, X, 2, B, 1, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, R, 2, eta, X, 2, B, 2, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, NULL, 2, eta, X, 2, B, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(NULL, R, 2, eta, X, 2, B, 2, 1));
+}
+
+/* What r is small against cannot be told once it is no number any more: the answer is NaN, and not 0. */
+static void backward_error_of_what_overflows(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 3, 4, 5}, i[5] = {0, 1, 2, 1, 2};
+    double x[5] = {1e308, 1e308, 1, 1e308, 1}, R[3], eta;
+    sl_csc A = {3, 3, p, i, x};
+    double X[3] = {1e-300, 0, 0}, B[3] = {1, 1, 1};
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1)); /* the row sum overflows */
+    assert_true(isfinite(R[0]) && R[0] != 0 && eta != eta);
+    x[0] = x[1] = x[3] = 1e200; /* ||A|| ||x|| overflows, what x meets in A does not */
+    X[0] = 0;
+    X[2] = 1e200;
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(isfinite(R[0]) && R[0] != 0 && eta != eta);
+    X[2] = 0;
+    B[0] = 0; /* r = b = 0: nothing is wrong with that */
+    B[1] = B[2] = 0;
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(eta == 0);
+    x[0] = NAN; /* the first row sum; the ones after it are numbers */
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(eta != eta);
+    x[0] = 1e200;
+    B[1] = INFINITY;
+    SL_CHECK(sl_csc_residual(&A, R, 3, &eta, X, 3, B, 3, 1));
+    assert_true(eta != eta);
+}
+
+static void residual_is_the_same_for_every_style(void **state) {
+    (void)state;
+    gen_list_t t = gen_make(GEN_RANDOM, 40, 0, 8);
+    double X[40], B[40], first = -1.0;
+    gen_reals(X, 40, 1);
+    gen_reals(B, 40, 2);
+    for (int which = 0; which < GEN_STYLES; which++) {
+        gen_matrix_t M = gen_store(&t, gen_style(which), 31);
+        double R[40], eta;
+        SL_CHECK(sl_csc_residual(&M.view, R, 40, &eta, X, 40, B, 40, 1));
+        assert_true(eta > 0.0);
+        if (which == 0) {
+            first = eta;
+        } else {
+            assert_true(fabs(eta - first) <= 1e-13 * first); /* duplicates count in sum, not in magnitude */
+        }
+        gen_matrix_free(&M);
+    }
+    gen_list_free(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(multiply_reads_as_the_factorization_does),
+        cmocka_unit_test(multiply_as_stored),
+        cmocka_unit_test(residual_and_backward_error),
+        cmocka_unit_test(backward_error_of_what_overflows),
+        cmocka_unit_test(residual_is_the_same_for_every_style),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
