@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 872841d1ce404b66
+ * FNV-1a of all that follows this comment, license aside: c9465dd991ef97ac
  *
  * Contents
  *         (what a user reads)
@@ -56,13 +56,13 @@
  *   8649  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
  *   8766  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
  *   8847  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *   9081  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   9382  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9442  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9652  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9692  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   9087  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   9388  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9448  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9658  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9698  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   9994  impl/leave.h               takes every internal macro away again
+ *  10000  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9065,13 +9065,19 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
     for (k = 0; k < plan->workers; k++) {
         sli_keep_first_failure(failure, &F->failures[k]);
     }
-    for (m = 0; m < plan->n_tops && failure->status == SL_OK; m++) {
+    for (m = 0; m < plan->n_tops; m++) {
+        sli_failure here;
+        here.status = SL_OK;
         job.super = plan->top[m];
-        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
-            (void)sli_front_shared(&job, failure);
-        } else {
-            (void)sli_front_alone(F, A, job.super, 0, failure);
+        if (failure->status != SL_OK && failure->super < job.super) {
+            break; /* the fronts before a failure may fail before it */
         }
+        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
+            (void)sli_front_shared(&job, &here);
+        } else {
+            (void)sli_front_alone(F, A, job.super, 0, &here);
+        }
+        sli_keep_first_failure(failure, &here);
     }
     return failure->status;
 }

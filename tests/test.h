@@ -169,6 +169,34 @@ static inline isa_list_t isas_present(void) {
     return list;
 }
 
+/* ---- ways to factor: every method on every instruction set ---- */
+
+typedef struct way_list_t {
+    int count;
+    struct {
+        sl_isa isa;
+        sl_method method;
+    } way[8];
+} way_list_t;
+
+static inline way_list_t ways_present(void) {
+    isa_list_t isas = isas_present();
+    way_list_t list;
+    memset(&list, 0, sizeof list);
+    for (int k = 0; k < isas.count; k++) {
+        for (int method = SL_METHOD_UP_LOOKING; method <= SL_METHOD_SUPERNODAL; method++) {
+            list.way[list.count].isa = isas.isa[k];
+            list.way[list.count++].method = (sl_method)method;
+        }
+    }
+    return list;
+}
+
+static inline void way_take(sl_options *opt, const way_list_t *ways, int k) {
+    opt->isa = ways->way[k].isa;
+    opt->method = ways->way[k].method;
+}
+
 /* ---- figures ---- */
 
 /* A solve passes with ||b - A x|| / (||A|| ||x|| + ||b||) <= PASS_C n eps. The textbook bound for a substitution and a

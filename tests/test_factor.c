@@ -1,16 +1,16 @@
 /* test_factor.c: P A P' = L D L' entrywise, inertia, determinant, refactorization, the same bits from every form */
 #include "problem.h"
 
-static void product_on_every_isa_style_and_sign(void **state) {
+static void product_in_every_way_style_and_sign(void **state) {
     (void)state;
     static const sl_int sizes[4] = {5, 9, 33, 90};
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int size = 0; size < 4; size++) {
             for (int which = size; which < GEN_STYLES; which += 4) {
-                for (int k = 0; k < isas.count; k++) {
+                for (int k = 0; k < ways.count; k++) {
                     sl_options opt = options_none();
-                    opt.isa = isas.isa[k];
+                    way_take(&opt, &ways, k);
                     opt.relaxation = (sl_relaxation)(which / 2 % 2);
                     opt.ordering = which % 3 ? SL_ORDERING_DEFAULT : SL_ORDERING_NATURAL;
                     problem_t y = problem_make((gen_kind_t)kind, sizes[size], which % 3 - 1, which, &opt);
@@ -18,7 +18,8 @@ static void product_on_every_isa_style_and_sign(void **state) {
                     sl_stats stats;
                     memset(&stats, 0, sizeof stats);
                     sl_factor_stats(y.F, &stats);
-                    assert_int_equal(stats.isa, isas.isa[k]);
+                    assert_int_equal(stats.isa, ways.way[k].isa);
+                    assert_int_equal(stats.method, ways.way[k].method);
                     problem_free(&y);
                 }
             }
@@ -29,10 +30,10 @@ static void product_on_every_isa_style_and_sign(void **state) {
 /* The widths of supernodes and heights of panels round every multiple of 8: dense and arrow matrices of each size. */
 static void every_small_shape(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
-    for (int k = 0; k < isas.count; k++) {
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
         sl_options opt = options_none();
-        opt.isa = isas.isa[k];
+        way_take(&opt, &ways, k);
         opt.ordering = SL_ORDERING_NATURAL;
         for (sl_int n = 1; n <= 42; n++) {
             static const gen_kind_t kinds[4] = {GEN_DENSE, GEN_ARROW, GEN_STAR, GEN_KKT};
@@ -48,7 +49,7 @@ static void every_small_shape(void **state) {
 /* two supernodes: width w over height h, then a dense rest, for all small w and h */
 static void every_small_pair_of_supernodes(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     uint64_t seed = 8;
     for (sl_int w = 1; w <= 20; w++) {
         for (sl_int h = 1; h <= 20; h++) {
@@ -72,9 +73,9 @@ static void every_small_pair_of_supernodes(void **state) {
             }
             gen_dominate(&clean, 0, &seed);
             gen_matrix_t M = gen_store(&clean, gen_style(0), 1);
-            for (int k = 0; k < isas.count; k++) {
+            for (int k = 0; k < ways.count; k++) {
                 sl_options opt = options_none();
-                opt.isa = isas.isa[k];
+                way_take(&opt, &ways, k);
                 opt.ordering = SL_ORDERING_NATURAL;
                 opt.relaxation = SL_RELAXATION_NONE;
                 sl_symbolic *S = NULL;
@@ -96,14 +97,14 @@ static void every_small_pair_of_supernodes(void **state) {
 /* Against the dense reference: |L - L_ref| is small where the matrix is well conditioned. */
 static void equals_the_dense_reference(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         if (kind == GEN_SCALED || kind == GEN_KKT) {
             continue; /* entries of L vary too much for an absolute bound */
         }
-        for (int k = 0; k < isas.count; k++) {
+        for (int k = 0; k < ways.count; k++) {
             sl_options opt = options_none();
-            opt.isa = isas.isa[k];
+            way_take(&opt, &ways, k);
             problem_t y = problem_make((gen_kind_t)kind, 50, 0, 0, &opt);
             sl_factor_view_t f = sl_factor_view(y.F);
             sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
@@ -241,12 +242,12 @@ static void determinant_does_not_overflow(void **state) {
 
 static void refactor_equals_create(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
-        for (int k = 0; k < isas.count; k++) {
+        for (int k = 0; k < ways.count; k++) {
             counter_t counter = counter_make();
             sl_options opt = options_counted(&counter);
-            opt.isa = isas.isa[k];
+            way_take(&opt, &ways, k);
             problem_t y = problem_make((gen_kind_t)kind, 60, 0, kind, &opt);
             sl_int nnz = y.M.p[y.M.view.n_cols];
             sl_factor *G = NULL, *H = NULL;
@@ -333,7 +334,7 @@ static void automatic_isa(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(product_on_every_isa_style_and_sign),
+        cmocka_unit_test(product_in_every_way_style_and_sign),
         cmocka_unit_test(every_small_shape),
         cmocka_unit_test(every_small_pair_of_supernodes),
         cmocka_unit_test(equals_the_dense_reference),

@@ -26,11 +26,11 @@ static void assert_refuses(sl_factor *F, const sl_symbolic *S) {
 
 static void a_failed_refactor_refuses_until_one_succeeds(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
-    for (int k = 0; k < isas.count; k++) {
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
         counter_t counter = counter_make();
         sl_options opt = options_counted(&counter);
-        opt.isa = isas.isa[k];
+        way_take(&opt, &ways, k);
         problem_t y = problem_make(GEN_GRID2, 400, 1, 0, &opt);
         sl_int n = y.M.view.n_cols, nnz = y.M.p[n];
         sl_factor *G = NULL;
@@ -69,7 +69,7 @@ static void a_failed_refactor_refuses_until_one_succeeds(void **state) {
 /* The only null pivot of diag(1 .. 1, 0, 1 .. 1) is where the zero stands, under any ordering. */
 static void a_null_pivot_is_named_in_the_callers_row(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     for (sl_int zero = 0; zero < 20; zero++) {
         gen_list_t t = gen_list(20);
         for (sl_int k = 0; k < 20; k++) {
@@ -85,9 +85,9 @@ static void a_null_pivot_is_named_in_the_callers_row(void **state) {
             gen_matrix_t M = gen_store(&t, gen_style(which), 3);
             sl_symbolic *S = NULL;
             SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-            for (int k = 0; k < isas.count; k++) {
+            for (int k = 0; k < ways.count; k++) {
                 sl_options opt = options_none();
-                opt.isa = isas.isa[k];
+                way_take(&opt, &ways, k);
                 sl_factor *F = (sl_factor *)(void *)&t;
                 sl_stats stats;
                 memset(&stats, 0, sizeof stats);
@@ -111,7 +111,7 @@ static void a_null_pivot_is_named_in_the_callers_row(void **state) {
 /* A Laplacian is singular: the last pivot of the order is null up to rounding, and d == 0.0 would not see it. */
 static void a_laplacian_is_singular(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     for (sl_int size = 4; size < 1000; size = size * 3 / 2 + 1) {
         gen_matrix_t M = gen_matrix(GEN_SINGULAR, size, 1, 1);
         /* thirds are not exact, so the last pivot comes out near 1e-17 and not 0 */
@@ -121,12 +121,12 @@ static void a_laplacian_is_singular(void **state) {
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
         sl_symbolic_view_t v = sl_symbolic_view(S);
-        for (int k = 0; k < isas.count; k++) {
+        for (int k = 0; k < ways.count; k++) {
             sl_options opt = options_none();
             sl_stats stats;
             sl_factor *F = NULL;
             memset(&stats, 0, sizeof stats);
-            opt.isa = isas.isa[k];
+            way_take(&opt, &ways, k);
             SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
             assert_int_equal(stats.error_row, v.perm[v.n - 1]);
             assert_true(fabs(stats.error_value) < 1e-12);
@@ -173,7 +173,7 @@ static void null_tolerance_is_obeyed(void **state) {
 /* Every entry in turn becomes a NaN or an infinity. */
 static void not_finite_entries_are_named(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     static const double bad[3] = {NAN, INFINITY, -INFINITY};
     for (int which = 0; which < 6; which++) {
         gen_list_t t = gen_make(GEN_GRID2, 25, 0, 2);
@@ -188,7 +188,7 @@ static void not_finite_entries_are_named(void **state) {
                 sl_stats stats;
                 sl_factor *F = NULL;
                 memset(&stats, 0, sizeof stats);
-                opt.isa = isas.isa[q % isas.count];
+                way_take(&opt, &ways, q % ways.count);
                 M.x[q] = bad[q % 3];
                 sl_status status = sl_factor_create(&F, S, &M.view, &opt, &stats);
                 if (gen_style(which).triangle == SL_TRIANGLE_BOTH && M.i[q] < j) {
@@ -213,7 +213,7 @@ static void not_finite_entries_are_named(void **state) {
 /* finite values whose products are not: 1e300^2 / 1 */
 static void an_overflow_on_the_way_is_named(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
     const double x[3] = {1, 1e300, 1};
     sl_csc A = {2, 2, p, i, x};
@@ -221,11 +221,11 @@ static void an_overflow_on_the_way_is_named(void **state) {
     sl_symbolic *S = NULL;
     opt.ordering = SL_ORDERING_NATURAL;
     SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    for (int k = 0; k < isas.count; k++) {
+    for (int k = 0; k < ways.count; k++) {
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        opt.isa = isas.isa[k];
+        way_take(&opt, &ways, k);
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &A, &opt, &stats));
         assert_null(F);
         assert_int_equal(stats.error_row, 1);
@@ -237,7 +237,7 @@ static void an_overflow_on_the_way_is_named(void **state) {
 /* 1e308 - 1e308 + 1e308: the magnitudes overflow, the pivot does not, and nothing of it was lost */
 static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 2, 1, 2, 2};
     const double x[5] = {1, 1e154, -1, 1e154, 1e308};
     sl_csc A = {3, 3, p, i, x};
@@ -245,9 +245,9 @@ static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
     sl_symbolic *S = NULL;
     opt.ordering = SL_ORDERING_NATURAL;
     SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    for (int k = 0; k < isas.count; k++) {
+    for (int k = 0; k < ways.count; k++) {
         sl_factor *F = NULL;
-        opt.isa = isas.isa[k];
+        way_take(&opt, &ways, k);
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
         assert_true(fabs(sl_factor_view(F).D[2] - 1e308) <= 1e293);
         sl_factor_free(F);
@@ -258,7 +258,7 @@ static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
 /* subnormal and huge scales: finite answers or a status, never a NaN inside a factor that claims to be good */
 static void extreme_scales(void **state) {
     (void)state;
-    isa_list_t isas = isas_present();
+    way_list_t ways = ways_present();
     static const int powers[6] = {-1060, -1020, -500, 500, 1000, 1015};
     for (int which = 0; which < 6; which++) {
         gen_matrix_t M = gen_matrix(GEN_GRID2, 49, 0, 3);
@@ -267,9 +267,9 @@ static void extreme_scales(void **state) {
         }
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-        for (int k = 0; k < isas.count; k++) {
+        for (int k = 0; k < ways.count; k++) {
             sl_options opt = options_none();
-            opt.isa = isas.isa[k];
+            way_take(&opt, &ways, k);
             sl_factor *F = NULL;
             sl_status status = sl_factor_create(&F, S, &M.view, &opt, NULL);
             if (status == SL_OK) {

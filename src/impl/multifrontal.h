@@ -220,13 +220,19 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
     for (k = 0; k < plan->workers; k++) {
         sli_keep_first_failure(failure, &F->failures[k]);
     }
-    for (m = 0; m < plan->n_tops && failure->status == SL_OK; m++) {
+    for (m = 0; m < plan->n_tops; m++) {
+        sli_failure here;
+        here.status = SL_OK;
         job.super = plan->top[m];
-        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
-            (void)sli_front_shared(&job, failure);
-        } else {
-            (void)sli_front_alone(F, A, job.super, 0, failure);
+        if (failure->status != SL_OK && failure->super < job.super) {
+            break; /* the fronts before a failure may fail before it */
         }
+        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
+            (void)sli_front_shared(&job, &here);
+        } else {
+            (void)sli_front_alone(F, A, job.super, 0, &here);
+        }
+        sli_keep_first_failure(failure, &here);
     }
     return failure->status;
 }
