@@ -166,12 +166,22 @@ static void pivots_without_a_reciprocal(void **state) {
 
 static void automatic_method(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 2500, 1, 0, NULL);
-    sl_stats stats;
-    memset(&stats, 0, sizeof stats);
-    sl_factor_stats(y.F, &stats);
-    assert_int_equal(stats.method, SL_METHOD_SUPERNODAL);
-    problem_free(&y);
+    static const struct {
+        gen_kind_t kind;
+        sl_method method;
+    } known[5] = {{GEN_GRID2, SL_METHOD_SUPERNODAL},
+                  {GEN_GRID3, SL_METHOD_SUPERNODAL},
+                  {GEN_PATH, SL_METHOD_SUPERNODAL},
+                  {GEN_STAR, SL_METHOD_UP_LOOKING},
+                  {GEN_DIAGONAL, SL_METHOD_UP_LOOKING}};
+    for (int k = 0; k < 5; k++) {
+        problem_t y = problem_make(known[k].kind, 2500, 1, 0, NULL);
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        sl_factor_stats(y.F, &stats);
+        assert_int_equal(stats.method, known[k].method);
+        problem_free(&y);
+    }
 }
 
 int main(void) {

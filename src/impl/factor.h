@@ -142,9 +142,13 @@ static int sli_way_is_known(const sl_options *opt) {
                            opt->threads.count >= 0);
 }
 
+/* A front costs some 50 ns whatever is in it: below this many flops each, as in diagonal matrices and
+ * stars, rows are faster by up to 3.5 times; above it fronts are, by 1.1 to 6 times. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-    (void)S;
-    return opt == NULL || opt->method == SL_METHOD_AUTO ? SL_METHOD_SUPERNODAL : opt->method;
+    if (opt != NULL && opt->method != SL_METHOD_AUTO) {
+        return opt->method;
+    }
+    return S->stats.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,

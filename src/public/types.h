@@ -74,9 +74,9 @@ typedef enum sl_isa {
 
 /** How to factor; both write the same L to rounding. */
 typedef enum sl_method {
-    SL_METHOD_AUTO = 0,    /* by the flops per entry of L */
-    SL_METHOD_UP_LOOKING,  /* row by row: no memory beyond L, for tiny or nearly tree-like patterns */
-    SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: for everything larger */
+    SL_METHOD_AUTO = 0,    /* the faster one, by the flops per supernode */
+    SL_METHOD_UP_LOOKING,  /* row by row, little memory beyond L: nearly diagonal patterns, stars */
+    SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: everything else; threads */
 } sl_method;
 
 /** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
