@@ -47,8 +47,8 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 }
 
 /* Most zeros of a group of up to 8 columns: on a path 28 of 44 places are, 0.64, and on 2D grids no
- * such group has more. Every group's places stay below 1 / (1 - 0.70) = 3.34 times its entries, also
- * where short columns hang on tall ones. */
+ * such group has more. Every group's places stay below 1 / (1 - 0.70) = 3.34 times its entries,
+ * also where short columns hang on tall ones. */
 #define SLI_ZEROS_SMALL 0.70
 
 /* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not
