@@ -1,68 +1,69 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: cbc4b84a246e4ad6
+ * FNV-1a of all that follows this comment, license aside: 6ba5c7a08d90190c
  *
  * Contents
  *         (what a user reads)
- *     70  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    115  public/config.h            what a user may set before including the header, the version, and the integer types
- *    164  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    334  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    454  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    516  public/factor.h            the numbers: P A P' = L D L'
- *    585  public/solve.h             full solves, and the workspace that every solve writes to
- *    634  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     71  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    119  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    168  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    338  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    458  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    520  public/factor.h            the numbers: P A P' = L D L'
+ *    610  public/solve.h             full solves, and the workspace that every solve writes to
+ *    659  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    713  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    791  impl/status.h              status codes in words, and the error fields of stats
- *    847  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    950  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1025  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1062  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    738  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    816  impl/status.h              status codes in words, and the error fields of stats
+ *    872  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    975  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1050  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1087  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1096  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1260  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1356  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1386  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1954  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1999  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2136  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   2345  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2528  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2563  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2666  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   3075  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3815  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   5010  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   6255  impl/select.h              the kernel table for an instruction set
+ *   1121  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1290  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1386  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1416  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1984  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2029  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2166  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   2369  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2552  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2587  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2690  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   3099  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3833  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   5022  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6261  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6288  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6716  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6789  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6294  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6722  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6795  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   7143  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   7182  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7314  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7428  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7572  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7657  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7730  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7896  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   7972  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *   8013  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *   8206  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8486  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7149  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7188  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7335  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7449  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7593  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7678  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7751  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7917  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   7993  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *   8034  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *   8227  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8507  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8649  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8766  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8847  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *   9087  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   9392  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9452  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9662  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9702  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8670  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8790  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8871  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *   9124  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *   9211  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   9588  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9648  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9858  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9898  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  10004  impl/leave.h               takes every internal macro away again
+ *  10200  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -106,6 +107,9 @@
  *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
+ *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
+ *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations, 1983.
+ *  [Liu92]   Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
  *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
  */
@@ -547,6 +551,27 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  Threads          nobody else may use F meanwhile.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
+
+/** Factors again after local changes: only the columns of L that they reach, each from all its descendants.
+ *
+ *  For many changes in one place: the reach of a single vertex has the large separators at its end and costs some
+ *  30 % of a whole factorization on a 2D mesh. Results agree with sl_factor_refactor to rounding; columns of L that
+ *  no change reaches keep their bits. An up-looking factor is factored whole.
+ *
+ *  F        [in,out]  holds the factor of a matrix that differs from A in the given columns alone. On error F holds no
+ *                     factor, unless the error is ARGUMENT, PATTERN, STATE or MEMORY: then it is as before.
+ *  A        [in]      the pattern that was analysed, the new values.
+ *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
+ *  Cost     the update matrices of all descendants of the supernodes reached; 16 bytes an entry of the columns while
+ *           it runs.
+ *  Threads  nobody else may use F meanwhile.
+ *  Source   left-looking supernodes [NP93] over the reach of the changes.
+ *  Example  tests/test_changed.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
+                                                           const sl_int *columns, sl_int count,
+                                                           sl_stats *stats);
 
 /** Releases a factor; NULL is fine. */
 SL_API void sl_factor_free(sl_factor *F);
@@ -1236,13 +1261,18 @@ typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch
 typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
                                 double *scratch);
 
-/* Row tiles t0 .. t1-1 of the update matrix, all in or below the last tile of pivots. */
-typedef void (*sli_update_kernel)(const sli_front *f, sl_int t0, sl_int t1, double *scratch);
+/* Row tiles t0 .. t1-1 and column tiles c0 .. c1-1 of the triangle that starts at tile c0, all in or
+ * below the last tile of pivots: of the update matrix, or of a part of it. */
+typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
+                                  double *scratch);
 
-/* Adds rows first .. last-1 of the update matrix of a child of some width to its parent's front; places: the local row in the parent of each of the child's rows below, ascending.
- * No two calls for one front may run at once on rows of one tile. */
-typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int from_width,
-                                    const sl_int *places, sl_int first, sl_int last);
+/* Adds rows first .. last-1 of a descendant's update matrix, columns up to the row or to columns-1, to
+ * a front; the first `skipped` rows and columns of the matrix mean nothing, and row 0 comes after
+ * them. places: the local row in the front of each row, ascending. No two calls for one front may run
+ * at once on rows of one tile. */
+typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
+                                    const sl_int *places, sl_int columns, sl_int first,
+                                    sl_int last);
 
 typedef struct sli_kernels {
     sl_isa isa;
@@ -2290,32 +2320,33 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
-    const sl_int w = f->width, whole = w / SLI_TILE;
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                                          sl_int t1, double *B) {
+    const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
-    for (c = whole; c < t1; c += SLI_GROUP) {
+    for (c = c0; c < last; c += SLI_GROUP) {
         SLV_NAME(product)
-        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
-         SLI_TILE * (t1 - whole), whole, B);
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, last), 0, w, f->update,
+         SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
-                                            const sl_int *places, sl_int first,
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
+                                            const sl_int *places, sl_int columns, sl_int first,
                                             sl_int last) {
-    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    sl_int row, end, split = 0, i;
-    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
-        split++;
-    }
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
         const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
-        double *to = f->panel + sli_tile_offset(w, tile);
+        double *const to[2] = {f->panel, f->update};
+        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
+                                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
+                                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
         for (end = row;
@@ -2325,17 +2356,10 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < end && i < split; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
-            }
-            if (i < end) {
-                to = f->update + sli_triangle_offset(tile - whole) -
-                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-            }
-            for (; i < end; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
+            for (i = 0; i < end && i < columns; i++) {
+                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
+                SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -3540,32 +3564,33 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
-    const sl_int w = f->width, whole = w / SLI_TILE;
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                                          sl_int t1, double *B) {
+    const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
-    for (c = whole; c < t1; c += SLI_GROUP) {
+    for (c = c0; c < last; c += SLI_GROUP) {
         SLV_NAME(product)
-        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
-         SLI_TILE * (t1 - whole), whole, B);
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, last), 0, w, f->update,
+         SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
-                                            const sl_int *places, sl_int first,
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
+                                            const sl_int *places, sl_int columns, sl_int first,
                                             sl_int last) {
-    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    sl_int row, end, split = 0, i;
-    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
-        split++;
-    }
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
         const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
-        double *to = f->panel + sli_tile_offset(w, tile);
+        double *const to[2] = {f->panel, f->update};
+        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
+                                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
+                                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
         for (end = row;
@@ -3575,17 +3600,10 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < end && i < split; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
-            }
-            if (i < end) {
-                to = f->update + sli_triangle_offset(tile - whole) -
-                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-            }
-            for (; i < end; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
+            for (i = 0; i < end && i < columns; i++) {
+                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
+                SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -4734,32 +4752,33 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
-    const sl_int w = f->width, whole = w / SLI_TILE;
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                                          sl_int t1, double *B) {
+    const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
-    for (c = whole; c < t1; c += SLI_GROUP) {
+    for (c = c0; c < last; c += SLI_GROUP) {
         SLV_NAME(product)
-        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
-         SLI_TILE * (t1 - whole), whole, B);
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, last), 0, w, f->update,
+         SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
-                                            const sl_int *places, sl_int first,
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
+                                            const sl_int *places, sl_int columns, sl_int first,
                                             sl_int last) {
-    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    sl_int row, end, split = 0, i;
-    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
-        split++;
-    }
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
         const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
-        double *to = f->panel + sli_tile_offset(w, tile);
+        double *const to[2] = {f->panel, f->update};
+        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
+                                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
+                                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
         for (end = row;
@@ -4769,17 +4788,10 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < end && i < split; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
-            }
-            if (i < end) {
-                to = f->update + sli_triangle_offset(tile - whole) -
-                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-            }
-            for (; i < end; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
+            for (i = 0; i < end && i < columns; i++) {
+                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
+                SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -5980,32 +5992,33 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
-    const sl_int w = f->width, whole = w / SLI_TILE;
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                                          sl_int t1, double *B) {
+    const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
-    for (c = whole; c < t1; c += SLI_GROUP) {
+    for (c = c0; c < last; c += SLI_GROUP) {
         SLV_NAME(product)
-        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
-         SLI_TILE * (t1 - whole), whole, B);
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, last), 0, w, f->update,
+         SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
-                                            const sl_int *places, sl_int first,
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
+                                            const sl_int *places, sl_int columns, sl_int first,
                                             sl_int last) {
-    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    sl_int row, end, split = 0, i;
-    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
-        split++;
-    }
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
         const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
-        double *to = f->panel + sli_tile_offset(w, tile);
+        double *const to[2] = {f->panel, f->update};
+        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
+                                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
+                                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
         for (end = row;
@@ -6015,17 +6028,10 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < end && i < split; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
-            }
-            if (i < end) {
-                to = f->update + sli_triangle_offset(tile - whole) -
-                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-            }
-            for (; i < end; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
+            for (i = 0; i < end && i < columns; i++) {
+                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
+                SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }
@@ -7294,19 +7300,34 @@ static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int 
     rows->begin[0] = columns->begin[0] = 0;
 }
 
+SLI_INLINE uint64_t sli_stir(uint64_t h, uint64_t what) {
+    h = (h ^ what) * 0xd6e8feb86659fd93u;
+    return h ^ h >> 32;
+}
+
+/* Stirs count numbers in, two at once and in four chains: the multiplications of one chain wait for
+ * each other, and every refactorization comes through here. */
+static uint64_t sli_stir_all(uint64_t h, const sl_int *a, sl_int count) {
+    uint64_t chain[4] = {h, h + 1, h + 2, h + 3};
+    sl_int k = 0;
+    int c;
+    for (; k <= count - 8; k += 8) {
+        for (c = 0; c < 4; c++) {
+            chain[c] = sli_stir(chain[c], (uint64_t)(uint32_t)a[k + 2 * c] << 32 |
+                                              (uint32_t)a[k + 2 * c + 1]);
+        }
+    }
+    for (; k < count; k++) {
+        chain[0] = sli_stir(chain[0], (uint32_t)a[k]);
+    }
+    return sli_stir(sli_stir(sli_stir(chain[0], chain[1]), chain[2]), chain[3]);
+}
+
 /* A number that two patterns share only by a 2^-64 accident. */
 static uint64_t sli_fingerprint(const sl_csc *A) {
-    uint64_t h = (uint64_t)(uint32_t)A->n_cols + 0x9e3779b97f4a7c15u;
-    sl_int k;
-    for (k = 0; k < A->n_cols; k++) {
-        h = (h ^ (uint32_t)A->p[k + 1]) * 0xd6e8feb86659fd93u;
-        h ^= h >> 32;
-    }
-    for (k = 0; k < sli_nnz(A); k++) {
-        h = (h ^ (uint32_t)A->i[k]) * 0xd6e8feb86659fd93u;
-        h ^= h >> 32;
-    }
-    return h;
+    const uint64_t h = sli_stir_all((uint64_t)(uint32_t)A->n_cols + 0x9e3779b97f4a7c15u,
+                                    A->n_cols > 0 ? A->p + 1 : NULL, A->n_cols);
+    return sli_stir_all(h, A->i, sli_nnz(A));
 }
 
 #endif
@@ -8678,6 +8699,9 @@ struct sl_factor {
     double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
     double *inverse;       /* SLI_FRONT_INVERSE */
     sli_failure *failures; /* one */
+    /* left-looking */
+    sl_int *local;  /* n: local rows in the supernode at hand */
+    sl_int *places; /* rows of the tallest front: those of a descendant in it */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
@@ -8917,21 +8941,26 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
         const sl_int first = sli_lower_bound(places, child->below, SLI_TILE * t0);
         const sl_int last = sli_lower_bound(places, child->below, SLI_TILE * t1);
-        F->kernels->assemble(f, from, child->width, places, first, last);
+        F->kernels->assemble(f, from, child->width % SLI_TILE, places, child->below, first, last);
         for (k = first; k < last; k++) {
             f->magnitude[places[k]] += magnitude[k];
         }
     }
 }
 
-/* A finished front: its magnitudes go where the update matrix waits. A null pivot is a failure. */
-static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
-                                  sli_failure *failure) {
-    const sl_int first = F->S->steps[s].column, whole = f->width / SLI_TILE;
+/* The magnitudes of the rows below go where the update matrix waits. */
+static void sli_front_hand_over(const sli_front *f) {
     const sl_int tiles = sli_update_tiles(f->width, f->below);
-    sl_int k;
-    memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + SLI_TILE * (ptrdiff_t)whole,
+    memcpy(f->update + sli_triangle_offset(tiles),
+           f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE),
            SLI_TILE * (size_t)tiles * sizeof(double));
+}
+
+/* A null pivot is a failure. */
+static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
+                                 sli_failure *failure) {
+    const sl_int first = F->S->steps[s].column;
+    sl_int k;
     for (k = 0; k < f->width; k++) {
         const sl_status status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
         if (status != SL_OK) {
@@ -8941,14 +8970,22 @@ static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int
     return SL_OK;
 }
 
+/* The panel of a front, from A and all updates to L. */
+static void sli_front_eliminate(const sl_factor *F, const sli_front *f, double *scratch) {
+    const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
+    sl_int c0;
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        F->kernels->pivots(f, c0, scratch);
+        F->kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+    }
+}
+
 /* The whole of supernode s's front by one worker. */
 static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
                                  sli_failure *failure) {
-    const sli_kernels *kernels = F->kernels;
     const sli_front f = sli_front_of(F, s, worker);
-    const sl_int tiles = sli_front_tiles(&f), ends = sli_tiles(f.width);
+    const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-    sl_int c0;
     sl_status status;
     sli_front_clear(&f, 0, tiles);
     status = sli_front_load(F, A, &f, s, failure);
@@ -8956,14 +8993,13 @@ static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int
         return status;
     }
     sli_front_assemble(F, &f, s, 0, tiles);
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        kernels->pivots(&f, c0, scratch);
-        kernels->rows(&f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
-    }
+    sli_front_eliminate(F, &f, scratch);
     if (f.below > 0) {
-        kernels->update(&f, f.width / SLI_TILE, tiles, scratch);
+        const sl_int whole = f.width / SLI_TILE;
+        F->kernels->update(&f, whole, tiles, whole, tiles, scratch);
     }
-    return sli_front_finish(F, &f, s, failure);
+    sli_front_hand_over(&f);
+    return sli_front_check(F, &f, s, failure);
 }
 
 /* Worker k's subtrees. A failure ends its subtree only: the first failure of all must be found. */
@@ -9022,7 +9058,7 @@ static void sli_shared_update(void *data, sl_int k) {
     const sl_factor *F = job->F;
     const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
     const sl_int whole = job->front.width / SLI_TILE;
-    F->kernels->update(&job->front, sli_part(whole, tiles, k, workers, 1),
+    F->kernels->update(&job->front, whole, tiles, sli_part(whole, tiles, k, workers, 1),
                        sli_part(whole, tiles, k + 1, workers, 1),
                        F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
 }
@@ -9047,7 +9083,8 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     if (job->front.below > 0) {
         sli_parallel(threads, workers, sli_shared_update, job);
     }
-    return sli_front_finish(F, &job->front, job->super, failure);
+    sli_front_hand_over(&job->front);
+    return sli_front_check(F, &job->front, job->super, failure);
 }
 
 /* The whole factorization. A fits the analysis. [DR83], [Liu92] */
@@ -9084,6 +9121,93 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
 
 #endif
 /* end src/impl/multifrontal.h */
+/* begin src/impl/leftlooking.h */
+/* leftlooking.h: supernodes factored again by pulling from all their descendants: for changes that reach few of them */
+#ifndef SLI_LEFTLOOKING_H
+#define SLI_LEFTLOOKING_H
+
+/* What descendant d takes from supernode s: its rows from number `first` on are rows of s, the ones
+ * before `last` are columns of s. */
+static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, sl_int last) {
+    const sl_symbolic *S = F->S;
+    const sl_int *rows = S->rows + S->rows_begin[d];
+    sli_front from = sli_front_of(F, d, 0);
+    const sl_int w = from.width, tiles = sli_front_tiles(&from);
+    const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
+    sl_int t, r, j;
+    from.update = F->waiting; /* no other update matrix is under way */
+    for (t = c0; t < tiles; t++) {
+        memset(from.update + sli_triangle_offset(t - c0), 0,
+               (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
+    }
+    F->kernels->update(&from, c0, c1, c0, tiles, F->buffer);
+    for (r = first; r < from.below; r++) {
+        F->places[r - first] = F->local[rows[r]];
+    }
+    F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, F->places, last - first, 0,
+                         from.below - first);
+    for (r = first; r < last; r++) { /* |l d l| of the pivots to come */
+        const double *l = from.panel + sli_panel_at(w, w + r, 0);
+        for (j = 0; j < w; j++) {
+            f->magnitude[F->places[r - first]] +=
+                fabs(l[SLI_TILE * (ptrdiff_t)j] * l[SLI_TILE * (ptrdiff_t)j] * from.D[j]);
+        }
+    }
+}
+
+/* Supernode s from A and its descendants, parents before children: those that have no row among the
+ * columns of s have no descendant with one. */
+static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    sli_front f = sli_front_of(F, s, 0);
+    const sl_int *rows = S->rows + S->rows_begin[s];
+    const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+    sl_int k, d;
+    sl_status status;
+    for (k = 0; k < f.width; k++) {
+        F->local[start + k] = k;
+    }
+    for (k = 0; k < f.below; k++) {
+        F->local[rows[k]] = f.width + k;
+    }
+    memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
+    status = sli_front_load(F, A, &f, s, failure);
+    if (status != SL_OK) {
+        return status;
+    }
+    for (d = s - 1; d >= S->descendant[s];) {
+        const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
+        const sl_int first = sli_lower_bound(of, below, start);
+        const sl_int last = first + sli_lower_bound(of + first, below - first, end);
+        if (first < last) {
+            sli_pull(F, &f, d, first, last);
+            d--;
+        } else {
+            d = S->descendant[d] - 1;
+        }
+    }
+    sli_front_eliminate(F, &f, F->buffer);
+    return sli_front_check(F, &f, s, failure);
+}
+
+/* Every supernode on the way from the seeds, columns of L in ascending order, to the roots. */
+static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint64_t *seeds,
+                                      sl_int count, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    sl_status status = SL_OK;
+    sl_int k = 0, s, next;
+    while (k < count && status == SL_OK) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
+            status = sli_left_looking(F, A, s, failure);
+        }
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/leftlooking.h */
 /* begin src/impl/factor.h */
 /* factor.h: the factor object: creation, refactorization, and what can be asked of it */
 #ifndef SLI_FACTOR_H
@@ -9101,6 +9225,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
+        F->local = SLI_TAKE(b, sl_int, n);
+        F->places = SLI_TAKE(b, sl_int, S->tallest);
         sli_schedule_layout(&F->schedule, b, S);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
@@ -9180,6 +9306,22 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
     sli_count_pivots(&F->stats, F->D, good);
 }
 
+/* What a factorization came to, for the caller and for F itself. */
+static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+                                 double started, sl_stats *stats) {
+    sli_stats_clear_error(&F->stats);
+    sli_factor_tell(F, A, failure);
+    F->stats.seconds_factor = sli_seconds() - started;
+    F->is_good = failure->status == SL_OK;
+    if (stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+        stats->error_row = F->stats.error_row;
+        stats->error_column = F->stats.error_column;
+        stats->error_value = F->stats.error_value;
+    }
+    return failure->status;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
     sli_failure failure;
@@ -9193,20 +9335,74 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (status != SL_OK) {
         return status;
     }
-    sli_stats_clear_error(&F->stats);
     memset(&failure, 0, sizeof failure);
-    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
-                                               : sli_uplooking(F, A, &failure);
-    sli_factor_tell(F, A, &failure);
-    F->stats.seconds_factor = sli_seconds() - started;
-    F->is_good = status == SL_OK;
-    if (stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-        stats->error_row = F->stats.error_row;
-        stats->error_column = F->stats.error_column;
-        stats->error_value = F->stats.error_value;
+    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
+                                             : sli_uplooking(F, A, &failure));
+    return sli_factor_done(F, A, &failure, started, stats);
+}
+
+/* The columns of L in which the entries of some columns of A stand, sorted. Returns how many. */
+static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
+                                sl_int count, uint64_t *seeds, uint64_t *scratch) {
+    sl_int k, p, total = 0;
+    for (k = 0; k < count; k++) {
+        const sl_int j = S->iperm[columns[k]];
+        sl_int least = INT32_MAX;
+        for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
+            const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
+            if (seed != least) { /* most entries of a column go where the one before went */
+                seeds[total++] = sli_keyed(seed, 0);
+                least = seed;
+            }
+        }
     }
-    return status;
+    sli_sort(seeds, total, scratch);
+    return total;
+}
+
+SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                            sl_int count, sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_block b = {NULL, 0, 0};
+    uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
+    sli_failure failure;
+    sl_status status;
+    sl_int k;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k < count; k++) {
+        if (columns[k] < 0 || columns[k] >= F->S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
+        }
+        entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
+    }
+    if (F->method != SL_METHOD_SUPERNODAL || entries >= (uint64_t)sli_nnz(A)) {
+        return sl_factor_refactor(F, A, stats);
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        seeds = SLI_TAKE(&b, uint64_t, entries);
+        scratch = SLI_TAKE(&b, uint64_t, entries);
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&failure, 0, sizeof failure);
+    F->is_good = 0;
+    count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
+    (void)sli_left_looking_all(F, A, seeds, count, &failure);
+    sli_free(&F->allocator, b.base);
+    return sli_factor_done(F, A, &failure, started, stats);
 }
 
 /* The last pivot of a singular Laplacian is what rounding left of it: over meshes, grids and paths

@@ -57,6 +57,7 @@ extern "C" {
 #include "impl/factor_parts.h"
 #include "impl/uplooking.h"
 #include "impl/multifrontal.h"
+#include "impl/leftlooking.h"
 #include "impl/factor.h"
 #include "impl/work.h"
 #include "impl/sweep.h"

@@ -5,6 +5,7 @@
 #include "../public/factor.h"
 #include "csc.h"
 #include "graph.h"
+#include "leftlooking.h"
 #include "multifrontal.h"
 #include "select.h"
 #include "uplooking.h"
@@ -21,6 +22,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
+        F->local = SLI_TAKE(b, sl_int, n);
+        F->places = SLI_TAKE(b, sl_int, S->tallest);
         sli_schedule_layout(&F->schedule, b, S);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
@@ -100,6 +103,22 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
     sli_count_pivots(&F->stats, F->D, good);
 }
 
+/* What a factorization came to, for the caller and for F itself. */
+static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+                                 double started, sl_stats *stats) {
+    sli_stats_clear_error(&F->stats);
+    sli_factor_tell(F, A, failure);
+    F->stats.seconds_factor = sli_seconds() - started;
+    F->is_good = failure->status == SL_OK;
+    if (stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+        stats->error_row = F->stats.error_row;
+        stats->error_column = F->stats.error_column;
+        stats->error_value = F->stats.error_value;
+    }
+    return failure->status;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
     sli_failure failure;
@@ -113,20 +132,74 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (status != SL_OK) {
         return status;
     }
-    sli_stats_clear_error(&F->stats);
     memset(&failure, 0, sizeof failure);
-    status = F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
-                                               : sli_uplooking(F, A, &failure);
-    sli_factor_tell(F, A, &failure);
-    F->stats.seconds_factor = sli_seconds() - started;
-    F->is_good = status == SL_OK;
-    if (stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-        stats->error_row = F->stats.error_row;
-        stats->error_column = F->stats.error_column;
-        stats->error_value = F->stats.error_value;
+    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
+                                             : sli_uplooking(F, A, &failure));
+    return sli_factor_done(F, A, &failure, started, stats);
+}
+
+/* The columns of L in which the entries of some columns of A stand, sorted. Returns how many. */
+static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
+                                sl_int count, uint64_t *seeds, uint64_t *scratch) {
+    sl_int k, p, total = 0;
+    for (k = 0; k < count; k++) {
+        const sl_int j = S->iperm[columns[k]];
+        sl_int least = INT32_MAX;
+        for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
+            const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
+            if (seed != least) { /* most entries of a column go where the one before went */
+                seeds[total++] = sli_keyed(seed, 0);
+                least = seed;
+            }
+        }
     }
-    return status;
+    sli_sort(seeds, total, scratch);
+    return total;
+}
+
+SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                            sl_int count, sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_block b = {NULL, 0, 0};
+    uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
+    sli_failure failure;
+    sl_status status;
+    sl_int k;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k < count; k++) {
+        if (columns[k] < 0 || columns[k] >= F->S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
+        }
+        entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
+    }
+    if (F->method != SL_METHOD_SUPERNODAL || entries >= (uint64_t)sli_nnz(A)) {
+        return sl_factor_refactor(F, A, stats);
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        seeds = SLI_TAKE(&b, uint64_t, entries);
+        scratch = SLI_TAKE(&b, uint64_t, entries);
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&failure, 0, sizeof failure);
+    F->is_good = 0;
+    count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
+    (void)sli_left_looking_all(F, A, seeds, count, &failure);
+    sli_free(&F->allocator, b.base);
+    return sli_factor_done(F, A, &failure, started, stats);
 }
 
 /* The last pivot of a singular Laplacian is what rounding left of it: over meshes, grids and paths

@@ -154,32 +154,33 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int t0, sl_int t1, double *B) {
-    const sl_int w = f->width, whole = w / SLI_TILE;
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                                          sl_int t1, double *B) {
+    const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
-    for (c = whole; c < t1; c += SLI_GROUP) {
+    for (c = c0; c < last; c += SLI_GROUP) {
         SLV_NAME(product)
-        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, t1), 0, w, f->update,
-         SLI_TILE * (t1 - whole), whole, B);
+        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP, last), 0, w, f->update,
+         SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
 /* What a child hands over, row by row of the parent's tiles: the run of the child's rows that fall
  * from one of its tiles into one of the parent's moves as a whole, spread by a mask of lanes, through
  * all columns. What stands above the diagonal moves along and is never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int from_w,
-                                            const sl_int *places, sl_int first,
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
+                                            const sl_int *places, sl_int columns, sl_int first,
                                             sl_int last) {
-    const sl_int w = f->width, skipped = from_w % SLI_TILE, whole = w / SLI_TILE;
-    sl_int row, end, split = 0, i;
-    while (split < last && places[split] < w) { /* columns of the panel, then of the update matrix */
-        split++;
-    }
+    const sl_int w = f->width, whole = w / SLI_TILE;
+    sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = places[row] / SLI_TILE;
         const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
                                SLI_TILE * (ptrdiff_t)skipped + lane;
-        double *to = f->panel + sli_tile_offset(w, tile);
+        double *const to[2] = {f->panel, f->update};
+        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
+                                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
+                                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
         for (end = row;
@@ -189,17 +190,10 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
-            for (i = 0; i < end && i < split; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
-            }
-            if (i < end) {
-                to = f->update + sli_triangle_offset(tile - whole) -
-                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole;
-            }
-            for (; i < end; i++) {
-                SLV_SPREAD_ADD(to + SLI_TILE * (ptrdiff_t)places[i],
-                               source + SLI_TILE * (ptrdiff_t)i)
+            for (i = 0; i < end && i < columns; i++) {
+                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
+                SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
         }
     }

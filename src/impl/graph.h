@@ -115,19 +115,34 @@ static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int 
     rows->begin[0] = columns->begin[0] = 0;
 }
 
+SLI_INLINE uint64_t sli_stir(uint64_t h, uint64_t what) {
+    h = (h ^ what) * 0xd6e8feb86659fd93u;
+    return h ^ h >> 32;
+}
+
+/* Stirs count numbers in, two at once and in four chains: the multiplications of one chain wait for
+ * each other, and every refactorization comes through here. */
+static uint64_t sli_stir_all(uint64_t h, const sl_int *a, sl_int count) {
+    uint64_t chain[4] = {h, h + 1, h + 2, h + 3};
+    sl_int k = 0;
+    int c;
+    for (; k <= count - 8; k += 8) {
+        for (c = 0; c < 4; c++) {
+            chain[c] = sli_stir(chain[c], (uint64_t)(uint32_t)a[k + 2 * c] << 32 |
+                                              (uint32_t)a[k + 2 * c + 1]);
+        }
+    }
+    for (; k < count; k++) {
+        chain[0] = sli_stir(chain[0], (uint32_t)a[k]);
+    }
+    return sli_stir(sli_stir(sli_stir(chain[0], chain[1]), chain[2]), chain[3]);
+}
+
 /* A number that two patterns share only by a 2^-64 accident. */
 static uint64_t sli_fingerprint(const sl_csc *A) {
-    uint64_t h = (uint64_t)(uint32_t)A->n_cols + 0x9e3779b97f4a7c15u;
-    sl_int k;
-    for (k = 0; k < A->n_cols; k++) {
-        h = (h ^ (uint32_t)A->p[k + 1]) * 0xd6e8feb86659fd93u;
-        h ^= h >> 32;
-    }
-    for (k = 0; k < sli_nnz(A); k++) {
-        h = (h ^ (uint32_t)A->i[k]) * 0xd6e8feb86659fd93u;
-        h ^= h >> 32;
-    }
-    return h;
+    const uint64_t h = sli_stir_all((uint64_t)(uint32_t)A->n_cols + 0x9e3779b97f4a7c15u,
+                                    A->n_cols > 0 ? A->p + 1 : NULL, A->n_cols);
+    return sli_stir_all(h, A->i, sli_nnz(A));
 }
 
 #endif

@@ -143,13 +143,18 @@ typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch
 typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
                                 double *scratch);
 
-/* Row tiles t0 .. t1-1 of the update matrix, all in or below the last tile of pivots. */
-typedef void (*sli_update_kernel)(const sli_front *f, sl_int t0, sl_int t1, double *scratch);
+/* Row tiles t0 .. t1-1 and column tiles c0 .. c1-1 of the triangle that starts at tile c0, all in or
+ * below the last tile of pivots: of the update matrix, or of a part of it. */
+typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
+                                  double *scratch);
 
-/* Adds rows first .. last-1 of the update matrix of a child of some width to its parent's front; places: the local row in the parent of each of the child's rows below, ascending.
- * No two calls for one front may run at once on rows of one tile. */
-typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int from_width,
-                                    const sl_int *places, sl_int first, sl_int last);
+/* Adds rows first .. last-1 of a descendant's update matrix, columns up to the row or to columns-1, to
+ * a front; the first `skipped` rows and columns of the matrix mean nothing, and row 0 comes after
+ * them. places: the local row in the front of each row, ascending. No two calls for one front may run
+ * at once on rows of one tile. */
+typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
+                                    const sl_int *places, sl_int columns, sl_int first,
+                                    sl_int last);
 
 typedef struct sli_kernels {
     sl_isa isa;

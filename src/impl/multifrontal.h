@@ -72,21 +72,26 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
         const sl_int first = sli_lower_bound(places, child->below, SLI_TILE * t0);
         const sl_int last = sli_lower_bound(places, child->below, SLI_TILE * t1);
-        F->kernels->assemble(f, from, child->width, places, first, last);
+        F->kernels->assemble(f, from, child->width % SLI_TILE, places, child->below, first, last);
         for (k = first; k < last; k++) {
             f->magnitude[places[k]] += magnitude[k];
         }
     }
 }
 
-/* A finished front: its magnitudes go where the update matrix waits. A null pivot is a failure. */
-static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
-                                  sli_failure *failure) {
-    const sl_int first = F->S->steps[s].column, whole = f->width / SLI_TILE;
+/* The magnitudes of the rows below go where the update matrix waits. */
+static void sli_front_hand_over(const sli_front *f) {
     const sl_int tiles = sli_update_tiles(f->width, f->below);
-    sl_int k;
-    memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + SLI_TILE * (ptrdiff_t)whole,
+    memcpy(f->update + sli_triangle_offset(tiles),
+           f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE),
            SLI_TILE * (size_t)tiles * sizeof(double));
+}
+
+/* A null pivot is a failure. */
+static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
+                                 sli_failure *failure) {
+    const sl_int first = F->S->steps[s].column;
+    sl_int k;
     for (k = 0; k < f->width; k++) {
         const sl_status status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
         if (status != SL_OK) {
@@ -96,14 +101,22 @@ static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int
     return SL_OK;
 }
 
+/* The panel of a front, from A and all updates to L. */
+static void sli_front_eliminate(const sl_factor *F, const sli_front *f, double *scratch) {
+    const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
+    sl_int c0;
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+        F->kernels->pivots(f, c0, scratch);
+        F->kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+    }
+}
+
 /* The whole of supernode s's front by one worker. */
 static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
                                  sli_failure *failure) {
-    const sli_kernels *kernels = F->kernels;
     const sli_front f = sli_front_of(F, s, worker);
-    const sl_int tiles = sli_front_tiles(&f), ends = sli_tiles(f.width);
+    const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-    sl_int c0;
     sl_status status;
     sli_front_clear(&f, 0, tiles);
     status = sli_front_load(F, A, &f, s, failure);
@@ -111,14 +124,13 @@ static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int
         return status;
     }
     sli_front_assemble(F, &f, s, 0, tiles);
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        kernels->pivots(&f, c0, scratch);
-        kernels->rows(&f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
-    }
+    sli_front_eliminate(F, &f, scratch);
     if (f.below > 0) {
-        kernels->update(&f, f.width / SLI_TILE, tiles, scratch);
+        const sl_int whole = f.width / SLI_TILE;
+        F->kernels->update(&f, whole, tiles, whole, tiles, scratch);
     }
-    return sli_front_finish(F, &f, s, failure);
+    sli_front_hand_over(&f);
+    return sli_front_check(F, &f, s, failure);
 }
 
 /* Worker k's subtrees. A failure ends its subtree only: the first failure of all must be found. */
@@ -177,7 +189,7 @@ static void sli_shared_update(void *data, sl_int k) {
     const sl_factor *F = job->F;
     const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
     const sl_int whole = job->front.width / SLI_TILE;
-    F->kernels->update(&job->front, sli_part(whole, tiles, k, workers, 1),
+    F->kernels->update(&job->front, whole, tiles, sli_part(whole, tiles, k, workers, 1),
                        sli_part(whole, tiles, k + 1, workers, 1),
                        F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
 }
@@ -202,7 +214,8 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     if (job->front.below > 0) {
         sli_parallel(threads, workers, sli_shared_update, job);
     }
-    return sli_front_finish(F, &job->front, job->super, failure);
+    sli_front_hand_over(&job->front);
+    return sli_front_check(F, &job->front, job->super, failure);
 }
 
 /* The whole factorization. A fits the analysis. [DR83], [Liu92] */

@@ -36,6 +36,9 @@
  *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
+ *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
+ *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations, 1983.
+ *  [Liu92]   Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
  *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
  */
