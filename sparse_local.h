@@ -1,69 +1,70 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 6ba5c7a08d90190c
+ * FNV-1a of all that follows this comment, license aside: 2b2250c285b8f019
  *
  * Contents
  *         (what a user reads)
- *     71  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    119  public/config.h            what a user may set before including the header, the version, and the integer types
- *    168  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    338  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    458  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    520  public/factor.h            the numbers: P A P' = L D L'
- *    610  public/solve.h             full solves, and the workspace that every solve writes to
- *    659  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     72  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    120  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    169  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    342  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    462  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    524  public/factor.h            the numbers: P A P' = L D L'
+ *    617  public/solve.h             full solves, and the workspace that every solve writes to
+ *    666  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    738  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    816  impl/status.h              status codes in words, and the error fields of stats
- *    872  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    975  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1050  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1087  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    745  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    823  impl/status.h              status codes in words, and the error fields of stats
+ *    879  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    982  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1057  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1094  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1121  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1290  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1386  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1416  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1984  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2029  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2166  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   2369  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2552  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2587  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2690  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   3099  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3833  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   5022  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   6261  impl/select.h              the kernel table for an instruction set
+ *   1128  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1297  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1393  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1423  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1991  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2036  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2173  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   2376  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2559  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2594  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2697  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   3106  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3840  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   5029  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6268  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6294  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6722  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6795  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6301  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6729  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6802  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   7149  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   7188  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7335  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7449  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7593  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7678  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7751  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7917  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   7993  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *   8034  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *   8227  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8507  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7156  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7195  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7342  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7456  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7600  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7685  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7758  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7924  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   8000  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *   8041  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *   8234  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8520  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8670  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8790  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8871  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *   9124  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *   9211  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   9588  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9648  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9858  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9898  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8683  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8803  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8884  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *   9137  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *   9224  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *   9516  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *   9611  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9671  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9881  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9921  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  10200  impl/leave.h               takes every internal macro away again
+ *  10223  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -303,7 +304,9 @@ typedef struct sl_stats {
     sl_int tree_height;            /* columns on the longest path of the elimination tree */
     sl_int components;             /* roots of the elimination tree */
     double seconds_order;          /* processor seconds in the ordering */
-    double seconds_analyse;        /* processor seconds in everything else of the analysis */
+    double seconds_analyse;        /* processor seconds in everything else of the analysis: .. */
+    double seconds_tree;           /* .. its part in tree, counts and supernodes, and .. */
+    double seconds_structure;      /* .. its part in the rows of L and the map of A into L */
     size_t bytes_symbolic;
 
     /* sl_factor_create, sl_factor_refactor */
@@ -314,7 +317,8 @@ typedef struct sl_stats {
     sl_int null;      /* pivots refused (0 or 1) */
     double pivot_min; /* smallest and largest |d| */
     double pivot_max;
-    double seconds_factor;
+    double seconds_setup;  /* processor seconds in the schedule and the memory of sl_factor_create */
+    double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
     /* sl_plan_create, sl_local_solve */
@@ -530,14 +534,17 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
- *  opt    [in]   isa, null_tolerance, allocator; may be NULL.
+ *  opt    [in]   isa, method, threads, null_tolerance, allocator; may be NULL.
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
  *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
  *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_TOO_LARGE: L is beyond size_t; SL_ERR_MEMORY.
- *  Cost     O(sum over columns of entries^2); nnz_panels doubles kept.
- *  Threads  any number at once on one S.
- *  Source   [LDL05] and [Davis06] 4.7, row by row, here over supernodes.
+ *  Cost     O(sum over columns of entries^2); kept are nnz_panels doubles and, by the supernodal method, the update
+ *           matrices that wait at once: some 5 % more on 2D meshes, some 30 % on 3D ones, twice that with threads.
+ *  Threads  any number of calls at once on one S. options.threads shares one call out, here and in every
+ *           sl_factor_refactor: subtrees first, then the rows of each large front. The bits of L do not depend on
+ *           their number. The supernodal method alone uses them.
+ *  Source   supernodal: multifrontal, [DR83] [Liu92], over tiles; up-looking: [LDL05], [Davis06] 4.7, row by row.
  *  Example  tests/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
@@ -8381,7 +8388,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     }
     sli_halves_fill(A, stats->triangle, w->scratch, &w->rows, &w->columns);
     stats->nnz_a = w->rows.begin[w->n];
+    stats->seconds_tree = -sli_seconds();
     sli_analyse_tree(w, opt, stats);
+    stats->seconds_tree += sli_seconds();
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.n = A->n_cols;
@@ -8399,7 +8408,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     if (status != SL_OK) {
         return status;
     }
+    stats->seconds_structure = -sli_seconds();
     sli_symbolic_fill(&draft, w, stats);
+    stats->seconds_structure += sli_seconds();
     stats->seconds_analyse += sli_seconds() - started;
     draft.stats = *stats;
     *out = (sl_symbolic *)(void *)b.base;
@@ -8421,6 +8432,8 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
     to->components = from->components;
     to->seconds_order = from->seconds_order;
     to->seconds_analyse = from->seconds_analyse;
+    to->seconds_tree = from->seconds_tree;
+    to->seconds_structure = from->seconds_structure;
     to->bytes_symbolic = from->bytes_symbolic;
 }
 
@@ -9209,7 +9222,7 @@ static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint6
 #endif
 /* end src/impl/leftlooking.h */
 /* begin src/impl/factor.h */
-/* factor.h: the factor object: creation, refactorization, and what can be asked of it */
+/* factor.h: the factor object: the method and the memory, factoring, factoring again, release */
 #ifndef SLI_FACTOR_H
 #define SLI_FACTOR_H
 
@@ -9287,6 +9300,7 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->null = from->null;
     to->pivot_min = from->pivot_min;
     to->pivot_max = from->pivot_max;
+    to->seconds_setup = from->seconds_setup;
     to->seconds_factor = from->seconds_factor;
     to->bytes_factor = from->bytes_factor;
 }
@@ -9429,6 +9443,7 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
 
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
                                   const sl_options *opt, sl_stats *stats) {
+    const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
@@ -9475,6 +9490,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         if (F->method == SL_METHOD_SUPERNODAL) {
             status = sli_factor_schedule(F);
         }
+        F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
             status = sl_factor_refactor(F, A, stats);
         }
@@ -9494,6 +9510,13 @@ SL_API void sl_factor_free(sl_factor *F) {
         sli_free(&a, F);
     }
 }
+
+#endif
+/* end src/impl/factor.h */
+/* begin src/impl/factor_ask.h */
+/* factor_ask.h: what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside */
+#ifndef SLI_FACTOR_ASK_H
+#define SLI_FACTOR_ASK_H
 
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
     sli_stats_clear_error(stats);
@@ -9584,7 +9607,7 @@ SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
 }
 
 #endif
-/* end src/impl/factor.h */
+/* end src/impl/factor_ask.h */
 /* begin src/impl/work.h */
 /* work.h: the workspace: one block of a thread's scratch that only grows */
 #ifndef SLI_WORK_H

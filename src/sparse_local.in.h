@@ -59,6 +59,7 @@ extern "C" {
 #include "impl/multifrontal.h"
 #include "impl/leftlooking.h"
 #include "impl/factor.h"
+#include "impl/factor_ask.h"
 #include "impl/work.h"
 #include "impl/sweep.h"
 #include "impl/solve.h"

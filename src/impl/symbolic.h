@@ -161,7 +161,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     }
     sli_halves_fill(A, stats->triangle, w->scratch, &w->rows, &w->columns);
     stats->nnz_a = w->rows.begin[w->n];
+    stats->seconds_tree = -sli_seconds();
     sli_analyse_tree(w, opt, stats);
+    stats->seconds_tree += sli_seconds();
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.n = A->n_cols;
@@ -179,7 +181,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     if (status != SL_OK) {
         return status;
     }
+    stats->seconds_structure = -sli_seconds();
     sli_symbolic_fill(&draft, w, stats);
+    stats->seconds_structure += sli_seconds();
     stats->seconds_analyse += sli_seconds() - started;
     draft.stats = *stats;
     *out = (sl_symbolic *)(void *)b.base;
@@ -201,6 +205,8 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
     to->components = from->components;
     to->seconds_order = from->seconds_order;
     to->seconds_analyse = from->seconds_analyse;
+    to->seconds_tree = from->seconds_tree;
+    to->seconds_structure = from->seconds_structure;
     to->bytes_symbolic = from->bytes_symbolic;
 }
 

@@ -137,7 +137,9 @@ typedef struct sl_stats {
     sl_int tree_height;            /* columns on the longest path of the elimination tree */
     sl_int components;             /* roots of the elimination tree */
     double seconds_order;          /* processor seconds in the ordering */
-    double seconds_analyse;        /* processor seconds in everything else of the analysis */
+    double seconds_analyse;        /* processor seconds in everything else of the analysis: .. */
+    double seconds_tree;           /* .. its part in tree, counts and supernodes, and .. */
+    double seconds_structure;      /* .. its part in the rows of L and the map of A into L */
     size_t bytes_symbolic;
 
     /* sl_factor_create, sl_factor_refactor */
@@ -148,7 +150,8 @@ typedef struct sl_stats {
     sl_int null;      /* pivots refused (0 or 1) */
     double pivot_min; /* smallest and largest |d| */
     double pivot_max;
-    double seconds_factor;
+    double seconds_setup;  /* processor seconds in the schedule and the memory of sl_factor_create */
+    double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
     /* sl_plan_create, sl_local_solve */

@@ -1,0 +1,95 @@
+/* factor_ask.h: what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside */
+#ifndef SLI_FACTOR_ASK_H
+#define SLI_FACTOR_ASK_H
+
+#include "factor.h"
+
+SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (F != NULL && stats != NULL) {
+        sli_factor_stats_copy(&F->stats, stats);
+    }
+}
+
+SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
+    double sum = 0.0;
+    sl_int k;
+    if (F == NULL || log_abs_det == NULL || sign == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    for (k = 0; k < F->S->n; k++) {
+        sum += log(fabs(F->D[k]));
+    }
+    *log_abs_det = sum;
+    *sign = F->stats.negative % 2 == 0 ? 1.0 : -1.0;
+    return SL_OK;
+}
+
+/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them.
+ */
+static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
+    const sl_symbolic *S = F->S;
+    sl_int s, j, r;
+    sl_off count = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int first = S->super_first[s], width = S->steps[s].width,
+                     height = width + S->steps[s].below;
+        for (j = 0; j < width; j++) {
+            for (r = j; r < height; r++) {
+                const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];
+                if (l != 0.0) {
+                    if (M != NULL) {
+                        M->i[count] = r < width ? first + r : S->rows[S->rows_begin[s] + r - width];
+                        M->x[count] = l;
+                    }
+                    count++;
+                }
+            }
+            if (M != NULL) {
+                M->p[first + j + 1] = (sl_int)count;
+            }
+        }
+    }
+    return count;
+}
+
+SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_options *opt) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_off count;
+    sl_status status;
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (F == NULL || !sli_allocator_is_whole(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    count = sli_factor_entries(F, NULL);
+    if (count > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
+    if (status == SL_OK) {
+        (*out)->p[0] = 0;
+        (void)sli_factor_entries(F, *out);
+    }
+    return status;
+}
+
+SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
+    sl_factor_view_t v = {NULL, NULL, NULL};
+    if (F != NULL) {
+        v.symbolic = F->S;
+        v.L = F->L;
+        v.D = F->D;
+    }
+    return v;
+}
+
+#endif
