@@ -1,70 +1,73 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 2b2250c285b8f019
+ * FNV-1a of all that follows this comment, license aside: 0b5fc85828b529d4
  *
  * Contents
  *         (what a user reads)
- *     72  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    120  public/config.h            what a user may set before including the header, the version, and the integer types
- *    169  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    342  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    462  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    524  public/factor.h            the numbers: P A P' = L D L'
- *    617  public/solve.h             full solves, and the workspace that every solve writes to
- *    666  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     75  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    123  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    172  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    345  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    465  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    527  public/factor.h            the numbers: P A P' = L D L'
+ *    620  public/solve.h             full solves, and the workspace that every solve writes to
+ *    669  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    738  public/batch.h             many independent solves with one factor, spread over threads by one call
  *         (bodies, in one source file)
  *         (L0 ground)
- *    745  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    823  impl/status.h              status codes in words, and the error fields of stats
- *    879  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    982  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1057  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1094  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    783  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    861  impl/status.h              status codes in words, and the error fields of stats
+ *    917  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1020  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1095  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1132  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1128  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1297  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1393  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1423  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1991  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2036  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2173  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   2376  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2559  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2594  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2697  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   3106  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3840  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   5029  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   6268  impl/select.h              the kernel table for an instruction set
+ *   1166  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1335  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1431  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1461  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2029  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2074  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2211  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   2414  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2597  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2632  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2735  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   3144  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   3878  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   5067  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6306  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6301  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6729  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6802  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6339  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6767  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6840  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   7156  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   7195  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7342  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7456  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7600  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7685  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7758  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7924  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   8000  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *   8041  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *   8234  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8520  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7194  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7233  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7380  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7494  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7638  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7723  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7796  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7962  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   8038  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *   8079  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *   8272  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8558  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8683  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8803  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8884  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *   9137  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *   9224  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *   9516  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *   9611  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9671  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9881  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9921  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8721  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8841  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8922  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *   9175  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *   9262  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *   9554  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *   9649  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9709  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9919  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9959  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *         (L5 on a factor)
+ *  10261  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  10223  impl/leave.h               takes every internal macro away again
+ *  10409  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -732,6 +735,41 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 
 #endif
 /* end src/public/plan.h */
+/* begin src/public/batch.h */
+/* batch.h: many independent solves with one factor, spread over threads by one call */
+#ifndef SL_PUBLIC_BATCH_H
+#define SL_PUBLIC_BATCH_H
+
+/** One solve of a batch: a plan and its right-hand sides, or a full solve. */
+typedef struct sl_request {
+    const sl_plan *plan; /* NULL: b known and x wanted everywhere, as in sl_factor_solve */
+    double *X;           /* nx x nrhs (n x nrhs), column-major, leading dimension ldx elements */
+    size_t ldx;
+    const double *B; /* nb x nrhs (n x nrhs), column-major, leading dimension ldb elements */
+    size_t ldb;
+    sl_int nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
+} sl_request;
+
+/** Answers requests with one factor: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
+ *
+ *  F         [in]      the factor; every plan belongs to its analysis.
+ *  requests  [in]      count of them; each X may be its own B (then ldx = ldb), and overlaps nothing else of the batch.
+ *  threads   [in]      how many and whose; NULL: the calling thread alone.
+ *  works     [in,out]  a workspace for each thread, threads->count of them (1 where that is 0), or NULL: allocated for
+ *                      this call.
+ *  failed    [out]     the request at fault, or -1; may be NULL. On error no X has been touched.
+ *  Returns   SL_OK; SL_ERR_ARGUMENT, also for works that hold a NULL or one workspace twice; SL_ERR_STATE: failed
+ *            factor, or a plan of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost      that of the solves, shared out by the entries of L that each reads; threads times the largest workspace.
+ *  Threads   as sl_plan_solve.
+ *  Example   tests/test_batch.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests,
+                                               sl_int count, const sl_threads *threads,
+                                               sl_work *const *works, sl_int *failed);
+
+#endif
+/* end src/public/batch.h */
 #ifdef __cplusplus
 }
 #endif
@@ -10219,6 +10257,154 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 
 #endif
 /* end src/impl/plan.h */
+/* L5 on a factor */
+/* begin src/impl/batch.h */
+/* batch.h: independent solves spread over workers by the entries of L that they read */
+#ifndef SLI_BATCH_H
+#define SLI_BATCH_H
+
+typedef struct sli_batch {
+    const sl_factor *F;
+    const sl_request *requests;
+    sl_int count, workers;
+    sl_off blocks;         /* of up to 8 right-hand sides */
+    double total;          /* entries of L that all blocks read */
+    sl_work *const *works; /* one a worker, or NULL */
+    unsigned char *memory; /* then `bytes` a worker */
+    size_t bytes;
+} sli_batch;
+
+static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
+    return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
+}
+
+/* What one block of 8 right-hand sides reads, and one for the call itself. */
+SLI_INLINE double sli_query_weight(const sli_query *q) {
+    return 1.0 + (double)q->forward.entries + (double)q->backward.entries;
+}
+
+/* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from
+ * `before`, what the requests before it weigh. */
+static sl_int sli_blocks_before(double share, double before, double weight, sl_int nrhs) {
+    const double blocks = ceil((share - before) / weight);
+    return blocks <= 0.0 ? 0 : blocks * 8.0 >= nrhs ? nrhs : (sl_int)blocks * 8;
+}
+
+/* Worker k's share of the batch. */
+static void sli_batch_share(void *data, sl_int k) {
+    const sli_batch *b = (const sli_batch *)data;
+    const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
+    void *memory = b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
+    double before = 0.0;
+    sl_int m;
+    for (m = 0; m < b->count && before < to; m++) {
+        const sl_request *r = &b->requests[m];
+        const sli_query q = sli_request_query(b->F, r);
+        const double weight = sli_query_weight(&q);
+        const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
+        const sl_int last = k + 1 == b->workers
+                                ? r->nrhs
+                                : sli_blocks_before(to, before, weight, r->nrhs);
+        if (first < last && q.nx > 0) {
+            sli_sweep(b->F, &q, r->X + (size_t)first * r->ldx, r->ldx,
+                      q.nb > 0 ? r->B + (size_t)first * r->ldb : r->B, r->ldb, last - first,
+                      memory);
+        }
+        before += weight * (sli_tiles(r->nrhs));
+    }
+}
+
+/* Checks every request; weighs them and finds the scratch that they need. */
+static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
+    for (*at = 0; *at < b->count; ++*at) {
+        const sl_request *r = &b->requests[*at];
+        const sli_query q = sli_request_query(b->F, r);
+        size_t bytes;
+        const sl_status status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
+        if (status != SL_OK) {
+            return status;
+        }
+        if (q.S != b->F->S) {
+            return SL_ERR_STATE;
+        }
+        bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
+        if (bytes == SIZE_MAX) {
+            return SL_ERR_TOO_LARGE;
+        }
+        b->bytes = bytes > b->bytes ? bytes : b->bytes;
+        b->blocks += sli_tiles(r->nrhs);
+        b->total += sli_query_weight(&q) * (sli_tiles(r->nrhs));
+    }
+    *at = -1;
+    return SL_OK;
+}
+
+/* Scratch for every worker: in the caller's workspaces, or in one block to be freed. */
+static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
+    sli_block block = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int k, other;
+    int pass;
+    for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
+        for (other = 0; other < k; other++) {
+            status = works[k] == works[other] ? SL_ERR_ARGUMENT : status;
+        }
+        status = works[k] == NULL ? SL_ERR_ARGUMENT : status;
+        status = status == SL_OK ? sli_work_grow(works[k], b->bytes) : status;
+    }
+    b->works = works;
+    b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    for (pass = 0; works == NULL && pass < 2 && status == SL_OK; pass++) {
+        for (k = 0; k < b->workers; k++) {
+            unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
+            b->memory = k == 0 ? memory : b->memory;
+        }
+        status = pass == 0 ? sli_block_alloc(&block, &b->F->allocator) : SL_OK;
+    }
+    return status;
+}
+
+SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
+                                const sl_threads *threads, sl_work *const *works, sl_int *failed) {
+    sl_threads none;
+    sli_batch b;
+    sl_status status;
+    sl_int at = -1;
+    memset(&none, 0, sizeof none);
+    memset(&b, 0, sizeof b);
+    threads = threads == NULL ? &none : threads;
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    if (F == NULL || count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    b.F = F;
+    b.requests = requests;
+    b.count = count;
+    status = sli_batch_check(&b, &at);
+    b.workers = sli_workers(threads);
+    b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
+    if (failed != NULL) {
+        *failed = at;
+    }
+    if (status == SL_OK && b.blocks > 0) {
+        status = sli_batch_reserve(&b, works);
+        if (status == SL_OK) {
+            sli_parallel(threads, b.workers, sli_batch_share, &b);
+        }
+        if (works == NULL) {
+            sli_free(&F->allocator, b.memory);
+        }
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/batch.h */
 /* last: takes every internal macro away again */
 /* begin src/impl/leave.h */
 /* leave.h: takes every internal macro away again */

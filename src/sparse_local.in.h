@@ -13,6 +13,7 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
+#include "public/batch.h"
 #ifdef __cplusplus
 }
 #endif
@@ -64,6 +65,8 @@ extern "C" {
 #include "impl/sweep.h"
 #include "impl/solve.h"
 #include "impl/plan.h"
+/* L5 on a factor */
+#include "impl/batch.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"
 #endif

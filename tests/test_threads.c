@@ -1,44 +1,6 @@
-/* test_threads.c: factorizations and batches by several workers: the same bits, the same failures, nothing shared */
+/* test_threads.c: factorizations by several workers: the same bits, the same failures, their memory */
+#include "parallel_for.h"
 #include "problem.h"
-#include <pthread.h>
-
-/* ---- parallel-for's of a caller: threads, and one after the other from the last to the first ---- */
-
-typedef struct share_t {
-    void (*body)(void *data, sl_int k);
-    void *data;
-    sl_int k;
-} share_t;
-
-static void *share_run(void *share) {
-    share_t *s = (share_t *)share;
-    s->body(s->data, s->k);
-    return NULL;
-}
-
-static void run_threads(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
-    pthread_t *thread = (pthread_t *)test_array((size_t)count, sizeof *thread);
-    share_t *share = (share_t *)test_array((size_t)count, sizeof *share);
-    ++*(int *)context;
-    for (sl_int k = 0; k < count; k++) {
-        share[k].body = body;
-        share[k].data = data;
-        share[k].k = k;
-        assert_int_equal(pthread_create(&thread[k], NULL, share_run, &share[k]), 0);
-    }
-    for (sl_int k = 0; k < count; k++) {
-        assert_int_equal(pthread_join(thread[k], NULL), 0);
-    }
-    free(thread);
-    free(share);
-}
-
-static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
-    ++*(int *)context;
-    for (sl_int k = count - 1; k >= 0; k--) {
-        body(data, k);
-    }
-}
 
 static sl_options options_threads(sl_parallel_for run, sl_int count, int *calls) {
     sl_options opt = options_none();
@@ -48,8 +10,6 @@ static sl_options options_threads(sl_parallel_for run, sl_int count, int *calls)
     opt.threads.context = calls;
     return opt;
 }
-
-/* ---- factorization ---- */
 
 static void assert_same_bits_for_any_number(gen_kind_t kind, sl_int size, sl_isa isa) {
     static const sl_parallel_for ways[2] = {run_threads, run_backwards};

@@ -1,0 +1,149 @@
+/* batch.h: independent solves spread over workers by the entries of L that they read */
+#ifndef SLI_BATCH_H
+#define SLI_BATCH_H
+
+#include "../public/batch.h"
+#include "parallel.h"
+#include "plan.h"
+
+typedef struct sli_batch {
+    const sl_factor *F;
+    const sl_request *requests;
+    sl_int count, workers;
+    sl_off blocks;         /* of up to 8 right-hand sides */
+    double total;          /* entries of L that all blocks read */
+    sl_work *const *works; /* one a worker, or NULL */
+    unsigned char *memory; /* then `bytes` a worker */
+    size_t bytes;
+} sli_batch;
+
+static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
+    return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
+}
+
+/* What one block of 8 right-hand sides reads, and one for the call itself. */
+SLI_INLINE double sli_query_weight(const sli_query *q) {
+    return 1.0 + (double)q->forward.entries + (double)q->backward.entries;
+}
+
+/* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from
+ * `before`, what the requests before it weigh. */
+static sl_int sli_blocks_before(double share, double before, double weight, sl_int nrhs) {
+    const double blocks = ceil((share - before) / weight);
+    return blocks <= 0.0 ? 0 : blocks * 8.0 >= nrhs ? nrhs : (sl_int)blocks * 8;
+}
+
+/* Worker k's share of the batch. */
+static void sli_batch_share(void *data, sl_int k) {
+    const sli_batch *b = (const sli_batch *)data;
+    const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
+    void *memory = b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
+    double before = 0.0;
+    sl_int m;
+    for (m = 0; m < b->count && before < to; m++) {
+        const sl_request *r = &b->requests[m];
+        const sli_query q = sli_request_query(b->F, r);
+        const double weight = sli_query_weight(&q);
+        const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
+        const sl_int last = k + 1 == b->workers
+                                ? r->nrhs
+                                : sli_blocks_before(to, before, weight, r->nrhs);
+        if (first < last && q.nx > 0) {
+            sli_sweep(b->F, &q, r->X + (size_t)first * r->ldx, r->ldx,
+                      q.nb > 0 ? r->B + (size_t)first * r->ldb : r->B, r->ldb, last - first,
+                      memory);
+        }
+        before += weight * (sli_tiles(r->nrhs));
+    }
+}
+
+/* Checks every request; weighs them and finds the scratch that they need. */
+static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
+    for (*at = 0; *at < b->count; ++*at) {
+        const sl_request *r = &b->requests[*at];
+        const sli_query q = sli_request_query(b->F, r);
+        size_t bytes;
+        const sl_status status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
+        if (status != SL_OK) {
+            return status;
+        }
+        if (q.S != b->F->S) {
+            return SL_ERR_STATE;
+        }
+        bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
+        if (bytes == SIZE_MAX) {
+            return SL_ERR_TOO_LARGE;
+        }
+        b->bytes = bytes > b->bytes ? bytes : b->bytes;
+        b->blocks += sli_tiles(r->nrhs);
+        b->total += sli_query_weight(&q) * (sli_tiles(r->nrhs));
+    }
+    *at = -1;
+    return SL_OK;
+}
+
+/* Scratch for every worker: in the caller's workspaces, or in one block to be freed. */
+static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
+    sli_block block = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int k, other;
+    int pass;
+    for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
+        for (other = 0; other < k; other++) {
+            status = works[k] == works[other] ? SL_ERR_ARGUMENT : status;
+        }
+        status = works[k] == NULL ? SL_ERR_ARGUMENT : status;
+        status = status == SL_OK ? sli_work_grow(works[k], b->bytes) : status;
+    }
+    b->works = works;
+    b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    for (pass = 0; works == NULL && pass < 2 && status == SL_OK; pass++) {
+        for (k = 0; k < b->workers; k++) {
+            unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
+            b->memory = k == 0 ? memory : b->memory;
+        }
+        status = pass == 0 ? sli_block_alloc(&block, &b->F->allocator) : SL_OK;
+    }
+    return status;
+}
+
+SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
+                                const sl_threads *threads, sl_work *const *works, sl_int *failed) {
+    sl_threads none;
+    sli_batch b;
+    sl_status status;
+    sl_int at = -1;
+    memset(&none, 0, sizeof none);
+    memset(&b, 0, sizeof b);
+    threads = threads == NULL ? &none : threads;
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    if (F == NULL || count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    b.F = F;
+    b.requests = requests;
+    b.count = count;
+    status = sli_batch_check(&b, &at);
+    b.workers = sli_workers(threads);
+    b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
+    if (failed != NULL) {
+        *failed = at;
+    }
+    if (status == SL_OK && b.blocks > 0) {
+        status = sli_batch_reserve(&b, works);
+        if (status == SL_OK) {
+            sli_parallel(threads, b.workers, sli_batch_share, &b);
+        }
+        if (works == NULL) {
+            sli_free(&F->allocator, b.memory);
+        }
+    }
+    return status;
+}
+
+#endif
