@@ -71,6 +71,14 @@ static void take_matrix(case_t *c, input_t *in) {
     c->A.x = form & 16 ? NULL : c->x;
 }
 
+/* Workers one after the other, the last first. */
+static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
+    (void)context;
+    for (sl_int k = count - 1; k >= 0; k--) {
+        body(data, k);
+    }
+}
+
 static void take_wishes(case_t *c, input_t *in) {
     const int wishes = take(in), more = take(in);
     const sl_int n = c->A.n_cols;
@@ -78,6 +86,9 @@ static void take_wishes(case_t *c, input_t *in) {
     c->opt.ordering = (sl_ordering)(wishes % 4);
     c->opt.relaxation = (sl_relaxation)(wishes / 4 % 2);
     c->opt.isa = (sl_isa)(wishes / 8 % 5);
+    c->opt.method = (sl_method)(wishes / 40 % 3);
+    c->opt.threads.count = more % 5;
+    c->opt.threads.run = run_backwards;
     c->opt.null_tolerance = more < 64 ? 0.0 : more < 128 ? -1.0 : more / 256.0;
     c->opt.perm = c->perm;
     for (sl_int k = 0; k < n; k++) {
@@ -152,6 +163,21 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
     sl_matrix_free(L);
 }
 
+/* Other values in the first half of the columns, and only their reach factored again. */
+static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in) {
+    sl_int columns[MOST];
+    const sl_int half = c->A.n_cols / 2;
+    for (sl_int j = 0; j < half; j++) {
+        columns[j] = j;
+    }
+    for (sl_int q = 0; q < c->p[half]; q++) {
+        c->x[q] = take_value(in);
+    }
+    if (sl_factor_refactor_changed(F, &c->A, columns, half, NULL) == SL_OK) {
+        solve_all(c, S, F);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     input_t in = {data, data};
     case_t *c = (case_t *)calloc(1, sizeof *c);
@@ -178,6 +204,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             }
             if (sl_factor_refactor(F, &c->A, NULL) == SL_OK) {
                 solve_all(c, S, F);
+                change_half(c, S, F, &in);
             } else {
                 PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STATE);
             }
