@@ -237,7 +237,7 @@ run-fuzz: $(FUZZERS:tests/fuzz_%.c=$(B)/run/%)
 
 $(B)/bench: $(call object,$(QUESTIONS:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
 	$(call say,LINK)
-	$(Q)$(LINK) -o $@ $^ $(PEER_LIBS) $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 
 bench: deps ## times full and local solves on this machine; CSV and plots under build/bench-out
 	@$(MAKE) --no-print-directory $(B)/bench

@@ -22,6 +22,9 @@ typedef struct bench_run_t {
 /** The questions, each in a file of its own. */
 void bench_patches(bench_run *run);
 void bench_scaling(bench_run *run);
+void bench_factor(bench_run *run);
+void bench_kernels(bench_run *run);
+void bench_harmonic(bench_run *run);
 void bench_multi_rhs(bench_run *run);
 void bench_pairs(bench_run *run);
 void bench_locality(bench_run *run);
@@ -48,6 +51,7 @@ typedef struct bench_contender {
     void (*call)(void *state);
     void *state;
     int batch;
+    void (*ready)(void *state); /* before each call, not timed; may be NULL */
 } bench_contender;
 
 /** Times contenders side by side: a warm-up of each, then rounds that go through all of them, so that what the
@@ -77,13 +81,26 @@ sl_int bench_random_below(uint64_t *state, sl_int bound);
 double bench_random_unit(uint64_t *state); /* in (-1, 1) */
 void bench_random_fill(uint64_t *state, double *x, size_t count);
 
-/* ---- the machine's limit (bandwidth.c) ---- */
+/* ---- threads (threads.c) ---- */
+
+/** What options.threads takes for so many threads. */
+sl_threads bench_threads(sl_int count);
+void bench_threads_free(void);
+
+/* ---- the machine's limits (bandwidth.c, peak.c) ---- */
 
 /** Bytes a second that one core reads in a loop over a block of so many bytes, measured in this run. */
 double bench_bandwidth(double bytes);
 
 /** Measures, and prints what was found. */
 void bench_bandwidth_measure(void);
+
+/** Floating-point operations a second that one core does on registers alone, a fused multiply-add being two; 0 where
+ *  the ISA is not here, SL_ISA_AUTO: of the best one. */
+double bench_peak(sl_isa isa);
+
+/** Measures, and prints what was found. */
+void bench_peak_measure(bench_run *run);
 
 /* ---- systems (systems.c) ---- */
 
@@ -206,11 +223,13 @@ int bench_cg(const sl_csc *A, double *x, const double *b, double tolerance, int 
 typedef struct bench_row {
     const char *what;   /* the case: "patch 2000" */
     const char *method; /* "plan solve" */
+    sl_isa isa;         /* SL_ISA_AUTO: the system's */
+    sl_int threads;     /* 0 means 1 */
     sl_int nrhs;
     sl_stats reach; /* columns and entries of both sweeps */
     double entries; /* doubles of L read, both sweeps together */
     int passes;     /* how often over the same entries; 0 means once */
-    double flops;
+    double flops;   /* of a factorization; those of a solve follow from its entries */
     bench_sample time;
     double baseline; /* seconds: the ratio is time.median / baseline */
 } bench_row;
@@ -220,6 +239,12 @@ typedef struct bench_report bench_report;
 /** Opens the question's table and its CSV file. */
 bench_report *bench_report_open(const bench_run *run, const char *name, const char *question,
                                 const char *baseline);
+
+/** "avx2" */
+const char *bench_isa_name(sl_isa isa);
+
+/** "4.321 us": 9 characters at most. */
+const char *bench_time_text(char *text, size_t size, double seconds);
 void bench_report_row(bench_report *report, const bench_system *system, const bench_row *row);
 void bench_report_note(bench_report *report, const char *format, ...);
 void bench_report_close(bench_report *report);

@@ -51,6 +51,9 @@ static void time_list_push(time_list *list, double seconds) {
 
 static void run_batch(const bench_contender *c, time_list *list) {
     for (int k = 0; k < (c->batch > 0 ? c->batch : 1); k++) {
+        if (c->ready) {
+            c->ready(c->state);
+        }
         double start = bench_now();
         c->call(c->state);
         double end = bench_now();
