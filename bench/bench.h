@@ -8,6 +8,8 @@
 #include "../sparse_local.h"
 #include "../tools/patch.h"
 
+typedef struct bench_report bench_report; /* report.c */
+
 /* ---- the run (main.c) ---- */
 typedef enum bench_size { BENCH_QUICK = 0, BENCH_DEFAULT, BENCH_FULL } bench_size;
 
@@ -130,6 +132,10 @@ int bench_systems(const bench_run *run, const double *wanted, int count, const b
 /** The 7-point Laplacian of a side x side x side grid, kept in the same way. */
 const bench_system *bench_volume(sl_int side);
 
+/** M + t (L M^-1)^(k-1) L, k = 1, 2, 3, of such a grid (with MESH of the one mesh), t = (0.1 diameter)^(2 k), kept in
+ *  the same way; NULL, and said, where rounding loses a pivot. */
+const bench_system *bench_k_harmonic(const bench_run *run, double vertices, int k);
+
 /** The mesh of that file, kept in the same way; NULL if it cannot be read. */
 const bench_system *bench_mesh(const char *path);
 
@@ -138,6 +144,11 @@ void bench_systems_free(void);
 
 /** A X = B holds: the backward error of each of the nrhs columns (leading dimensions n) is within rounding. */
 int bench_check_residual(bench_run *run, const bench_system *system, const double *X,
+                         const double *B, sl_int nrhs, const char *method);
+
+/** Prints the residual of nrhs solutions as a line of the table: its largest entry beside the largest of B, and the
+ *  backward error. */
+void bench_note_residual(bench_report *report, const bench_system *system, const double *X,
                          const double *B, sl_int nrhs, const char *method);
 
 /** X (nx x nrhs, leading dimension nx) has the bits of rows xset of full (leading dimension n), zeros of either
@@ -233,8 +244,6 @@ typedef struct bench_row {
     bench_sample time;
     double baseline; /* seconds: the ratio is time.median / baseline */
 } bench_row;
-
-typedef struct bench_report bench_report;
 
 /** Opens the question's table and its CSV file. */
 bench_report *bench_report_open(const bench_run *run, const char *name, const char *question,
