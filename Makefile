@@ -242,13 +242,13 @@ $(B)/bench: $(call object,$(QUESTIONS:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
 bench: deps ## times full and local solves on this machine; CSV and plots under build/bench-out
 	@$(MAKE) --no-print-directory $(B)/bench
 	@mkdir -p build/bench-out
-	$(BENCH_ENV) $(B)/bench $(ASK)
+	$(BENCH_ENV) $(B)/bench $(or $(ASK),$(ASK_FIRST))
 
 # Peers in their best setting: OpenBLAS chooses its kernels by itself, whatever core the environment forces on it.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen picks its vector instructions when it is compiled: its best setting is -march=native, for its own file alone.
-bench-peers: deps deps-peers sparse_local.h ## the bench with CHOLMOD and Eigen beside
-	@$(MAKE) --no-print-directory bench B=build/peers LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+bench-peers: deps deps-peers sparse_local.h ## the questions peers and peers_harmonic: beside CHOLMOD and Eigen
+	@$(MAKE) --no-print-directory bench B=build/peers ASK_FIRST="peers peers_harmonic" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'

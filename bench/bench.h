@@ -32,6 +32,7 @@ void bench_pairs(bench_run *run);
 void bench_locality(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
+void bench_peers_harmonic(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, chance (harness.c) ---- */
@@ -58,7 +59,7 @@ typedef struct bench_contender {
 
 /** Times contenders side by side: a warm-up of each, then rounds that go through all of them, so that what the
  *  machine does meanwhile meets all alike. Goes on until about so many seconds have passed: 3 rounds at least, or 1
- *  where a round takes more than 4 times as long as that.
+ *  where a round takes more than 4 times as long as that; beyond 20 times the warm-up is the round.
  */
 void bench_race(bench_sample *out, const bench_contender *contenders, int count, double seconds);
 
@@ -103,6 +104,9 @@ double bench_peak(sl_isa isa);
 
 /** Measures, and prints what was found. */
 void bench_peak_measure(bench_run *run);
+
+/** Writes name.machine.txt beside the CSV file: date, processor, compiler, limits (machine.c). */
+void bench_machine_write(const bench_run *run, const char *name);
 
 /* ---- systems (systems.c) ---- */
 
@@ -235,6 +239,7 @@ typedef struct bench_row {
     const char *what;   /* the case: "patch 2000" */
     const char *method; /* "plan solve" */
     sl_isa isa;         /* SL_ISA_AUTO: the system's */
+    int foreign;        /* another library's: it chooses its instructions by itself */
     sl_int threads;     /* 0 means 1 */
     sl_int nrhs;
     sl_stats reach; /* columns and entries of both sweeps */

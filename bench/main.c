@@ -29,7 +29,10 @@ static const question questions[] = {
      bench_pairs},
     {"locality", "the same local question on meshes of growing size", bench_locality},
 #ifdef SL_BENCH_PEERS
-    {"peers", "CHOLMOD and Eigen, same permutation, one thread", bench_peers},
+    {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
+     bench_peers},
+    {"peers_harmonic", "the same on harmonic, biharmonic and triharmonic systems",
+     bench_peers_harmonic},
 #endif
 };
 

@@ -101,8 +101,8 @@ static void print_row(const bench_row *row, sl_isa isa, double seconds, double l
         snprintf(ratio, sizeof ratio, "%.2f", seconds / row->baseline);
     }
     printf("  %-14s %-26s %-6s %3d %3d %10s %9s %9s %9s %10s %5s %8s\n", row->what, row->method,
-           bench_isa_name(isa), row->threads > 1 ? (int)row->threads : 1, (int)row->nrhs, read,
-           bench_time_text(min, sizeof min, row->time.min),
+           row->foreign ? "own" : bench_isa_name(isa), row->threads > 1 ? (int)row->threads : 1,
+           (int)row->nrhs, read, bench_time_text(min, sizeof min, row->time.min),
            bench_time_text(median, sizeof median, row->time.median),
            bench_time_text(max, sizeof max, row->time.max), rate, share, ratio);
     fflush(stdout);
@@ -121,7 +121,7 @@ void bench_report_row(bench_report *report, const bench_system *system, const be
             "%s,%s,%d,%lld,%lld,%s,%d,%s,%s,%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%.9g,%.4g,%."
             "4g,%.4g,%.4g,%.4g\n",
             report->name, system->name, (int)system->n, (long long)system->stats.nnz_l,
-            (long long)system->stats.nnz_panels, bench_isa_name(isa),
+            (long long)system->stats.nnz_panels, row->foreign ? "own" : bench_isa_name(isa),
             row->threads > 1 ? (int)row->threads : 1, row->what, row->method, (int)row->nrhs,
             (int)row->reach.b_columns, (int)row->reach.x_columns, (long long)row->reach.b_entries,
             (long long)row->reach.x_entries, row->entries, row->flops, row->time.count,
