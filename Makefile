@@ -54,7 +54,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
-	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers \
+	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
 	format tidy clean always build-tests run-tests run-fuzz
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
@@ -252,6 +252,10 @@ bench-peers: deps deps-peers sparse_local.h ## the questions peers and peers_har
 	CFLAGS='-DSL_BENCH_PEERS $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
+
+readme-table: ## what the last bench-peers measured, as a Markdown table
+	@awk -f tools/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
+	$(wildcard build/bench-out/peers_harmonic.csv)
 
 # ---- the rest ----
 

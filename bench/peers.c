@@ -10,13 +10,14 @@ enum { MAX_SYSTEMS = 10 };
 static const double large = 3e6; /* vertices: so many right-hand sides at once would not fit */
 
 static void one_system(bench_run *run, bench_report *report, const bench_system *system) {
-    static const sl_int counts[] = {1, 2, 3, 4, 8, 16, 64};
+    static const sl_int counts[] = {1, 2, 3, 4, 8, 16, 64}, counts_brief[] = {1, 2, 3, 8, 64};
     const sl_int most = system->n > large ? 16 : PEERS_MOST_RHS;
-    match *m = match_create(system, most);
+    match *m = match_create(run, system, most);
     peers_factor(run, report, m);
-    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
-        if (counts[k] <= most) {
-            peers_solve(run, report, m, counts[k]);
+    for (int k = 0; k < (m->is_brief ? 5 : 7); k++) {
+        const sl_int nrhs = m->is_brief ? counts_brief[k] : counts[k];
+        if (nrhs <= most) {
+            peers_solve(run, report, m, nrhs);
         }
     }
     peers_local(run, report, m);

@@ -12,7 +12,7 @@ void bench_peers_harmonic(bench_run *run) {
     for (int k = 1; k <= ORDERS; k++) {
         const bench_system *system = bench_k_harmonic(run, vertices, k);
         if (system) {
-            match *m = match_create(system, NRHS);
+            match *m = match_create(run, system, NRHS);
             peers_factor(run, report, m);
             peers_solve(run, report, m, NRHS);
             bench_note_residual(report, system, m->answer, m->B, NRHS, "CHOLMOD");

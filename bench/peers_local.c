@@ -9,7 +9,7 @@
 /* cholmod_solve2 gives x on the reach of Bset alone, so its Bset is the wanted set, which holds b's; it takes one
  * right-hand side, so several go one after the other. Where a full solve is quicker for CHOLMOD, the row of that name
  * says so: its time is that of the step before. */
-enum { VERTICES = 256, PATCHES = 5 };
+enum { VERTICES = 256, VERTICES_BRIEF = 32, PATCHES = 5 };
 
 typedef struct local_match {
     match *m;
@@ -142,12 +142,13 @@ static void patch_step(bench_run *run, bench_report *report, match *m, sl_int si
 
 void peers_local(bench_run *run, bench_report *report, match *m) {
     static const sl_int sizes[] = {100, 1000, 10000, 50000};
-    bench_queries *q = bench_queries_vertices(m->system, VERTICES, 1);
+    const int vertices = m->is_brief ? VERTICES_BRIEF : VERTICES;
+    bench_queries *q = bench_queries_vertices(m->system, vertices, 1);
     uint64_t chance = 2718;
     local_step(run, report, m, q, "vertex");
     bench_queries_free(q);
-    q = bench_queries_create(m->system, VERTICES, 1);
-    for (int k = 0; k < VERTICES && m->system->n > 1; k++) {
+    q = bench_queries_create(m->system, vertices, 1);
+    for (int k = 0; k < vertices && m->system->n > 1; k++) {
         sl_int pair[2] = {bench_random_below(&chance, m->system->n), 0};
         pair[1] = bench_random_below(&chance, m->system->n - 1);
         pair[1] += pair[1] >= pair[0];
@@ -157,7 +158,7 @@ void peers_local(bench_run *run, bench_report *report, match *m) {
         local_step(run, report, m, q, "pair");
     }
     bench_queries_free(q);
-    for (int s = 0; s < 4 && 2 * sizes[s] <= m->system->n; s++) {
+    for (int s = m->is_brief; s < 4 && 2 * sizes[s] <= m->system->n; s++) {
         patch_step(run, report, m, sizes[s]);
     }
 }

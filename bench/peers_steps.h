@@ -17,9 +17,10 @@ typedef struct match {
     sl_factor *threaded;  /* refactors on PEERS_THREADS */
     sl_symbolic *S;       /* the latest analysis */
     peer_cholmod *cholmod;
-    peer_eigen *eigen;  /* NULL where its factorization would take minutes */
-    double eigen_first; /* seconds of its first factorization */
+    peer_eigen *eigen;                 /* NULL where its factorization would take minutes */
+    double eigen_analyse, eigen_first; /* seconds of its analysis, of its first factorization */
     sl_matrix *permuted;
+    int is_brief; /* a large system, and not BENCH=full: fewer repetitions and steps */
     sl_int nrhs;
     double *B, *X; /* n x most_rhs */
     sl_work *W;
@@ -28,7 +29,7 @@ typedef struct match {
         best_full[3]; /* [nrhs], CHOLMOD's best full solve of 1 and of 2; count 0: not timed */
 } match;
 
-match *match_create(const bench_system *system, sl_int most_rhs);
+match *match_create(const bench_run *run, const bench_system *system, sl_int most_rhs);
 void match_free(match *m);
 
 /** One contender and its row. */
