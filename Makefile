@@ -54,7 +54,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
-	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers \
+	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
 	format tidy clean always build-tests run-tests run-fuzz
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
@@ -237,21 +237,25 @@ run-fuzz: $(FUZZERS:tests/fuzz_%.c=$(B)/run/%)
 
 $(B)/bench: $(call object,$(QUESTIONS:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
 	$(call say,LINK)
-	$(Q)$(LINK) -o $@ $^ $(PEER_LIBS) $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 
 bench: deps ## times full and local solves on this machine; CSV and plots under build/bench-out
 	@$(MAKE) --no-print-directory $(B)/bench
 	@mkdir -p build/bench-out
-	$(BENCH_ENV) $(B)/bench $(ASK)
+	$(BENCH_ENV) $(B)/bench $(or $(ASK),$(ASK_FIRST))
 
 # Peers in their best setting: OpenBLAS chooses its kernels by itself, whatever core the environment forces on it.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen picks its vector instructions when it is compiled: its best setting is -march=native, for its own file alone.
-bench-peers: deps deps-peers sparse_local.h ## the bench with CHOLMOD and Eigen beside
-	@$(MAKE) --no-print-directory bench B=build/peers LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+bench-peers: deps deps-peers sparse_local.h ## the questions peers and peers_harmonic: beside CHOLMOD and Eigen
+	@$(MAKE) --no-print-directory bench B=build/peers ASK_FIRST="peers peers_harmonic" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
+
+readme-table: ## what the last bench-peers measured, as a Markdown table
+	@awk -f tools/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
+	$(wildcard build/bench-out/peers_harmonic.csv)
 
 # ---- the rest ----
 

@@ -8,6 +8,8 @@
 #include "../sparse_local.h"
 #include "../tools/patch.h"
 
+typedef struct bench_report bench_report; /* report.c */
+
 /* ---- the run (main.c) ---- */
 typedef enum bench_size { BENCH_QUICK = 0, BENCH_DEFAULT, BENCH_FULL } bench_size;
 
@@ -22,11 +24,15 @@ typedef struct bench_run_t {
 /** The questions, each in a file of its own. */
 void bench_patches(bench_run *run);
 void bench_scaling(bench_run *run);
+void bench_factor(bench_run *run);
+void bench_kernels(bench_run *run);
+void bench_harmonic(bench_run *run);
 void bench_multi_rhs(bench_run *run);
 void bench_pairs(bench_run *run);
 void bench_locality(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
+void bench_peers_harmonic(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, chance (harness.c) ---- */
@@ -48,11 +54,12 @@ typedef struct bench_contender {
     void (*call)(void *state);
     void *state;
     int batch;
+    void (*ready)(void *state); /* before each call, not timed; may be NULL */
 } bench_contender;
 
 /** Times contenders side by side: a warm-up of each, then rounds that go through all of them, so that what the
  *  machine does meanwhile meets all alike. Goes on until about so many seconds have passed: 3 rounds at least, or 1
- *  where a round takes more than 4 times as long as that.
+ *  where a round takes more than 4 times as long as that; beyond 20 times the warm-up is the round.
  */
 void bench_race(bench_sample *out, const bench_contender *contenders, int count, double seconds);
 
@@ -77,13 +84,29 @@ sl_int bench_random_below(uint64_t *state, sl_int bound);
 double bench_random_unit(uint64_t *state); /* in (-1, 1) */
 void bench_random_fill(uint64_t *state, double *x, size_t count);
 
-/* ---- the machine's limit (bandwidth.c) ---- */
+/* ---- threads (threads.c) ---- */
+
+/** What options.threads takes for so many threads. */
+sl_threads bench_threads(sl_int count);
+void bench_threads_free(void);
+
+/* ---- the machine's limits (bandwidth.c, peak.c) ---- */
 
 /** Bytes a second that one core reads in a loop over a block of so many bytes, measured in this run. */
 double bench_bandwidth(double bytes);
 
 /** Measures, and prints what was found. */
 void bench_bandwidth_measure(void);
+
+/** Floating-point operations a second that one core does on registers alone, a fused multiply-add being two; 0 where
+ *  the ISA is not here, SL_ISA_AUTO: of the best one. */
+double bench_peak(sl_isa isa);
+
+/** Measures, and prints what was found. */
+void bench_peak_measure(bench_run *run);
+
+/** Writes name.machine.txt beside the CSV file: date, processor, compiler, limits (machine.c). */
+void bench_machine_write(const bench_run *run, const char *name);
 
 /* ---- systems (systems.c) ---- */
 
@@ -113,6 +136,10 @@ int bench_systems(const bench_run *run, const double *wanted, int count, const b
 /** The 7-point Laplacian of a side x side x side grid, kept in the same way. */
 const bench_system *bench_volume(sl_int side);
 
+/** M + t (L M^-1)^(k-1) L, k = 1, 2, 3, of such a grid (with MESH of the one mesh), t = (0.1 diameter)^(2 k), kept in
+ *  the same way; NULL, and said, where rounding loses a pivot. */
+const bench_system *bench_k_harmonic(const bench_run *run, double vertices, int k);
+
 /** The mesh of that file, kept in the same way; NULL if it cannot be read. */
 const bench_system *bench_mesh(const char *path);
 
@@ -121,6 +148,11 @@ void bench_systems_free(void);
 
 /** A X = B holds: the backward error of each of the nrhs columns (leading dimensions n) is within rounding. */
 int bench_check_residual(bench_run *run, const bench_system *system, const double *X,
+                         const double *B, sl_int nrhs, const char *method);
+
+/** Prints the residual of nrhs solutions as a line of the table: its largest entry beside the largest of B, and the
+ *  backward error. */
+void bench_note_residual(bench_report *report, const bench_system *system, const double *X,
                          const double *B, sl_int nrhs, const char *method);
 
 /** X (nx x nrhs, leading dimension nx) has the bits of rows xset of full (leading dimension n), zeros of either
@@ -206,20 +238,27 @@ int bench_cg(const sl_csc *A, double *x, const double *b, double tolerance, int 
 typedef struct bench_row {
     const char *what;   /* the case: "patch 2000" */
     const char *method; /* "plan solve" */
+    sl_isa isa;         /* SL_ISA_AUTO: the system's */
+    int foreign;        /* another library's: it chooses its instructions by itself */
+    sl_int threads;     /* 0 means 1 */
     sl_int nrhs;
     sl_stats reach; /* columns and entries of both sweeps */
     double entries; /* doubles of L read, both sweeps together */
     int passes;     /* how often over the same entries; 0 means once */
-    double flops;
+    double flops;   /* of a factorization; those of a solve follow from its entries */
     bench_sample time;
     double baseline; /* seconds: the ratio is time.median / baseline */
 } bench_row;
 
-typedef struct bench_report bench_report;
-
 /** Opens the question's table and its CSV file. */
 bench_report *bench_report_open(const bench_run *run, const char *name, const char *question,
                                 const char *baseline);
+
+/** "avx2" */
+const char *bench_isa_name(sl_isa isa);
+
+/** "4.321 us": 9 characters at most. */
+const char *bench_time_text(char *text, size_t size, double seconds);
 void bench_report_row(bench_report *report, const bench_system *system, const bench_row *row);
 void bench_report_note(bench_report *report, const char *format, ...);
 void bench_report_close(bench_report *report);

@@ -1,4 +1,5 @@
 /* checks.c: what makes a result right before it is timed: a small residual, or the bits of the full solve */
+#include <math.h>
 #include <stdlib.h>
 
 #include "bench.h"
@@ -19,6 +20,27 @@ int bench_check_residual(bench_run *run, const bench_system *system, const doubl
     free(error);
     free(R);
     return good;
+}
+
+void bench_note_residual(bench_report *report, const bench_system *system, const double *X,
+                         const double *B, sl_int nrhs, const char *method) {
+    const size_t n = (size_t)system->n, count = n * (size_t)nrhs;
+    double *R = bench_alloc(count, sizeof *R);
+    double *error = bench_alloc((size_t)nrhs, sizeof *error), worst = 0, r = 0, b = 0;
+    bench_must(sl_csc_residual(&system->A, R, n, error, X, n, B, n, nrhs), "residual");
+    for (sl_int c = 0; c < nrhs; c++) {
+        worst = fmax(worst, error[c]);
+    }
+    for (size_t k = 0; k < count; k++) {
+        r = fmax(r, fabs(R[k]));
+        b = fmax(b, fabs(B[k]));
+    }
+    bench_report_note(report,
+                      "%-14s   %s: largest entry of the residual %.2e, of b %.2e; backward "
+                      "error %.1e",
+                      "", method, r, b, worst);
+    free(error);
+    free(R);
 }
 
 int bench_check_bits(bench_run *run, const bench_system *system, const double *X,

@@ -9,10 +9,10 @@ int bench_forms_time(bench_run *run, bench_report *report, bench_queries *q, con
     /* Full solves stand apart: they push everything out of the caches, and each local solve after one would be
      * the first of its kind. */
     int batch = q->count < 8 ? 8 * q->count : q->count;
-    bench_contender contenders[BENCH_FORMS] = {{bench_call_plan_solve, q, batch},
-                                               {bench_call_plan_create, q, batch},
-                                               {bench_call_one_shot, q, batch},
-                                               {bench_call_full, q, 1}};
+    bench_contender contenders[BENCH_FORMS] = {{bench_call_plan_solve, q, batch, NULL},
+                                               {bench_call_plan_create, q, batch, NULL},
+                                               {bench_call_one_shot, q, batch, NULL},
+                                               {bench_call_full, q, 1, NULL}};
     bench_sample samples[BENCH_FORMS];
     if (!bench_queries_check(run, q, 2)) {
         return 0;

@@ -8,7 +8,7 @@
 
 #include "bench.h"
 
-enum { MAX_ROUNDS = 100000, MIN_ROUNDS = 3, PATIENCE = 4 };
+enum { MAX_ROUNDS = 100000, MIN_ROUNDS = 3, PATIENCE = 4, IMPATIENCE = 20 };
 
 double bench_now(void) {
     struct timespec t;
@@ -51,12 +51,13 @@ static void time_list_push(time_list *list, double seconds) {
 
 static void run_batch(const bench_contender *c, time_list *list) {
     for (int k = 0; k < (c->batch > 0 ? c->batch : 1); k++) {
+        if (c->ready) {
+            c->ready(c->state);
+        }
         double start = bench_now();
         c->call(c->state);
         double end = bench_now();
-        if (list) {
-            time_list_push(list, end - start);
-        }
+        time_list_push(list, end - start);
     }
 }
 
@@ -66,11 +67,15 @@ void bench_race(bench_sample *out, const bench_contender *contenders, int count,
     for (int c = 0; c < count; c++) {
         lists[c].times = NULL;
         lists[c].count = lists[c].room = 0;
-        run_batch(&contenders[c], NULL);
+        run_batch(&contenders[c], &lists[c]);
     }
-    int min_rounds = bench_now() - start > PATIENCE * seconds ? 1 : MIN_ROUNDS;
+    double warm_up = bench_now() - start;
+    int min_rounds = warm_up > PATIENCE * seconds ? 1 : MIN_ROUNDS;
+    for (int c = 0; c < count && warm_up <= IMPATIENCE * seconds; c++) {
+        lists[c].count = 0;
+    }
     start = bench_now();
-    for (int round = 0; round < MAX_ROUNDS; round++) {
+    for (int round = 0; round < MAX_ROUNDS && warm_up <= IMPATIENCE * seconds; round++) {
         if (round >= min_rounds && bench_now() - start > seconds) {
             break;
         }

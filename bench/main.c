@@ -16,6 +16,11 @@ typedef struct question {
 static const question questions[] = {
     {"scaling", "ordering, analysis, factorization and nnz(L) against n (paper: Figure 6)",
      bench_scaling},
+    {"factor", "methods, instruction sets and threads of the factorization against the limits",
+     bench_factor},
+    {"kernels", "the dense kernels by shape, against registers alone", bench_kernels},
+    {"harmonic", "harmonic, biharmonic, triharmonic systems: analyse, factor, solve",
+     bench_harmonic},
     {"patches",
      "solves on a patch against refactorizing, conjugate gradients, full solve (Figures 4, 5)",
      bench_patches},
@@ -24,7 +29,10 @@ static const question questions[] = {
      bench_pairs},
     {"locality", "the same local question on meshes of growing size", bench_locality},
 #ifdef SL_BENCH_PEERS
-    {"peers", "CHOLMOD and Eigen, same permutation, one thread", bench_peers},
+    {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
+     bench_peers},
+    {"peers_harmonic", "the same on harmonic, biharmonic and triharmonic systems",
+     bench_peers_harmonic},
 #endif
 };
 
@@ -123,6 +131,7 @@ int main(int argc, char **argv) {
     }
     double start = bench_now();
     bench_bandwidth_measure();
+    bench_peak_measure(&run);
     for (int k = 0; k < N_QUESTIONS; k++) {
         if (named(questions[k].name, argc, argv)) {
             double begin = bench_now();
@@ -133,5 +142,6 @@ int main(int argc, char **argv) {
     printf("\n%.0f s in all; CSV files and plots are in %s; %d checks failed\n",
            bench_now() - start, run.out_dir, run.failures);
     bench_systems_free();
+    bench_threads_free();
     return run.failures > 0;
 }

@@ -15,7 +15,8 @@ typedef struct forms {
 
 static void one_count(bench_run *run, bench_report *report, bench_plot *plot, bench_queries *q,
                       const forms *f) {
-    bench_contender contenders[2] = {{f->together, q, q->count}, {f->apart, q, q->count}};
+    bench_contender contenders[2] = {{f->together, q, q->count, NULL},
+                                     {f->apart, q, q->count, NULL}};
     int full = f->together == bench_call_full;
     if (full) {
         contenders[0].batch = contenders[1].batch = 1;

@@ -113,7 +113,7 @@ static void time_rivals(bench_run *run, bench_report *report, plots *p, const be
     sl_int size = patches[0].size;
     rival r = {patches, q->count, 0, NULL, NULL, NULL, 0, 0};
     rival_call call = {&r, q};
-    bench_contender contenders[2] = {{call_refactorize, &call, 1}, {call_cg, &call, 1}};
+    bench_contender contenders[2] = {{call_refactorize, &call, 1, NULL}, {call_cg, &call, 1, NULL}};
     r.b = bench_alloc((size_t)size * NRHS, sizeof *r.b);
     r.x = bench_alloc((size_t)size * NRHS, sizeof *r.x);
     r.work = bench_alloc((size_t)size * 4, sizeof *r.work);

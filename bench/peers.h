@@ -1,4 +1,4 @@
-/* peers.h: CHOLMOD and Eigen behind a few calls, each in its best setting for one thread and a given permutation */
+/* peers.h: CHOLMOD and Eigen behind a few calls, each in its best setting for a given permutation */
 #ifndef BENCH_PEERS_H
 #define BENCH_PEERS_H
 
@@ -19,12 +19,21 @@ void peer_cholmod_free(peer_cholmod *peer);
 /** Supernodal analysis once more, with its release. */
 void peer_cholmod_analyse(peer_cholmod *peer);
 
-/** Supernodal factorization again, same pattern. */
+/** Supernodal factorization again, same pattern; and the same of the simplicial one. */
 void peer_cholmod_factor(peer_cholmod *peer);
+void peer_cholmod_factor_simple(peer_cholmod *peer);
+
+/** A first supernodal factorization, its memory included; ready, before each, drops the last one. */
+void peer_cholmod_first_ready(peer_cholmod *peer);
+void peer_cholmod_first(peer_cholmod *peer);
 
 /** Solves with the supernodal factor; B is n x nrhs, leading dimension n; so is the result, which lives until the
- *  next call. */
+ *  next call. The other one: with the simplicial factor. */
 const double *peer_cholmod_solve(peer_cholmod *peer, const double *B, sl_int nrhs);
+const double *peer_cholmod_solve_simple(peer_cholmod *peer, const double *B, sl_int nrhs);
+
+/** Threads of OpenBLAS, which are all that CHOLMOD has; 1 after peer_cholmod_create. */
+void peer_cholmod_threads(int count);
 
 /** cholmod_solve2 with Bset on the simplicial factor, one right-hand side: b holds nb values at the rows bset, where
  *  x is wanted too. The result is indexed by row, valid on bset, and lives until the next call. */

@@ -12,7 +12,7 @@ struct bench_report {
     const bench_system *system; /* of the last row */
 };
 
-static const char *isa_name(sl_isa isa) {
+const char *bench_isa_name(sl_isa isa) {
     static const char *const names[] = {"auto", "scalar", "avx2", "avx512", "neon"};
     return (size_t)isa < sizeof names / sizeof *names ? names[isa] : "?";
 }
@@ -29,18 +29,21 @@ bench_report *bench_report_open(const bench_run *run, const char *name, const ch
         bench_must(SL_ERR_IO, path);
     }
     fprintf(report->csv,
-            "question,system,n,nnz_l,nnz_panels,isa,case,method,nrhs,b_columns,x_columns,b_entries,"
-            "x_entries,entries,flops,count,min_s,median_s,max_s,gb_per_s,gflop_per_s,limit_share,"
-            "ratio\n");
-    printf("\n== %s: %s\n   ratio: time / time of %s; L read: doubles of L read in both sweeps; "
-           "limit: the time of\n"
-           "   only reading them, as a share of the median\n",
-           name, question, baseline);
+            "question,system,n,nnz_l,nnz_panels,isa,threads,case,method,nrhs,b_columns,x_columns,b_"
+            "entries,"
+            "x_entries,entries,flops,count,min_s,median_s,max_s,gb_per_s,gflop_per_s,limit_s,"
+            "limit_share,ratio\n");
+    printf(
+        "\n== %s: %s\n   ratio: time / time of %s\n"
+        "   L read: doubles of L read in both sweeps; limit: the time that one core needs to read "
+        "them\n"
+        "   (GB/s) or to do the operations (GF/s) and nothing else, whichever is longer, as a "
+        "share of the median\n",
+        name, question, baseline);
     return report;
 }
 
-/* "4.321 us": 9 characters at most */
-static const char *time_text(char *text, size_t size, double seconds) {
+const char *bench_time_text(char *text, size_t size, double seconds) {
     static const char *const units[] = {"ns", "us", "ms", "s "};
     double value = seconds * 1e9;
     int unit = 0;
@@ -57,54 +60,73 @@ static const char *time_text(char *text, size_t size, double seconds) {
 }
 
 static void print_heading(const bench_system *system) {
-    printf("\n%s: n %d, nnz(A) %.4g, nnz(L) %.4g, panels %.4g (%.2f), %s\n", system->name,
+    printf("\n%s: n %d, nnz(A) %.4g, nnz(L) %.4g, panels %.4g (%.2f), %.4g flops\n", system->name,
            (int)system->n, (double)system->stats.nnz_a, (double)system->stats.nnz_l,
            (double)system->stats.nnz_panels,
            (double)system->stats.nnz_panels /
                (double)(system->stats.nnz_l > 0 ? system->stats.nnz_l : 1),
-           isa_name(system->stats.isa));
-    printf("  %-14s %-22s %3s %10s %9s %9s %9s %10s %5s %8s\n", "case", "method", "rhs", "L read",
-           "min", "median", "max", "rate", "limit", "ratio");
+           system->stats.flops);
+    printf("  %-14s %-26s %-6s %3s %3s %10s %9s %9s %9s %10s %5s %8s\n", "case", "method", "isa",
+           "thr", "rhs", "L read", "min", "median", "max", "rate", "limit", "ratio");
 }
 
-void bench_report_row(bench_report *report, const bench_system *system, const bench_row *row) {
-    double seconds = row->time.median > 0 ? row->time.median : 1e-9;
-    double bytes = 8 * row->entries, share = 0;
-    char min[32], median[32], max[32], rate[32] = "-", limit[32] = "-", ratio[32] = "-",
-                                       read[32] = "-";
-    if (report->system != system) {
-        print_heading(system);
-        report->system = system;
-    }
-    if (row->flops > 0) {
-        snprintf(rate, sizeof rate, "%.1f GF/s", row->flops / seconds * 1e-9);
-    } else if (bytes > 0) {
-        snprintf(rate, sizeof rate, "%.1f GB/s", bytes / seconds * 1e-9);
-    }
+/* Seconds that reading and computing take at least. */
+static double limit_of(const bench_row *row, sl_isa isa) {
+    const double threads = row->threads > 1 ? row->threads : 1, peak = threads * bench_peak(isa);
+    const double bytes = 8 * row->entries;
+    double seconds = 0, flops = row->flops;
     if (bytes > 0) {
         /* both sweeps read about the same block */
-        double block = bytes / (row->passes > 1 ? 2 * row->passes : 2);
-        share = bytes / bench_bandwidth(block) / seconds;
-        snprintf(limit, sizeof limit, "%.0f%%", 100 * share);
+        seconds = bytes / bench_bandwidth(bytes / (row->passes > 1 ? 2 * row->passes : 2));
+        flops += 2 * row->entries * (row->passes > 1 || row->nrhs < 1 ? 1 : row->nrhs);
+    }
+    return peak > 0 && flops / peak > seconds ? flops / peak : seconds;
+}
+
+static void print_row(const bench_row *row, sl_isa isa, double seconds, double limit) {
+    char min[32], median[32], max[32], rate[32] = "-", share[32] = "-", ratio[32] = "-",
+                                       read[32] = "-";
+    if (row->flops > 0) {
+        snprintf(rate, sizeof rate, "%.1f GF/s", row->flops / seconds * 1e-9);
+    } else if (row->entries > 0) {
+        snprintf(rate, sizeof rate, "%.1f GB/s", 8 * row->entries / seconds * 1e-9);
+    }
+    if (limit > 0) {
+        snprintf(share, sizeof share, "%.0f%%", 100 * limit / seconds);
+    }
+    if (row->entries > 0) {
         snprintf(read, sizeof read, "%.0f", row->entries);
     }
     if (row->baseline > 0) {
         snprintf(ratio, sizeof ratio, "%.2f", seconds / row->baseline);
     }
-    printf("  %-14s %-22s %3d %10s %9s %9s %9s %10s %5s %8s\n", row->what, row->method,
-           (int)row->nrhs, read, time_text(min, sizeof min, row->time.min),
-           time_text(median, sizeof median, row->time.median),
-           time_text(max, sizeof max, row->time.max), rate, limit, ratio);
+    printf("  %-14s %-26s %-6s %3d %3d %10s %9s %9s %9s %10s %5s %8s\n", row->what, row->method,
+           row->foreign ? "own" : bench_isa_name(isa), row->threads > 1 ? (int)row->threads : 1,
+           (int)row->nrhs, read, bench_time_text(min, sizeof min, row->time.min),
+           bench_time_text(median, sizeof median, row->time.median),
+           bench_time_text(max, sizeof max, row->time.max), rate, share, ratio);
     fflush(stdout);
+}
+
+void bench_report_row(bench_report *report, const bench_system *system, const bench_row *row) {
+    const double seconds = row->time.median > 0 ? row->time.median : 1e-9;
+    const sl_isa isa = row->isa == SL_ISA_AUTO ? system->stats.isa : row->isa;
+    const double limit = limit_of(row, isa);
+    if (report->system != system) {
+        print_heading(system);
+        report->system = system;
+    }
+    print_row(row, isa, seconds, limit);
     fprintf(report->csv,
-            "%s,%s,%d,%lld,%lld,%s,%s,%s,%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%.9g,%.4g,%.4g,%"
-            ".4g,%.4g\n",
+            "%s,\"%s\",%d,%lld,%lld,%s,%d,\"%s\",\"%s\",%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%.9g,%.4g,%."
+            "4g,%.4g,%.4g,%.4g\n",
             report->name, system->name, (int)system->n, (long long)system->stats.nnz_l,
-            (long long)system->stats.nnz_panels, isa_name(system->stats.isa), row->what,
-            row->method, (int)row->nrhs, (int)row->reach.b_columns, (int)row->reach.x_columns,
-            (long long)row->reach.b_entries, (long long)row->reach.x_entries, row->entries,
-            row->flops, row->time.count, row->time.min, row->time.median, row->time.max,
-            bytes / seconds * 1e-9, row->flops / seconds * 1e-9, share,
+            (long long)system->stats.nnz_panels, row->foreign ? "own" : bench_isa_name(isa),
+            row->threads > 1 ? (int)row->threads : 1, row->what, row->method, (int)row->nrhs,
+            (int)row->reach.b_columns, (int)row->reach.x_columns, (long long)row->reach.b_entries,
+            (long long)row->reach.x_entries, row->entries, row->flops, row->time.count,
+            row->time.min, row->time.median, row->time.max, 8 * row->entries / seconds * 1e-9,
+            row->flops / seconds * 1e-9, limit, limit / seconds,
             row->baseline > 0 ? seconds / row->baseline : 0);
 }
 

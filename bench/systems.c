@@ -6,6 +6,7 @@
 
 #include "../tools/dataset.h"
 #include "../tools/grid.h"
+#include "../tools/harmonic.h"
 #include "../tools/laplacian.h"
 #include "bench.h"
 
@@ -23,8 +24,18 @@ static const bench_system *find(const char *name) {
     return NULL;
 }
 
-/* Analyses and factors matrix, which the system takes over. */
-static const bench_system *keep(const char *name, sl_matrix *matrix) {
+static void release(bench_system *system) {
+    adjacency_free(&system->graph);
+    free(system->seen);
+    free(system->place);
+    sl_factor_free(system->F);
+    sl_symbolic_free(system->S);
+    sl_matrix_free(system->matrix);
+    free(system);
+}
+
+/* Analyses and factors matrix, which the system takes over; NULL where a pivot is lost to rounding. */
+static const bench_system *try_keep(const char *name, sl_matrix *matrix) {
     if (n_kept == MAX_SYSTEMS) {
         bench_must(SL_ERR_TOO_LARGE, "keeping one more system");
     }
@@ -36,7 +47,13 @@ static const bench_system *keep(const char *name, sl_matrix *matrix) {
     system->n = system->A.n_rows;
     double start = bench_now();
     bench_must(sl_symbolic_create(&system->S, &system->A, NULL, &system->stats), name);
-    bench_must(sl_factor_create(&system->F, system->S, &system->A, NULL, &system->stats), name);
+    const sl_status status =
+        sl_factor_create(&system->F, system->S, &system->A, NULL, &system->stats);
+    if (status == SL_ERR_PIVOT) {
+        release(system);
+        return NULL;
+    }
+    bench_must(status, name);
     if (!adjacency_from_matrix(&system->graph, &system->A)) {
         bench_must(SL_ERR_MEMORY, "making the graph of a matrix");
     }
@@ -49,7 +66,15 @@ static const bench_system *keep(const char *name, sl_matrix *matrix) {
     return system;
 }
 
-/* t of M + t L: the square of a tenth of the bounding box's diagonal */
+static const bench_system *keep(const char *name, sl_matrix *matrix) {
+    const bench_system *system = try_keep(name, matrix);
+    if (!system) {
+        bench_must(SL_ERR_PIVOT, name);
+    }
+    return system;
+}
+
+/* t of M + t L: the square of a tenth of the bounding box's diagonal, the length that all systems smooth over */
 static double spread(const mesh *m) {
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, square = 0;
     for (sl_int v = 0; v < m->n_vertices; v++) {
@@ -74,6 +99,12 @@ static const bench_system *keep_mesh(const char *name, mesh *m) {
     return keep(name, matrix);
 }
 
+static void make_grid(mesh *m, sl_int side) {
+    if (!mesh_grid(m, side, side, 0.2, 1)) {
+        bench_must(SL_ERR_MEMORY, "making a grid");
+    }
+}
+
 static const bench_system *grid(double vertices) {
     char name[64];
     sl_int side = (sl_int)lround(sqrt(vertices));
@@ -81,9 +112,7 @@ static const bench_system *grid(double vertices) {
     const bench_system *system = find(name);
     if (!system) {
         mesh m;
-        if (!mesh_grid(&m, side, side, 0.2, 1)) {
-            bench_must(SL_ERR_MEMORY, "making a grid");
-        }
+        make_grid(&m, side);
         system = keep_mesh(name, &m);
     }
     return system;
@@ -104,23 +133,59 @@ const bench_system *bench_volume(sl_int side) {
     return system;
 }
 
+static int read_mesh(mesh *m, const char *path) {
+    char message[256];
+    if (!mesh_read(m, path, message, sizeof message)) {
+        bench_progress("bench: %s\n", message);
+        return 0;
+    }
+    if (m->n_vertices == 0) {
+        bench_progress("bench: %s has no vertices\n", dataset_basename(path));
+        mesh_free(m);
+        return 0;
+    }
+    return 1;
+}
+
 const bench_system *bench_mesh(const char *path) {
     char name[64];
     snprintf(name, sizeof name, "%s", dataset_basename(path));
     const bench_system *system = find(name);
+    mesh m;
+    if (!system && read_mesh(&m, path)) {
+        system = keep_mesh(name, &m);
+    }
+    return system;
+}
+
+const bench_system *bench_k_harmonic(const bench_run *run, double vertices, int k) {
+    static const char *const kinds[] = {"harmonic", "biharmonic", "triharmonic"};
+    char name[64];
+    sl_int side = (sl_int)lround(sqrt(vertices));
+    if (run->mesh_path) {
+        snprintf(name, sizeof name, "%s %.40s", kinds[k - 1], dataset_basename(run->mesh_path));
+    } else {
+        snprintf(name, sizeof name, "%s %dx%d", kinds[k - 1], (int)side, (int)side);
+    }
+    const bench_system *system = find(name);
     if (!system) {
         mesh m;
-        char message[256];
-        if (!mesh_read(&m, path, message, sizeof message)) {
-            bench_progress("bench: %s\n", message);
+        sl_matrix *matrix;
+        if (!run->mesh_path) {
+            make_grid(&m, side);
+        } else if (!read_mesh(&m, run->mesh_path)) {
             return NULL;
         }
-        if (m.n_vertices == 0) {
-            bench_progress("bench: %s has no vertices\n", name);
-            mesh_free(&m);
-            return NULL;
+        if (!harmonic_system(&matrix, &m, k, pow(spread(&m), k))) {
+            bench_must(SL_ERR_MEMORY, "making a k-harmonic system");
         }
-        system = keep_mesh(name, &m);
+        mesh_free(&m);
+        system = try_keep(name, matrix);
+        if (!system) {
+            printf("\n%s: a pivot is lost to rounding, the matrix is singular to double "
+                   "precision\n",
+                   name);
+        }
     }
     return system;
 }
@@ -142,13 +207,6 @@ int bench_systems(const bench_run *run, const double *wanted, int count, const b
 
 void bench_systems_free(void) {
     while (n_kept > 0) {
-        bench_system *system = kept[--n_kept];
-        adjacency_free(&system->graph);
-        free(system->seen);
-        free(system->place);
-        sl_factor_free(system->F);
-        sl_symbolic_free(system->S);
-        sl_matrix_free(system->matrix);
-        free(system);
+        release(kept[--n_kept]);
     }
 }
