@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 0b5fc85828b529d4
+ * FNV-1a of all that follows this comment, license aside: f4fa3fda0373bdda
  *
  * Contents
  *         (what a user reads)
@@ -34,40 +34,40 @@
  *   2735  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
  *   3144  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
  *   3878  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   5067  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   6306  impl/select.h              the kernel table for an instruction set
+ *   5071  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6310  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6339  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6767  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6840  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6343  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   6771  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   6844  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   7194  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   7233  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7380  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7494  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7638  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7723  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7796  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7962  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   8038  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *   8079  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *   8272  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8558  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7198  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7237  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7384  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   7498  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   7642  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   7727  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   7800  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   7966  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   8042  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *   8083  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *   8276  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8562  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8721  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8841  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8922  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *   9175  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *   9262  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *   9554  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *   9649  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9709  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9919  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9959  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   8725  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   8845  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   8926  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *   9184  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *   9271  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *   9563  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *   9658  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9718  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9928  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9968  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  10261  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  10270  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  10409  impl/leave.h               takes every internal macro away again
+ *  10418  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3911,12 +3911,16 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
 #define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
+/* a permutation made once: the expanding instruction takes twice as long */
 #define SLV_SPREAD(mask, lanes, count)                                                             \
     const __mmask8 spread_ = (__mmask8)(mask);                                                     \
+    const __m512i order_ =                                                                         \
+        _mm512_maskz_expand_epi64(spread_, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0));              \
     (void)(lanes);
 #define SLV_SPREAD_ADD(to, from)                                                                   \
-    _mm512_store_pd((to), _mm512_add_pd(_mm512_load_pd(to),                                        \
-                                        _mm512_maskz_expand_pd(spread_, _mm512_loadu_pd(from))));
+    _mm512_store_pd(                                                                               \
+        (to), _mm512_add_pd(_mm512_load_pd(to),                                                    \
+                            _mm512_maskz_permutexvar_pd(spread_, order_, _mm512_loadu_pd(from))));
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),                \
                                     _mm512_load_pd(l));
@@ -9022,12 +9026,20 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
 }
 
 /* The panel of a front, from A and all updates to L. */
-static void sli_front_eliminate(const sl_factor *F, const sli_front *f, double *scratch) {
+static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
     const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
     sl_int c0;
     for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        F->kernels->pivots(f, c0, scratch);
-        F->kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+        kernels->pivots(f, c0, scratch);
+        kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+    }
+}
+
+/* The update matrix of a front, from what the children handed over to what the parent gets. */
+static void sli_front_update(const sli_kernels *kernels, const sli_front *f, double *scratch) {
+    const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
+    if (f->below > 0) {
+        kernels->update(f, whole, tiles, whole, tiles, scratch);
     }
 }
 
@@ -9044,11 +9056,8 @@ static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int
         return status;
     }
     sli_front_assemble(F, &f, s, 0, tiles);
-    sli_front_eliminate(F, &f, scratch);
-    if (f.below > 0) {
-        const sl_int whole = f.width / SLI_TILE;
-        F->kernels->update(&f, whole, tiles, whole, tiles, scratch);
-    }
+    sli_front_eliminate(F->kernels, &f, scratch);
+    sli_front_update(F->kernels, &f, scratch);
     sli_front_hand_over(&f);
     return sli_front_check(F, &f, s, failure);
 }
@@ -9237,7 +9246,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
             d = S->descendant[d] - 1;
         }
     }
-    sli_front_eliminate(F, &f, F->buffer);
+    sli_front_eliminate(F->kernels, &f, F->buffer);
     return sli_front_check(F, &f, s, failure);
 }
 

@@ -15,7 +15,8 @@
  * no branch or cache line is met twice in a round. Flops of a front: the sum over its columns of (entries)^2. */
 enum {
     ARENA = 48 * 1024,
-    SCRATCH = 64 * 1024, /* doubles; what the kernels need is less, which guards prove */
+    SCRATCH = 8 * 8 * 256, /* sli_front_scratch */
+    INVERSE = 2 * 8 * 8,   /* SLI_FRONT_INVERSE; guards prove that neither is overrun */
     GUARDS = 64,
     WIDTHS = 8,
     BELOWS = 6,
@@ -78,7 +79,7 @@ typedef struct shape {
 static shape shape_of(sl_int w, sl_int u) {
     shape s = {w, u, TILE * sli_tiles(w + u), 0, 0, 0, 0};
     s.panel = (size_t)sli_panel_size(w, u);
-    s.update = (size_t)sli_update_size(w, u);
+    s.update = (size_t)sli_triangle_offset(sli_update_tiles(w, u));
     s.pivots = (size_t)(TILE * sli_tiles(w));
     s.magnitudes = (size_t)s.rows;
     return s;
@@ -103,9 +104,23 @@ static void fill_front(const shape *s, double *item, uint64_t *chance) {
     bench_random_fill(chance, item + s->panel, s->update);
 }
 
+static sli_front front_of(const shape *s, double *item) {
+    static double inverse[INVERSE];
+    sli_front f;
+    f.panel = item;
+    f.width = s->w;
+    f.below = s->u;
+    f.update = item + s->panel;
+    f.D = f.update + s->update;
+    f.magnitude = f.D + s->pivots;
+    f.inverse = inverse;
+    return f;
+}
+
 static void run_front(const sli_kernels *kernels, const shape *s, double *item, double *scratch) {
-    double *update = item + s->panel, *D = update + s->update;
-    kernels->front(item, s->w, s->u, update, D, D + s->pivots, scratch);
+    const sli_front f = front_of(s, item);
+    sli_front_eliminate(kernels, &f, scratch);
+    sli_front_update(kernels, &f, scratch);
 }
 
 /* A - L D L' at (i, j), of which the panel holds the columns. */
@@ -249,8 +264,9 @@ static double *entry_of(const child *c, double *item, sl_int i, sl_int j) {
 }
 
 static void run_assemble(const sli_kernels *kernels, const child *c, double *item) {
+    const sli_front f = front_of(&c->to, item);
     const double *from = item + c->to.panel + c->to.update;
-    kernels->assemble(from, c->from.w, c->from.u, c->place, item, c->to.w, item + c->to.panel);
+    kernels->assemble(&f, from, c->from.w % TILE, c->place, c->from.u, 0, c->from.u);
 }
 
 static void check_assemble(bench_run *run, const sli_kernels *kernels, const child *c, arena *a) {

@@ -36,12 +36,16 @@
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
 #define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
+/* a permutation made once: the expanding instruction takes twice as long */
 #define SLV_SPREAD(mask, lanes, count)                                                             \
     const __mmask8 spread_ = (__mmask8)(mask);                                                     \
+    const __m512i order_ =                                                                         \
+        _mm512_maskz_expand_epi64(spread_, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0));              \
     (void)(lanes);
 #define SLV_SPREAD_ADD(to, from)                                                                   \
-    _mm512_store_pd((to), _mm512_add_pd(_mm512_load_pd(to),                                        \
-                                        _mm512_maskz_expand_pd(spread_, _mm512_loadu_pd(from))));
+    _mm512_store_pd(                                                                               \
+        (to), _mm512_add_pd(_mm512_load_pd(to),                                                    \
+                            _mm512_maskz_permutexvar_pd(spread_, order_, _mm512_loadu_pd(from))));
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),                \
                                     _mm512_load_pd(l));

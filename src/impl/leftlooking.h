@@ -65,7 +65,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
             d = S->descendant[d] - 1;
         }
     }
-    sli_front_eliminate(F, &f, F->buffer);
+    sli_front_eliminate(F->kernels, &f, F->buffer);
     return sli_front_check(F, &f, s, failure);
 }
 

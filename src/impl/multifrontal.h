@@ -102,12 +102,20 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
 }
 
 /* The panel of a front, from A and all updates to L. */
-static void sli_front_eliminate(const sl_factor *F, const sli_front *f, double *scratch) {
+static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
     const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
     sl_int c0;
     for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
-        F->kernels->pivots(f, c0, scratch);
-        F->kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+        kernels->pivots(f, c0, scratch);
+        kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+    }
+}
+
+/* The update matrix of a front, from what the children handed over to what the parent gets. */
+static void sli_front_update(const sli_kernels *kernels, const sli_front *f, double *scratch) {
+    const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
+    if (f->below > 0) {
+        kernels->update(f, whole, tiles, whole, tiles, scratch);
     }
 }
 
@@ -124,11 +132,8 @@ static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int
         return status;
     }
     sli_front_assemble(F, &f, s, 0, tiles);
-    sli_front_eliminate(F, &f, scratch);
-    if (f.below > 0) {
-        const sl_int whole = f.width / SLI_TILE;
-        F->kernels->update(&f, whole, tiles, whole, tiles, scratch);
-    }
+    sli_front_eliminate(F->kernels, &f, scratch);
+    sli_front_update(F->kernels, &f, scratch);
     sli_front_hand_over(&f);
     return sli_front_check(F, &f, s, failure);
 }
