@@ -30,6 +30,12 @@
 #include <arm_neon.h>
 #endif
 
+/* Linux's madvise under a name of our own, as -std=c99 hides its header's. */
+#if defined(__linux__) && defined(__GNUC__)
+#define SLI_HUGE_PAGES 14
+extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise");
+#endif
+
 #if defined(__GNUC__)
 #define SLI_INLINE __attribute__((unused)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))

@@ -8,6 +8,9 @@
 #undef SLI_ASSERT
 #undef SLI_ROWS_MAX
 #undef SLI_ALIGN
+#undef SLI_HUGE_PAGES
+#undef SLI_HUGE_BLOCK
+#undef SLI_PAGE
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE

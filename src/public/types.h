@@ -90,8 +90,8 @@ typedef struct sl_threads {
     void *context;       /* handed to run */
 } sl_threads;
 
-/** Memory for the objects. Both functions NULL: malloc and free; one alone is SL_ERR_ARGUMENT. Every object keeps a
- *  copy. */
+/** Memory for the objects. Both functions NULL: malloc and free, on Linux in huge pages where a block has 4 MB or more;
+ *  one alone is SL_ERR_ARGUMENT. Every object keeps a copy. */
 typedef struct sl_allocator {
     void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
     void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
