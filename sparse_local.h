@@ -1,66 +1,67 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: c3bffde46871de30
+ * FNV-1a of all that follows this comment, license aside: 19f038a999cfd67f
  *
  * Contents
  *         (what a user reads)
- *     68  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    112  public/config.h            what a user may set before including the header, the version, and the integer types
- *    158  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    326  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    441  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    500  public/factor.h            the numbers: P A P' = L D L'
- *    567  public/solve.h             full solves, and the workspace that every solve writes to
- *    609  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *     69  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    113  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    159  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    327  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    442  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    501  public/factor.h            the numbers: P A P' = L D L'
+ *    568  public/solve.h             full solves, and the workspace that every solve writes to
+ *    610  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    685  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    752  impl/status.h              status codes in words, and the error fields of stats
- *    808  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    905  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *    966  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    686  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    759  impl/status.h              status codes in words, and the error fields of stats
+ *    815  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    912  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *    973  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *   1004  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1141  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1237  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1267  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1835  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1880  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2016  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2189  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2370  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2405  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2508  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   2917  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   3618  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   4774  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   5980  impl/select.h              the kernel table for an instruction set
+ *   1011  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1152  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1290  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1320  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   1888  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   1933  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2069  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2242  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   2425  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   2615  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   2661  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   2794  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   3203  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   4107  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   5484  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   6933  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6013  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   6430  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   6503  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   6966  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   7383  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   7456  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   6857  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   6898  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7030  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   7116  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   7257  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   7342  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   7415  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   7575  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   7651  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *   7724  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8004  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   7810  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   7851  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   7983  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   8069  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   8210  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   8295  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   8368  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   8528  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   8604  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *   8677  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *   8957  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   8147  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   8227  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   8307  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *   8368  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   8604  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   8660  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   8869  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   8909  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *   9100  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *   9180  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *   9260  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *   9321  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *   9557  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *   9613  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *   9822  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *   9862  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *   9211  impl/leave.h               takes every internal macro away again
+ *  10164  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -710,11 +711,17 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 
 #if defined(__GNUC__)
 #define SLI_INLINE __attribute__((unused)) static inline
+/* for bodies that are worth it only with a constant argument folded into them */
+#define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))
+/* the cache line some bytes from p, which need not exist: asking for it has no other effect */
+#define SLI_PREFETCH(p, bytes) __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
 #else
 #define SLI_INLINE static inline
+#define SLI_ALWAYS_INLINE static inline
 #define SLI_TARGET(list)
+#define SLI_PREFETCH(p, bytes) ((void)0)
 #define SLI_UNROLL
 #endif
 
@@ -1012,6 +1019,10 @@ static sl_isa sli_cpu_best(void) {
  * above it, and the padding of the last tile are 0. */
 #define SLI_TILE 8
 
+/* Bytes between what a solve reads of L and what it asks for ahead. Small supernodes are read too
+ * slowly for the hardware to run ahead far enough, and at every page it starts anew. */
+#define SLI_AHEAD 4096
+
 /* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
  * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
@@ -1157,6 +1168,7 @@ typedef struct sli_kernels {
     }
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_ADD(a, b)                                                                              \
     {                                                                                              \
         int i_;                                                                                    \
@@ -1180,6 +1192,47 @@ typedef struct sli_kernels {
         }                                                                                          \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
+        }                                                                                          \
+        memcpy(a, part_, sizeof part_);                                                                         \
+    }
+#define SLV_FIRST(a, count)                                                                        \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        memcpy(part_, a, sizeof part_);                                                                        \
+        for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
+            part_[i_] = 0.0;                                                                       \
+        }                                                                                          \
+        memcpy(a, part_, sizeof part_);                                                                         \
+    }
+#define SLV_LANE(b, a, k)                                                                          \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            b[i_] = a[k];                                                                          \
+        }                                                                                          \
+    }
+#define SLV_GATHER(a, x, at)                                                                       \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = (x)[at(i_)];                                                                   \
+        }                                                                                          \
+    }
+#define SLV_SUM_DECLARE(a) double a;
+#define SLV_SUM_ZERO(a) a = 0.0;
+#define SLV_SUM_DOT(a, l, v)                                                                       \
+    a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) +                       \
+         (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
+#define SLV_SUMS(r, a)                                                                             \
+    r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3;                                            \
+    r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -2186,6 +2239,189 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/narrow.inl.h */
+/* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
+
+/* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
+ * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
+ * sums of all columns stay in registers, and x is gathered straight into them. */
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+
+/* the diagonal tile, column after column; L is 0 above its diagonal */
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        SLV_LANE(y##k, a, k)                                                                       \
+        SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                       \
+    }
+/* a tile below: even columns into one sum, odd ones into another */
+#define SLI_EVEN_ODD(k, unused)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        if ((k) % 2 == 0) {                                                                        \
+            SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                   \
+        } else {                                                                                   \
+            SLV_DOT(b, l + SLI_TILE * (k), y##k)                                                   \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x, double *buf) {
+    sl_int row, i;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, y)
+    SLV_LOAD_PART(a, xs, w, 0.0)
+    SLI_EACH8(SLI_COLUMN, 0)
+    SLV_STORE(buf, a)
+    for (i = 0; i < w; i++) {
+        xs[i] = buf[i];
+    }
+    for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+        l += SLI_TILE * w;
+        SLV_ZERO(a)
+        SLV_ZERO(b)
+        SLI_EACH8(SLI_EVEN_ODD, 0)
+        SLV_ADD(a, b)
+        SLV_STORE(buf + row, a)
+    }
+    buf += w;
+    for (i = 0; i + 4 <= below; i += 4) {
+        x[rows[i]] += buf[i];
+        x[rows[i + 1]] += buf[i + 1];
+        x[rows[i + 2]] += buf[i + 2];
+        x[rows[i + 3]] += buf[i + 3];
+    }
+    for (; i < below; i++) {
+        x[rows[i]] += buf[i];
+    }
+}
+
+/* x(j) -= L(rows, j)' x(rows), from the last column down as L is read backward in memory */
+#define SLI_DOT(k)                                                                                 \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
+        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
+    }
+#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+/* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
+ * the tile of the columns, anything for the columns' lanes */
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_PLACE_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+#define SLI_SET(k, unused) double r##k = r[k];
+#define SLI_GET(k, unused)                                                                         \
+    if ((k) < w) {                                                                                 \
+        xs[k] = r##k;                                                                              \
+    }
+#define SLI_XT(j, k)                                                                               \
+    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */                                         \
+        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j);                                     \
+    }
+#define SLI_ROW(k)                                                                                 \
+    SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
+
+/* l points at the panel's end. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    const sl_int count = (w + below) % SLI_TILE;
+    sl_int row = w + below - count, at = below;
+    double r[SLI_TILE];
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLI_EACH8(SLI_SUM_ZERO, a)
+    if (row > 0 && count > 0) {
+        at -= count;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE_PART)
+        SLV_FIRST(v, count)
+        SLI_DOTS
+    }
+    for (; row > SLI_TILE; row -= SLI_TILE) {
+        at -= SLI_TILE;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE)
+        SLI_DOTS
+    }
+    l -= SLI_TILE * w;
+    if (w < SLI_TILE && at > 0) {
+        SLV_GATHER(v, x, SLI_PLACE_OWN)
+        SLV_FIRST(v, w + at)
+        SLV_BELOW(v, w - 1)
+        SLI_DOTS
+    }
+    SLV_LOAD_PART(z, xs, w, 0.0)
+    SLV_LOAD_PART(v, d, w, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    {
+        SLI_EACH8(SLI_SET, 0)
+        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
+        SLI_EACH8(SLI_GET, 0)
+    }
+}
+
+/* The copies. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
+#define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const double *l, double *xs, double *x,
+                                                      double *buf) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                       const double *l, const double *d, double *xs,
+                                                       const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_COLUMN
+#undef SLI_EVEN_ODD
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_PLACE_OWN
+#undef SLI_SET
+#undef SLI_GET
+#undef SLI_XT
+#undef SLI_ROW
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+/* end src/impl/narrow.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -2241,6 +2477,11 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
+        if (w <= SLI_TILE) {
+            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -2315,6 +2556,10 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
+            continue;
+        }
         for (i = first; i < w; i++) {
             xs[i] /= d[i];
             buf[i] = 0.0;
@@ -2398,6 +2643,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_BELOW_2
 #undef SLV_SPREAD
 #undef SLV_SPREAD_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -2423,6 +2679,15 @@ SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
 SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
     return _mm256_castsi256_pd(
         _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
+}
+
+/* The first count lanes from p, rest in the others: count = -3 .. 8. */
+SLV_FUNCTION SLI_INLINE __m256d sli_load_part(const double *p, int count, double rest) {
+    const __m256d others = sli_lanes_from(count);
+    return _mm256_blendv_pd(
+        _mm256_maskload_pd(p, _mm256_castpd_si256(_mm256_xor_pd(
+                                  others, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))))),
+        _mm256_set1_pd(rest), others);
 }
 
 SLI_INLINE int sli_count4(unsigned mask) {
@@ -2470,6 +2735,27 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    a##_0 = sli_load_part((p), (count), (rest)), a##_1 = sli_load_part((p) + 4, (count)-4, (rest));
+#define SLV_FIRST(a, count)                                                                        \
+    a##_0 = _mm256_andnot_pd(sli_lanes_from(count), a##_0),                                        \
+    a##_1 = _mm256_andnot_pd(sli_lanes_from((count)-4), a##_1);
+#define SLV_LANE(b, a, k)                                                                          \
+    b##_0 = b##_1 = _mm256_permute4x64_pd((k) < 4 ? a##_0 : a##_1, (k) % 4 * 0x55);
+#define SLV_GATHER(a, x, at)                                                                       \
+    a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]),                         \
+    a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
+/* one register a column: two would leave none for L */
+#define SLV_SUM_DECLARE(a) __m256d a;
+#define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_SUM_DOT(a, l, v)                                                                       \
+    a = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a);                                             \
+    a = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a);
+#define SLV_SUM_4(a, b, c, d)                                                                      \
+    _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20),        \
+                  _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
+#define SLV_SUMS(r, a)                                                                             \
+    r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -3397,6 +3683,189 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/narrow.inl.h */
+/* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
+
+/* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
+ * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
+ * sums of all columns stay in registers, and x is gathered straight into them. */
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+
+/* the diagonal tile, column after column; L is 0 above its diagonal */
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        SLV_LANE(y##k, a, k)                                                                       \
+        SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                       \
+    }
+/* a tile below: even columns into one sum, odd ones into another */
+#define SLI_EVEN_ODD(k, unused)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        if ((k) % 2 == 0) {                                                                        \
+            SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                   \
+        } else {                                                                                   \
+            SLV_DOT(b, l + SLI_TILE * (k), y##k)                                                   \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x, double *buf) {
+    sl_int row, i;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, y)
+    SLV_LOAD_PART(a, xs, w, 0.0)
+    SLI_EACH8(SLI_COLUMN, 0)
+    SLV_STORE(buf, a)
+    for (i = 0; i < w; i++) {
+        xs[i] = buf[i];
+    }
+    for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+        l += SLI_TILE * w;
+        SLV_ZERO(a)
+        SLV_ZERO(b)
+        SLI_EACH8(SLI_EVEN_ODD, 0)
+        SLV_ADD(a, b)
+        SLV_STORE(buf + row, a)
+    }
+    buf += w;
+    for (i = 0; i + 4 <= below; i += 4) {
+        x[rows[i]] += buf[i];
+        x[rows[i + 1]] += buf[i + 1];
+        x[rows[i + 2]] += buf[i + 2];
+        x[rows[i + 3]] += buf[i + 3];
+    }
+    for (; i < below; i++) {
+        x[rows[i]] += buf[i];
+    }
+}
+
+/* x(j) -= L(rows, j)' x(rows), from the last column down as L is read backward in memory */
+#define SLI_DOT(k)                                                                                 \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
+        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
+    }
+#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+/* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
+ * the tile of the columns, anything for the columns' lanes */
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_PLACE_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+#define SLI_SET(k, unused) double r##k = r[k];
+#define SLI_GET(k, unused)                                                                         \
+    if ((k) < w) {                                                                                 \
+        xs[k] = r##k;                                                                              \
+    }
+#define SLI_XT(j, k)                                                                               \
+    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */                                         \
+        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j);                                     \
+    }
+#define SLI_ROW(k)                                                                                 \
+    SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
+
+/* l points at the panel's end. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    const sl_int count = (w + below) % SLI_TILE;
+    sl_int row = w + below - count, at = below;
+    double r[SLI_TILE];
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLI_EACH8(SLI_SUM_ZERO, a)
+    if (row > 0 && count > 0) {
+        at -= count;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE_PART)
+        SLV_FIRST(v, count)
+        SLI_DOTS
+    }
+    for (; row > SLI_TILE; row -= SLI_TILE) {
+        at -= SLI_TILE;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE)
+        SLI_DOTS
+    }
+    l -= SLI_TILE * w;
+    if (w < SLI_TILE && at > 0) {
+        SLV_GATHER(v, x, SLI_PLACE_OWN)
+        SLV_FIRST(v, w + at)
+        SLV_BELOW(v, w - 1)
+        SLI_DOTS
+    }
+    SLV_LOAD_PART(z, xs, w, 0.0)
+    SLV_LOAD_PART(v, d, w, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    {
+        SLI_EACH8(SLI_SET, 0)
+        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
+        SLI_EACH8(SLI_GET, 0)
+    }
+}
+
+/* The copies. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
+#define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const double *l, double *xs, double *x,
+                                                      double *buf) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                       const double *l, const double *d, double *xs,
+                                                       const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_COLUMN
+#undef SLI_EVEN_ODD
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_PLACE_OWN
+#undef SLI_SET
+#undef SLI_GET
+#undef SLI_XT
+#undef SLI_ROW
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+/* end src/impl/narrow.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -3452,6 +3921,11 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
+        if (w <= SLI_TILE) {
+            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -3526,6 +4000,10 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
+            continue;
+        }
         for (i = first; i < w; i++) {
             xs[i] /= d[i];
             buf[i] = 0.0;
@@ -3609,6 +4087,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_BELOW_2
 #undef SLV_SPREAD
 #undef SLV_SPREAD_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -3641,6 +4130,24 @@ static const sli_kernels SLV_NAME(kernels) = {
     sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
+#define SLV_FIRST(a, count) a = _mm512_maskz_mov_pd((__mmask8)(0xff >> (8 - (count))), a);
+#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
+#define SLV_GATHER(a, x, at)                                                                       \
+    a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)],      \
+                      (x)[at(1)], (x)[at(0)]);
+#define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
+#define SLV_SUM_ZERO(a) SLV_ZERO(a)
+#define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
+#define SLV_SUM_2(a, b)                                                                            \
+    _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
+#define SLV_SUM_4(a, b)                                                                            \
+    _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88),                                    \
+                  _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
+#define SLV_SUMS(r, a)                                                                             \
+    r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)),                         \
+                  SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
 #define SLV_TILES 2
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8
@@ -4552,6 +5059,189 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/narrow.inl.h */
+/* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
+
+/* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
+ * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
+ * sums of all columns stay in registers, and x is gathered straight into them. */
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+
+/* the diagonal tile, column after column; L is 0 above its diagonal */
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        SLV_LANE(y##k, a, k)                                                                       \
+        SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                       \
+    }
+/* a tile below: even columns into one sum, odd ones into another */
+#define SLI_EVEN_ODD(k, unused)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        if ((k) % 2 == 0) {                                                                        \
+            SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                   \
+        } else {                                                                                   \
+            SLV_DOT(b, l + SLI_TILE * (k), y##k)                                                   \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x, double *buf) {
+    sl_int row, i;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, y)
+    SLV_LOAD_PART(a, xs, w, 0.0)
+    SLI_EACH8(SLI_COLUMN, 0)
+    SLV_STORE(buf, a)
+    for (i = 0; i < w; i++) {
+        xs[i] = buf[i];
+    }
+    for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+        l += SLI_TILE * w;
+        SLV_ZERO(a)
+        SLV_ZERO(b)
+        SLI_EACH8(SLI_EVEN_ODD, 0)
+        SLV_ADD(a, b)
+        SLV_STORE(buf + row, a)
+    }
+    buf += w;
+    for (i = 0; i + 4 <= below; i += 4) {
+        x[rows[i]] += buf[i];
+        x[rows[i + 1]] += buf[i + 1];
+        x[rows[i + 2]] += buf[i + 2];
+        x[rows[i + 3]] += buf[i + 3];
+    }
+    for (; i < below; i++) {
+        x[rows[i]] += buf[i];
+    }
+}
+
+/* x(j) -= L(rows, j)' x(rows), from the last column down as L is read backward in memory */
+#define SLI_DOT(k)                                                                                 \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
+        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
+    }
+#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+/* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
+ * the tile of the columns, anything for the columns' lanes */
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_PLACE_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+#define SLI_SET(k, unused) double r##k = r[k];
+#define SLI_GET(k, unused)                                                                         \
+    if ((k) < w) {                                                                                 \
+        xs[k] = r##k;                                                                              \
+    }
+#define SLI_XT(j, k)                                                                               \
+    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */                                         \
+        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j);                                     \
+    }
+#define SLI_ROW(k)                                                                                 \
+    SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
+
+/* l points at the panel's end. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    const sl_int count = (w + below) % SLI_TILE;
+    sl_int row = w + below - count, at = below;
+    double r[SLI_TILE];
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLI_EACH8(SLI_SUM_ZERO, a)
+    if (row > 0 && count > 0) {
+        at -= count;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE_PART)
+        SLV_FIRST(v, count)
+        SLI_DOTS
+    }
+    for (; row > SLI_TILE; row -= SLI_TILE) {
+        at -= SLI_TILE;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE)
+        SLI_DOTS
+    }
+    l -= SLI_TILE * w;
+    if (w < SLI_TILE && at > 0) {
+        SLV_GATHER(v, x, SLI_PLACE_OWN)
+        SLV_FIRST(v, w + at)
+        SLV_BELOW(v, w - 1)
+        SLI_DOTS
+    }
+    SLV_LOAD_PART(z, xs, w, 0.0)
+    SLV_LOAD_PART(v, d, w, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    {
+        SLI_EACH8(SLI_SET, 0)
+        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
+        SLI_EACH8(SLI_GET, 0)
+    }
+}
+
+/* The copies. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
+#define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const double *l, double *xs, double *x,
+                                                      double *buf) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                       const double *l, const double *d, double *xs,
+                                                       const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_COLUMN
+#undef SLI_EVEN_ODD
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_PLACE_OWN
+#undef SLI_SET
+#undef SLI_GET
+#undef SLI_XT
+#undef SLI_ROW
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+/* end src/impl/narrow.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -4607,6 +5297,11 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
+        if (w <= SLI_TILE) {
+            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -4681,6 +5376,10 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
+            continue;
+        }
         for (i = first; i < w; i++) {
             xs[i] /= d[i];
             buf[i] = 0.0;
@@ -4764,6 +5463,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_BELOW_2
 #undef SLV_SPREAD
 #undef SLV_SPREAD_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
 /* end src/impl/words_end.inl.h */
 #undef SLV_HALVES
 
@@ -4811,6 +5521,46 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
     a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
+        }                                                                                          \
+        SLV_LOAD(a, part_)                                                                         \
+    }
+#define SLV_FIRST(a, count)                                                                        \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        SLV_STORE(part_, a)                                                                        \
+        for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
+            part_[i_] = 0.0;                                                                       \
+        }                                                                                          \
+        SLV_LOAD(a, part_)                                                                         \
+    }
+#define SLV_LANE(b, a, k)                                                                          \
+    b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(                                                   \
+        vgetq_lane_f64((k) < 2   ? a##_0                                                           \
+                       : (k) < 4 ? a##_1                                                           \
+                       : (k) < 6 ? a##_2                                                           \
+                                 : a##_3,                                                          \
+                       (k) % 2));
+#define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
+#define SLV_GATHER(a, x, at)                                                                       \
+    a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)),                  \
+    a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
+#define SLV_SUM_DECLARE(a) float64x2_t a;
+#define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLV_SUM_DOT(a, l, v)                                                                       \
+    a = vfmsq_f64(a, vld1q_f64((l) + 0), v##_0);                                                   \
+    a = vfmsq_f64(a, vld1q_f64((l) + 2), v##_1);                                                   \
+    a = vfmsq_f64(a, vld1q_f64((l) + 4), v##_2);                                                   \
+    a = vfmsq_f64(a, vld1q_f64((l) + 6), v##_3);
+#define SLV_SUMS(r, a)                                                                             \
+    r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3),                                \
+    r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -5759,6 +6509,189 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/narrow.inl.h */
+/* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
+
+/* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
+ * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
+ * sums of all columns stay in registers, and x is gathered straight into them. */
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+
+/* the diagonal tile, column after column; L is 0 above its diagonal */
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        SLV_LANE(y##k, a, k)                                                                       \
+        SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                       \
+    }
+/* a tile below: even columns into one sum, odd ones into another */
+#define SLI_EVEN_ODD(k, unused)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        if ((k) % 2 == 0) {                                                                        \
+            SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                   \
+        } else {                                                                                   \
+            SLV_DOT(b, l + SLI_TILE * (k), y##k)                                                   \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x, double *buf) {
+    sl_int row, i;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, y)
+    SLV_LOAD_PART(a, xs, w, 0.0)
+    SLI_EACH8(SLI_COLUMN, 0)
+    SLV_STORE(buf, a)
+    for (i = 0; i < w; i++) {
+        xs[i] = buf[i];
+    }
+    for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+        l += SLI_TILE * w;
+        SLV_ZERO(a)
+        SLV_ZERO(b)
+        SLI_EACH8(SLI_EVEN_ODD, 0)
+        SLV_ADD(a, b)
+        SLV_STORE(buf + row, a)
+    }
+    buf += w;
+    for (i = 0; i + 4 <= below; i += 4) {
+        x[rows[i]] += buf[i];
+        x[rows[i + 1]] += buf[i + 1];
+        x[rows[i + 2]] += buf[i + 2];
+        x[rows[i + 3]] += buf[i + 3];
+    }
+    for (; i < below; i++) {
+        x[rows[i]] += buf[i];
+    }
+}
+
+/* x(j) -= L(rows, j)' x(rows), from the last column down as L is read backward in memory */
+#define SLI_DOT(k)                                                                                 \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
+        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
+    }
+#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+/* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
+ * the tile of the columns, anything for the columns' lanes */
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_PLACE_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+#define SLI_SET(k, unused) double r##k = r[k];
+#define SLI_GET(k, unused)                                                                         \
+    if ((k) < w) {                                                                                 \
+        xs[k] = r##k;                                                                              \
+    }
+#define SLI_XT(j, k)                                                                               \
+    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */                                         \
+        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j);                                     \
+    }
+#define SLI_ROW(k)                                                                                 \
+    SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
+
+/* l points at the panel's end. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    const sl_int count = (w + below) % SLI_TILE;
+    sl_int row = w + below - count, at = below;
+    double r[SLI_TILE];
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLI_EACH8(SLI_SUM_ZERO, a)
+    if (row > 0 && count > 0) {
+        at -= count;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE_PART)
+        SLV_FIRST(v, count)
+        SLI_DOTS
+    }
+    for (; row > SLI_TILE; row -= SLI_TILE) {
+        at -= SLI_TILE;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE)
+        SLI_DOTS
+    }
+    l -= SLI_TILE * w;
+    if (w < SLI_TILE && at > 0) {
+        SLV_GATHER(v, x, SLI_PLACE_OWN)
+        SLV_FIRST(v, w + at)
+        SLV_BELOW(v, w - 1)
+        SLI_DOTS
+    }
+    SLV_LOAD_PART(z, xs, w, 0.0)
+    SLV_LOAD_PART(v, d, w, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    {
+        SLI_EACH8(SLI_SET, 0)
+        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
+        SLI_EACH8(SLI_GET, 0)
+    }
+}
+
+/* The copies. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
+#define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const double *l, double *xs, double *x,
+                                                      double *buf) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                       const double *l, const double *d, double *xs,
+                                                       const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_COLUMN
+#undef SLI_EVEN_ODD
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_PLACE_OWN
+#undef SLI_SET
+#undef SLI_GET
+#undef SLI_XT
+#undef SLI_ROW
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+/* end src/impl/narrow.inl.h */
+
 /* begin src/impl/body.inl.h */
 /* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
 
@@ -5814,6 +6747,11 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
+        if (w <= SLI_TILE) {
+            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -5888,6 +6826,10 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
+            continue;
+        }
         for (i = first; i < w; i++) {
             xs[i] /= d[i];
             buf[i] = 0.0;
@@ -5971,6 +6913,17 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_BELOW_2
 #undef SLV_SPREAD
 #undef SLV_SPREAD_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -9213,13 +10166,16 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_X86
 #undef SLI_ARM
 #undef SLI_INLINE
+#undef SLI_ALWAYS_INLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
+#undef SLI_PREFETCH
 #undef SLI_ASSERT
 #undef SLI_ALIGN
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_AHEAD
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_EACH4_AGAIN

@@ -52,6 +52,11 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
+        if (w <= SLI_TILE) {
+            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -126,6 +131,10 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
         sl_int i;
         rows_end -= s->below;
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
+            continue;
+        }
         for (i = first; i < w; i++) {
             xs[i] /= d[i];
             buf[i] = 0.0;

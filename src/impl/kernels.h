@@ -11,6 +11,10 @@
  * above it, and the padding of the last tile are 0. */
 #define SLI_TILE 8
 
+/* Bytes between what a solve reads of L and what it asks for ahead. Small supernodes are read too
+ * slowly for the hardware to run ahead far enough, and at every page it starts anew. */
+#define SLI_AHEAD 4096
+
 /* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
  * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {

@@ -2,13 +2,16 @@
 #undef SLI_X86
 #undef SLI_ARM
 #undef SLI_INLINE
+#undef SLI_ALWAYS_INLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
+#undef SLI_PREFETCH
 #undef SLI_ASSERT
 #undef SLI_ALIGN
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_AHEAD
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_EACH4_AGAIN
