@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 19f038a999cfd67f
+ * FNV-1a of all that follows this comment, license aside: 870caa8ed403801a
  *
  * Contents
  *         (what a user reads)
@@ -20,48 +20,48 @@
  *    973  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
  *   1011  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1152  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1290  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1320  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   1888  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   1933  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2069  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2242  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   2425  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   2615  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   2661  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   2794  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   3203  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   4107  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   5484  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   6933  impl/select.h              the kernel table for an instruction set
+ *   1170  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1308  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1338  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2389  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2434  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2570  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2743  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   2907  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3097  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3143  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3276  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4007  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   4892  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   6572  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   8324  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   6966  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   7383  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   7456  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   8357  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   8774  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   8847  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   7810  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   7851  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   7983  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   8069  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   8210  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   8295  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   8368  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   8528  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *   8604  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *   8677  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *   8957  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   9201  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   9242  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   9374  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   9460  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   9601  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *   9686  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *   9759  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *   9919  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *   9995  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *  10068  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  10348  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *   9100  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *   9180  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *   9260  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *   9321  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *   9557  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *   9613  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *   9822  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *   9862  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  10491  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  10571  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  10651  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *  10712  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *  10948  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  11004  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  11213  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  11253  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  10164  impl/leave.h               takes every internal macro away again
+ *  11555  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1105,6 +1105,24 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
 
+/* Calls one of 8 copies of a body that is compiled for a constant number of columns, w = 1 .. 8. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
+
 /* Fronts. The front of a supernode of w columns and u rows below is its panel and its update
  * matrix: the lower triangle, by tiles as in a panel, over the same row tiles from tile w/8 on, so
  * that the rows below keep their lanes. What its first w % 8 rows and columns and the part above the
@@ -1358,47 +1376,202 @@ typedef struct sli_kernels {
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -1415,25 +1588,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -1441,20 +1618,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -1558,47 +1737,202 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -1615,25 +1949,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -1641,20 +1979,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -1758,47 +2098,202 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -1815,25 +2310,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -1841,20 +2340,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -2370,23 +2871,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     }
 }
 
-/* The copies. */
-#define SLI_CASE(k, call)                                                                          \
-    case k:                                                                                        \
-        call(k);                                                                                   \
-        break;
-#define SLI_CASES(call)                                                                            \
-    switch (w) {                                                                                   \
-        SLI_CASE(1, call)                                                                          \
-        SLI_CASE(2, call)                                                                          \
-        SLI_CASE(3, call)                                                                          \
-        SLI_CASE(4, call)                                                                          \
-        SLI_CASE(5, call)                                                                          \
-        SLI_CASE(6, call)                                                                          \
-        SLI_CASE(7, call)                                                                          \
-    default:                                                                                       \
-        call(8);                                                                                   \
-    }
 #define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
 
@@ -2416,8 +2900,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, c
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 /* end src/impl/narrow.inl.h */
@@ -2844,47 +3326,202 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -2901,25 +3538,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -2927,20 +3568,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -3029,47 +3672,202 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -3086,25 +3884,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -3112,20 +3914,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -3814,23 +4618,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     }
 }
 
-/* The copies. */
-#define SLI_CASE(k, call)                                                                          \
-    case k:                                                                                        \
-        call(k);                                                                                   \
-        break;
-#define SLI_CASES(call)                                                                            \
-    switch (w) {                                                                                   \
-        SLI_CASE(1, call)                                                                          \
-        SLI_CASE(2, call)                                                                          \
-        SLI_CASE(3, call)                                                                          \
-        SLI_CASE(4, call)                                                                          \
-        SLI_CASE(5, call)                                                                          \
-        SLI_CASE(6, call)                                                                          \
-        SLI_CASE(7, call)                                                                          \
-    default:                                                                                       \
-        call(8);                                                                                   \
-    }
 #define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
 
@@ -3860,8 +4647,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, c
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 /* end src/impl/narrow.inl.h */
@@ -4227,47 +5012,202 @@ static const sli_kernels SLV_NAME(kernels) = {
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -4284,25 +5224,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -4310,20 +5254,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -4405,47 +5351,202 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -4462,25 +5563,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -4488,20 +5593,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -5190,23 +6297,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     }
 }
 
-/* The copies. */
-#define SLI_CASE(k, call)                                                                          \
-    case k:                                                                                        \
-        call(k);                                                                                   \
-        break;
-#define SLI_CASES(call)                                                                            \
-    switch (w) {                                                                                   \
-        SLI_CASE(1, call)                                                                          \
-        SLI_CASE(2, call)                                                                          \
-        SLI_CASE(3, call)                                                                          \
-        SLI_CASE(4, call)                                                                          \
-        SLI_CASE(5, call)                                                                          \
-        SLI_CASE(6, call)                                                                          \
-        SLI_CASE(7, call)                                                                          \
-    default:                                                                                       \
-        call(8);                                                                                   \
-    }
 #define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
 
@@ -5236,8 +6326,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, c
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 /* end src/impl/narrow.inl.h */
@@ -5658,47 +6746,202 @@ static const sli_kernels SLV_NAME(kernels) = {
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -5715,25 +6958,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -5741,20 +6988,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -5855,47 +7104,202 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
+ * registers, and the rows below pass by one after the other. */
+#define SLI_LOAD_OWN(k, p)                                                                         \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+    }
+#define SLI_STORE_OWN(k, p)                                                                        \
+    if ((k) < w) {                                                                                 \
+        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_AHEAD_OWN(k, bytes)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), bytes);                                                   \
+    }
+#define SLI_DOWN_OWN(r, k)                                                                         \
+    if ((r) > (k) && (r) < w) {                                                                    \
+        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k)                                              \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLW_EACH(SLI_AHEAD_OWN, SLI_AHEAD)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k)                                                                           \
+    if ((j) < (k) && (k) < w) {                                                                    \
+        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k)                                              \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused)                                                                   \
+    if ((k) < w) {                                                                                 \
+        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b)                                                \
+    }
+#define SLI_DIVIDE_OWN(k, unused)                                                                  \
+    if ((k) < w) {                                                                                 \
+        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_DIVIDE(b, d[k])                                                                        \
+        SLW_ADD(a##k, b)                                                                           \
+    }
+
+/* l points at the panel's last tile. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+    SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
+            SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                  const double *l, double *xs, double *x) {
+    SLI_CASES(SLI_FORWARD)
+}
+
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                   const double *l, const double *d, double *xs,
+                                                   const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_AHEAD_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#endif
+
+/* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
+ * own, then rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                                  : x + (ptrdiff_t)rows[r - inner] * SLW_LANES)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_LANES, b)
+    }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+    }
+}
+
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                            const double *L, double *x, double *buf) {
-    for (; count > 0; count--, s++) {
+    for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + (ptrdiff_t)s->base * SLW_LANES;
-        const size_t columns = (size_t)(w - first) * SLW_LANES;
+        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
-        sl_int i, j;
-        memcpy(buf + (ptrdiff_t)first * SLW_LANES, xs, columns * sizeof(double));
-        memset(buf + (ptrdiff_t)w * SLW_LANES, 0,
-               (size_t)(SLI_TILE * sli_tiles(height) - w) * SLW_LANES * sizeof(double));
+        sl_int j;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            continue;
+        }
+#endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            const sl_int *places = rows + (row + inner - w);
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_EACH(SLI_APPLY, l)
             }
-            SLW_EACH(SLI_COLUMN, 0)
+            if (inner > 0) {
+                SLW_EACH(SLI_COLUMN, 0)
+            }
             SLW_EACH(SLI_STORE, p)
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, places, own, x);
+            }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
-        memcpy(xs, buf + (ptrdiff_t)first * SLW_LANES, columns * sizeof(double));
-        for (i = 0; i < s->below; i++) {
-            double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
-            SLW_DECLARE(sum)
-            SLW_DECLARE(update)
-            SLW_LOAD(sum, to)
-            SLW_LOAD(update, buf + (ptrdiff_t)(w + i) * SLW_LANES)
-            SLW_ADD(sum, update)
-            SLW_STORE(to, sum)
-        }
-        rows += s->below;
     }
 }
 
@@ -5912,25 +7316,29 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+#if SLW_ROWS == 8
+        if (w <= SLI_TILE) {
+            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            continue;
+        }
+#endif
         for (i = first; i < w; i++) {
             SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_LANES)
             SLW_DIVIDE(b, d[i])
-            SLW_STORE(buf + (ptrdiff_t)i * SLW_LANES, b)
+            SLW_STORE(xs + (ptrdiff_t)i * SLW_LANES, b)
         }
-        for (i = 0; i < s->below; i++) {
-            SLW_LOAD(b, x + (ptrdiff_t)rows_end[i] * SLW_LANES)
-            SLW_STORE(buf + (ptrdiff_t)(w + i) * SLW_LANES, b)
-        }
-        memset(buf + (ptrdiff_t)height * SLW_LANES, 0,
-               (size_t)(padded - height) * SLW_LANES * sizeof(double));
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *p = buf + row * SLW_LANES;
+            double *own = xs + row * SLW_LANES, *p = inner == SLW_ROWS ? own : buf;
             const double *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            if (inner < SLW_ROWS) {
+                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
+                                  rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -5938,20 +7346,22 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+                }
             }
             l = tile + SLI_TILE * (ptrdiff_t) final + lane;
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
-                SLW_LOAD(b, buf + (ptrdiff_t)j * SLW_LANES)
+                SLI_PREFETCH(l, -SLI_AHEAD);
+                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_LANES)
                 SLW_ZERO(c)
                 SLW_HIGH(SLI_GATHER, l)
                 SLW_LOW(SLI_GATHER2, l)
                 SLW_ADD(b, c)
-                SLW_STORE(buf + (ptrdiff_t)j * SLW_LANES, b)
+                SLW_STORE(xs + (ptrdiff_t)j * SLW_LANES, b)
             }
         }
-        memcpy(xs + (ptrdiff_t)first * SLW_LANES, buf + (ptrdiff_t)first * SLW_LANES,
-               (size_t)(w - first) * SLW_LANES * sizeof(double));
     }
 }
 
@@ -6640,23 +8050,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     }
 }
 
-/* The copies. */
-#define SLI_CASE(k, call)                                                                          \
-    case k:                                                                                        \
-        call(k);                                                                                   \
-        break;
-#define SLI_CASES(call)                                                                            \
-    switch (w) {                                                                                   \
-        SLI_CASE(1, call)                                                                          \
-        SLI_CASE(2, call)                                                                          \
-        SLI_CASE(3, call)                                                                          \
-        SLI_CASE(4, call)                                                                          \
-        SLI_CASE(5, call)                                                                          \
-        SLI_CASE(6, call)                                                                          \
-        SLI_CASE(7, call)                                                                          \
-    default:                                                                                       \
-        call(8);                                                                                   \
-    }
 #define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
 
@@ -6686,8 +8079,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, c
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 /* end src/impl/narrow.inl.h */
@@ -10175,6 +11566,8 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_CASE
+#undef SLI_CASES
 #undef SLI_AHEAD
 #undef SLI_EACH4
 #undef SLI_EACH8

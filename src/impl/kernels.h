@@ -97,6 +97,24 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
 
+/* Calls one of 8 copies of a body that is compiled for a constant number of columns, w = 1 .. 8. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
+
 /* Fronts. The front of a supernode of w columns and u rows below is its panel and its update
  * matrix: the lower triangle, by tiles as in a panel, over the same row tiles from tile w/8 on, so
  * that the rows below keep their lanes. What its first w % 8 rows and columns and the part above the

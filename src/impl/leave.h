@@ -11,6 +11,8 @@
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_CASE
+#undef SLI_CASES
 #undef SLI_AHEAD
 #undef SLI_EACH4
 #undef SLI_EACH8

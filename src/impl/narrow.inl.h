@@ -128,23 +128,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     }
 }
 
-/* The copies. */
-#define SLI_CASE(k, call)                                                                          \
-    case k:                                                                                        \
-        call(k);                                                                                   \
-        break;
-#define SLI_CASES(call)                                                                            \
-    switch (w) {                                                                                   \
-        SLI_CASE(1, call)                                                                          \
-        SLI_CASE(2, call)                                                                          \
-        SLI_CASE(3, call)                                                                          \
-        SLI_CASE(4, call)                                                                          \
-        SLI_CASE(5, call)                                                                          \
-        SLI_CASE(6, call)                                                                          \
-        SLI_CASE(7, call)                                                                          \
-    default:                                                                                       \
-        call(8);                                                                                   \
-    }
 #define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
 
@@ -174,7 +157,5 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, c
 #undef SLI_GET
 #undef SLI_XT
 #undef SLI_ROW
-#undef SLI_CASE
-#undef SLI_CASES
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
