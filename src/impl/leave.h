@@ -26,5 +26,6 @@
 #undef SLI_CHUNK
 #undef SLI_FRONT_OWN
 #undef SLI_FRONT_SCRATCH
+#undef SLI_ROWS_AHEAD
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
