@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e5a7f15242c3eb0b
+ * FNV-1a of all that follows this comment, license aside: 8c2bd7d94ce216c7
  *
  * Contents
  *         (what a user reads)
@@ -20,48 +20,48 @@
  *   1010  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
  *   1048  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1207  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1345  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1375  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2426  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2471  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2607  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2780  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   2944  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3134  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3180  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3313  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4044  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   4929  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   6609  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   8361  impl/select.h              the kernel table for an instruction set
+ *   1212  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1352  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1382  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2433  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2478  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2614  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2787  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   2951  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3208  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3256  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3391  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4122  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5076  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   6827  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   8650  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   8394  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   8811  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   8884  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   8683  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9100  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9173  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   9238  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   9279  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   9411  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   9497  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   9638  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *   9723  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *   9796  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *   9956  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10032  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *  10105  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  10385  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   9527  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   9568  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   9700  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   9786  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *   9927  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10012  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10085  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10245  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  10321  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *  10394  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  10674  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  10528  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  10608  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  10688  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *  10749  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *  10985  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  11041  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  11289  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  11332  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  10817  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  10897  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  10977  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *  11038  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *  11274  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  11330  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  11578  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  11621  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  11634  impl/leave.h               takes every internal macro away again
+ *  11923  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1060,6 +1060,11 @@ static sl_isa sli_cpu_best(void) {
  * slowly for the hardware to run ahead far enough, and at every page it starts anew. */
 #define SLI_AHEAD 4096
 
+/* A sweep of so few steps is taken for one that finds L in a cache. There two row tiles at a time are
+ * faster; from main memory only the strict order of the panels keeps the hardware reading ahead. The
+ * numbers are the same. */
+#define SLI_FEW_STEPS 4096
+
 /* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
  * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
@@ -1282,6 +1287,8 @@ typedef struct sli_kernels {
     }
 #define SLV_SUM_DECLARE(a) double a;
 #define SLV_SUM_ZERO(a) a = 0.0;
+#define SLV_SUM_LOAD(a, p) a = *(p);
+#define SLV_SUM_STORE(p, a) *(p) = a;
 #define SLV_SUM_DOT(a, l, v)                                                                       \
     a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) +                       \
          (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
@@ -3014,85 +3021,152 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
- * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
- * each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
-                                                      sl_int height, const double *z, double *buf,
-                                                      double *sums) {
-    const sl_int first = SLI_TILE * t0;
-    const double *tile = end;
-    sl_int t, j, k;
+/* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
+ * below the columns at once, which spares loads and stores of the sums. */
+#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
+                                             sl_int final, double *sums) {
+    sl_int j;
     SLV_DECLARE(v)
-    SLV_DECLARE(a)
-    SLV_ZERO(a)
-    for (j = first; j < width; j++) {
-        SLV_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v, x)
+    for (j = final - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
-    for (t = sli_tiles(height) - 1; t >= t0; t--) {
-        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
-        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
-        if (inner > 0) {
-            double r[SLI_TILE];
-            const double *l = tile + SLI_TILE * row;
-            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
-            for (k = 0; k < inner; k++) {
-                SLV_LOAD(a, sums + SLI_TILE * (row + k))
-                if (inner < SLI_TILE) {
-                    SLV_DOT(a, l + SLI_TILE * k, v)
-                }
-                r[k] = z[row + k] + SLV_SUM(a);
-            }
-            if (inner == SLI_TILE) {
-                SLV_NAME(tile_backward)(l, r);
-            } else {
-                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
-                    for (j = 0; j < k; j++) {
-                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
-                    }
-                }
-            }
-            for (k = 0; k < inner; k++) {
-                buf[row + k] = r[k];
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
+                                             sl_int w, double *sums) {
+    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
+    sl_int j;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v0, x)
+    SLV_LOAD(v1, x + SLI_TILE)
+    for (j = w - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* The diagonal tile of the columns row .. row+inner-1: what the rows below them left is summed, the
+ * right side added, the triangle solved. l: the tile's diagonal part. */
+#define SLI_TAKE_SUM(k, unused)                                                                    \
+    if ((k) < inner) {                                                                             \
+        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k))                                                  \
+        if (inner < SLI_TILE) {                                                                    \
+            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                               \
+        }                                                                                          \
+    } else {                                                                                       \
+        SLV_SUM_ZERO(a##k)                                                                         \
+    }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
+                                                const double *d, double *xs, double *buf) {
+    double r[SLI_TILE];
+    sl_int j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLI_EACH8(SLI_TAKE_SUM, 0)
+    SLV_LOAD_PART(z, xs, inner, 0.0)
+    SLV_LOAD_PART(v, d, inner, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    if (inner == SLI_TILE) {
+        SLV_NAME(tile_backward)(l, r);
+    } else {
+        for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+            for (j = 0; j < k; j++) {
+                r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
             }
         }
-        SLV_LOAD(v, buf + row)
-        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
-            SLV_LOAD(a, sums + SLI_TILE * j)
-            SLV_DOT(a, tile + SLI_TILE * j, v)
-            SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (k = 0; k < inner; k++) {
+        xs[k] = buf[k] = r[k];
+    }
+}
+
+/* buf: the rows of two tiles; behind them the sums. */
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
+    const int by_two = count <= SLI_FEW_STEPS;
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
+        double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
+        const sl_int *rows = rows_end -= s->below;
+        sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
+        SLV_DECLARE(v)
+        SLV_SUM_DECLARE(a)
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows, tile, d, xs, x);
+            continue;
+        }
+        SLV_SUM_ZERO(a)
+        for (j = first; j < w; j++) {
+            SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+        }
+        for (; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            const sl_int final = sli_min(row, w), at = row + inner - w;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
+                row -= SLI_TILE;
+                tile -= SLI_TILE * (ptrdiff_t)w;
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf, v)
+                rows += SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf + SLI_TILE, v)
+                SLV_NAME(dots2)(tile, buf, first, w, sums);
+                continue;
+            }
+            if (inner < SLI_TILE) {
+                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+                if (part > 0) {
+                    SLV_GATHER(v, x, SLI_PLACE_PART)
+                    SLV_FIRST(v, inner + part)
+                    SLV_STORE(buf, v)
+                } else {
+                    SLV_ZERO(v)
+                    SLV_STORE(buf, v)
+                }
+                for (j = 0; j < inner; j++) {
+                    buf[j] = 0.0;
+                }
+            }
+            if (inner > 0) {
+                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+            }
+            SLV_NAME(dots1)(tile, buf, first, final, sums);
         }
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        double *xs = x + s->base - first;
-        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
-        sl_int i;
-        rows_end -= s->below;
-        if (w <= SLI_TILE) {
-            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
-            continue;
-        }
-        for (i = first; i < w; i++) {
-            xs[i] /= d[i];
-            buf[i] = 0.0;
-        }
-        for (i = 0; i < s->below; i++) {
-            buf[w + i] = x[rows_end[i]];
-        }
-        for (i = height; i < padded; i++) {
-            buf[i] = 0.0;
-        }
-        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
-        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
-    }
-}
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_TAKE_SUM
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                                        const double *D, double *xs, double *x, double *buf,
@@ -3173,6 +3247,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SUM_2
 #undef SLV_SUM_4
 #undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -3267,6 +3343,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 /* one register a column: two would leave none for L */
 #define SLV_SUM_DECLARE(a) __m256d a;
 #define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
 #define SLV_SUM_DOT(a, l, v)                                                                       \
     a = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a);                                             \
     a = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a);
@@ -4761,85 +4839,152 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
- * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
- * each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
-                                                      sl_int height, const double *z, double *buf,
-                                                      double *sums) {
-    const sl_int first = SLI_TILE * t0;
-    const double *tile = end;
-    sl_int t, j, k;
+/* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
+ * below the columns at once, which spares loads and stores of the sums. */
+#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
+                                             sl_int final, double *sums) {
+    sl_int j;
     SLV_DECLARE(v)
-    SLV_DECLARE(a)
-    SLV_ZERO(a)
-    for (j = first; j < width; j++) {
-        SLV_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v, x)
+    for (j = final - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
-    for (t = sli_tiles(height) - 1; t >= t0; t--) {
-        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
-        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
-        if (inner > 0) {
-            double r[SLI_TILE];
-            const double *l = tile + SLI_TILE * row;
-            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
-            for (k = 0; k < inner; k++) {
-                SLV_LOAD(a, sums + SLI_TILE * (row + k))
-                if (inner < SLI_TILE) {
-                    SLV_DOT(a, l + SLI_TILE * k, v)
-                }
-                r[k] = z[row + k] + SLV_SUM(a);
-            }
-            if (inner == SLI_TILE) {
-                SLV_NAME(tile_backward)(l, r);
-            } else {
-                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
-                    for (j = 0; j < k; j++) {
-                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
-                    }
-                }
-            }
-            for (k = 0; k < inner; k++) {
-                buf[row + k] = r[k];
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
+                                             sl_int w, double *sums) {
+    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
+    sl_int j;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v0, x)
+    SLV_LOAD(v1, x + SLI_TILE)
+    for (j = w - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* The diagonal tile of the columns row .. row+inner-1: what the rows below them left is summed, the
+ * right side added, the triangle solved. l: the tile's diagonal part. */
+#define SLI_TAKE_SUM(k, unused)                                                                    \
+    if ((k) < inner) {                                                                             \
+        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k))                                                  \
+        if (inner < SLI_TILE) {                                                                    \
+            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                               \
+        }                                                                                          \
+    } else {                                                                                       \
+        SLV_SUM_ZERO(a##k)                                                                         \
+    }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
+                                                const double *d, double *xs, double *buf) {
+    double r[SLI_TILE];
+    sl_int j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLI_EACH8(SLI_TAKE_SUM, 0)
+    SLV_LOAD_PART(z, xs, inner, 0.0)
+    SLV_LOAD_PART(v, d, inner, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    if (inner == SLI_TILE) {
+        SLV_NAME(tile_backward)(l, r);
+    } else {
+        for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+            for (j = 0; j < k; j++) {
+                r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
             }
         }
-        SLV_LOAD(v, buf + row)
-        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
-            SLV_LOAD(a, sums + SLI_TILE * j)
-            SLV_DOT(a, tile + SLI_TILE * j, v)
-            SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (k = 0; k < inner; k++) {
+        xs[k] = buf[k] = r[k];
+    }
+}
+
+/* buf: the rows of two tiles; behind them the sums. */
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
+    const int by_two = count <= SLI_FEW_STEPS;
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
+        double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
+        const sl_int *rows = rows_end -= s->below;
+        sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
+        SLV_DECLARE(v)
+        SLV_SUM_DECLARE(a)
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows, tile, d, xs, x);
+            continue;
+        }
+        SLV_SUM_ZERO(a)
+        for (j = first; j < w; j++) {
+            SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+        }
+        for (; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            const sl_int final = sli_min(row, w), at = row + inner - w;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
+                row -= SLI_TILE;
+                tile -= SLI_TILE * (ptrdiff_t)w;
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf, v)
+                rows += SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf + SLI_TILE, v)
+                SLV_NAME(dots2)(tile, buf, first, w, sums);
+                continue;
+            }
+            if (inner < SLI_TILE) {
+                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+                if (part > 0) {
+                    SLV_GATHER(v, x, SLI_PLACE_PART)
+                    SLV_FIRST(v, inner + part)
+                    SLV_STORE(buf, v)
+                } else {
+                    SLV_ZERO(v)
+                    SLV_STORE(buf, v)
+                }
+                for (j = 0; j < inner; j++) {
+                    buf[j] = 0.0;
+                }
+            }
+            if (inner > 0) {
+                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+            }
+            SLV_NAME(dots1)(tile, buf, first, final, sums);
         }
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        double *xs = x + s->base - first;
-        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
-        sl_int i;
-        rows_end -= s->below;
-        if (w <= SLI_TILE) {
-            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
-            continue;
-        }
-        for (i = first; i < w; i++) {
-            xs[i] /= d[i];
-            buf[i] = 0.0;
-        }
-        for (i = 0; i < s->below; i++) {
-            buf[w + i] = x[rows_end[i]];
-        }
-        for (i = height; i < padded; i++) {
-            buf[i] = 0.0;
-        }
-        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
-        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
-    }
-}
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_TAKE_SUM
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                                        const double *D, double *xs, double *x, double *buf,
@@ -4920,6 +5065,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SUM_2
 #undef SLV_SUM_4
 #undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -4961,6 +5108,8 @@ static const sli_kernels SLV_NAME(kernels) = {
                       (x)[at(1)], (x)[at(0)]);
 #define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
 #define SLV_SUM_ZERO(a) SLV_ZERO(a)
+#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
+#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
 #define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
 #define SLV_SUM_2(a, b)                                                                            \
     _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
@@ -6440,85 +6589,152 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
- * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
- * each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
-                                                      sl_int height, const double *z, double *buf,
-                                                      double *sums) {
-    const sl_int first = SLI_TILE * t0;
-    const double *tile = end;
-    sl_int t, j, k;
+/* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
+ * below the columns at once, which spares loads and stores of the sums. */
+#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
+                                             sl_int final, double *sums) {
+    sl_int j;
     SLV_DECLARE(v)
-    SLV_DECLARE(a)
-    SLV_ZERO(a)
-    for (j = first; j < width; j++) {
-        SLV_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v, x)
+    for (j = final - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
-    for (t = sli_tiles(height) - 1; t >= t0; t--) {
-        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
-        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
-        if (inner > 0) {
-            double r[SLI_TILE];
-            const double *l = tile + SLI_TILE * row;
-            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
-            for (k = 0; k < inner; k++) {
-                SLV_LOAD(a, sums + SLI_TILE * (row + k))
-                if (inner < SLI_TILE) {
-                    SLV_DOT(a, l + SLI_TILE * k, v)
-                }
-                r[k] = z[row + k] + SLV_SUM(a);
-            }
-            if (inner == SLI_TILE) {
-                SLV_NAME(tile_backward)(l, r);
-            } else {
-                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
-                    for (j = 0; j < k; j++) {
-                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
-                    }
-                }
-            }
-            for (k = 0; k < inner; k++) {
-                buf[row + k] = r[k];
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
+                                             sl_int w, double *sums) {
+    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
+    sl_int j;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v0, x)
+    SLV_LOAD(v1, x + SLI_TILE)
+    for (j = w - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* The diagonal tile of the columns row .. row+inner-1: what the rows below them left is summed, the
+ * right side added, the triangle solved. l: the tile's diagonal part. */
+#define SLI_TAKE_SUM(k, unused)                                                                    \
+    if ((k) < inner) {                                                                             \
+        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k))                                                  \
+        if (inner < SLI_TILE) {                                                                    \
+            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                               \
+        }                                                                                          \
+    } else {                                                                                       \
+        SLV_SUM_ZERO(a##k)                                                                         \
+    }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
+                                                const double *d, double *xs, double *buf) {
+    double r[SLI_TILE];
+    sl_int j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLI_EACH8(SLI_TAKE_SUM, 0)
+    SLV_LOAD_PART(z, xs, inner, 0.0)
+    SLV_LOAD_PART(v, d, inner, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    if (inner == SLI_TILE) {
+        SLV_NAME(tile_backward)(l, r);
+    } else {
+        for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+            for (j = 0; j < k; j++) {
+                r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
             }
         }
-        SLV_LOAD(v, buf + row)
-        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
-            SLV_LOAD(a, sums + SLI_TILE * j)
-            SLV_DOT(a, tile + SLI_TILE * j, v)
-            SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (k = 0; k < inner; k++) {
+        xs[k] = buf[k] = r[k];
+    }
+}
+
+/* buf: the rows of two tiles; behind them the sums. */
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
+    const int by_two = count <= SLI_FEW_STEPS;
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
+        double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
+        const sl_int *rows = rows_end -= s->below;
+        sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
+        SLV_DECLARE(v)
+        SLV_SUM_DECLARE(a)
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows, tile, d, xs, x);
+            continue;
+        }
+        SLV_SUM_ZERO(a)
+        for (j = first; j < w; j++) {
+            SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+        }
+        for (; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            const sl_int final = sli_min(row, w), at = row + inner - w;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
+                row -= SLI_TILE;
+                tile -= SLI_TILE * (ptrdiff_t)w;
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf, v)
+                rows += SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf + SLI_TILE, v)
+                SLV_NAME(dots2)(tile, buf, first, w, sums);
+                continue;
+            }
+            if (inner < SLI_TILE) {
+                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+                if (part > 0) {
+                    SLV_GATHER(v, x, SLI_PLACE_PART)
+                    SLV_FIRST(v, inner + part)
+                    SLV_STORE(buf, v)
+                } else {
+                    SLV_ZERO(v)
+                    SLV_STORE(buf, v)
+                }
+                for (j = 0; j < inner; j++) {
+                    buf[j] = 0.0;
+                }
+            }
+            if (inner > 0) {
+                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+            }
+            SLV_NAME(dots1)(tile, buf, first, final, sums);
         }
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        double *xs = x + s->base - first;
-        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
-        sl_int i;
-        rows_end -= s->below;
-        if (w <= SLI_TILE) {
-            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
-            continue;
-        }
-        for (i = first; i < w; i++) {
-            xs[i] /= d[i];
-            buf[i] = 0.0;
-        }
-        for (i = 0; i < s->below; i++) {
-            buf[w + i] = x[rows_end[i]];
-        }
-        for (i = height; i < padded; i++) {
-            buf[i] = 0.0;
-        }
-        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
-        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
-    }
-}
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_TAKE_SUM
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                                        const double *D, double *xs, double *x, double *buf,
@@ -6599,6 +6815,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SUM_2
 #undef SLV_SUM_4
 #undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
 /* end src/impl/words_end.inl.h */
 #undef SLV_HALVES
 
@@ -6678,6 +6896,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
 #define SLV_SUM_DECLARE(a) float64x2_t a;
 #define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
+#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
 #define SLV_SUM_DOT(a, l, v)                                                                       \
     a = vfmsq_f64(a, vld1q_f64((l) + 0), v##_0);                                                   \
     a = vfmsq_f64(a, vld1q_f64((l) + 2), v##_1);                                                   \
@@ -8193,85 +8413,152 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
- * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
- * each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
-                                                      sl_int height, const double *z, double *buf,
-                                                      double *sums) {
-    const sl_int first = SLI_TILE * t0;
-    const double *tile = end;
-    sl_int t, j, k;
+/* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
+ * below the columns at once, which spares loads and stores of the sums. */
+#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
+                                             sl_int final, double *sums) {
+    sl_int j;
     SLV_DECLARE(v)
-    SLV_DECLARE(a)
-    SLV_ZERO(a)
-    for (j = first; j < width; j++) {
-        SLV_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v, x)
+    for (j = final - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
-    for (t = sli_tiles(height) - 1; t >= t0; t--) {
-        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
-        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
-        if (inner > 0) {
-            double r[SLI_TILE];
-            const double *l = tile + SLI_TILE * row;
-            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
-            for (k = 0; k < inner; k++) {
-                SLV_LOAD(a, sums + SLI_TILE * (row + k))
-                if (inner < SLI_TILE) {
-                    SLV_DOT(a, l + SLI_TILE * k, v)
-                }
-                r[k] = z[row + k] + SLV_SUM(a);
-            }
-            if (inner == SLI_TILE) {
-                SLV_NAME(tile_backward)(l, r);
-            } else {
-                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
-                    for (j = 0; j < k; j++) {
-                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
-                    }
-                }
-            }
-            for (k = 0; k < inner; k++) {
-                buf[row + k] = r[k];
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
+                                             sl_int w, double *sums) {
+    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
+    sl_int j;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v0, x)
+    SLV_LOAD(v1, x + SLI_TILE)
+    for (j = w - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* The diagonal tile of the columns row .. row+inner-1: what the rows below them left is summed, the
+ * right side added, the triangle solved. l: the tile's diagonal part. */
+#define SLI_TAKE_SUM(k, unused)                                                                    \
+    if ((k) < inner) {                                                                             \
+        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k))                                                  \
+        if (inner < SLI_TILE) {                                                                    \
+            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                               \
+        }                                                                                          \
+    } else {                                                                                       \
+        SLV_SUM_ZERO(a##k)                                                                         \
+    }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
+                                                const double *d, double *xs, double *buf) {
+    double r[SLI_TILE];
+    sl_int j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLI_EACH8(SLI_TAKE_SUM, 0)
+    SLV_LOAD_PART(z, xs, inner, 0.0)
+    SLV_LOAD_PART(v, d, inner, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    if (inner == SLI_TILE) {
+        SLV_NAME(tile_backward)(l, r);
+    } else {
+        for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+            for (j = 0; j < k; j++) {
+                r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
             }
         }
-        SLV_LOAD(v, buf + row)
-        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
-            SLV_LOAD(a, sums + SLI_TILE * j)
-            SLV_DOT(a, tile + SLI_TILE * j, v)
-            SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (k = 0; k < inner; k++) {
+        xs[k] = buf[k] = r[k];
+    }
+}
+
+/* buf: the rows of two tiles; behind them the sums. */
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
+    const int by_two = count <= SLI_FEW_STEPS;
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
+        double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
+        const sl_int *rows = rows_end -= s->below;
+        sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
+        SLV_DECLARE(v)
+        SLV_SUM_DECLARE(a)
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows, tile, d, xs, x);
+            continue;
+        }
+        SLV_SUM_ZERO(a)
+        for (j = first; j < w; j++) {
+            SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+        }
+        for (; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            const sl_int final = sli_min(row, w), at = row + inner - w;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
+                row -= SLI_TILE;
+                tile -= SLI_TILE * (ptrdiff_t)w;
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf, v)
+                rows += SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf + SLI_TILE, v)
+                SLV_NAME(dots2)(tile, buf, first, w, sums);
+                continue;
+            }
+            if (inner < SLI_TILE) {
+                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+                if (part > 0) {
+                    SLV_GATHER(v, x, SLI_PLACE_PART)
+                    SLV_FIRST(v, inner + part)
+                    SLV_STORE(buf, v)
+                } else {
+                    SLV_ZERO(v)
+                    SLV_STORE(buf, v)
+                }
+                for (j = 0; j < inner; j++) {
+                    buf[j] = 0.0;
+                }
+            }
+            if (inner > 0) {
+                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+            }
+            SLV_NAME(dots1)(tile, buf, first, final, sums);
         }
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        double *xs = x + s->base - first;
-        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
-        sl_int i;
-        rows_end -= s->below;
-        if (w <= SLI_TILE) {
-            SLV_NAME(backward_narrow)(w, s->below, rows_end, end, d, xs, x);
-            continue;
-        }
-        for (i = first; i < w; i++) {
-            xs[i] /= d[i];
-            buf[i] = 0.0;
-        }
-        for (i = 0; i < s->below; i++) {
-            buf[w + i] = x[rows_end[i]];
-        }
-        for (i = height; i < padded; i++) {
-            buf[i] = 0.0;
-        }
-        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
-        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
-    }
-}
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_TAKE_SUM
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                                        const double *D, double *xs, double *x, double *buf,
@@ -8352,6 +8639,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SUM_2
 #undef SLV_SUM_4
 #undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
 /* end src/impl/words_end.inl.h */
 
 #endif
@@ -11645,6 +11934,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_FEW_STEPS
 #undef SLI_CASE
 #undef SLI_CASES
 #undef SLI_AHEAD

@@ -89,6 +89,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 /* one register a column: two would leave none for L */
 #define SLV_SUM_DECLARE(a) __m256d a;
 #define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
 #define SLV_SUM_DOT(a, l, v)                                                                       \
     a = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a);                                             \
     a = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a);

@@ -35,6 +35,8 @@
                       (x)[at(1)], (x)[at(0)]);
 #define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
 #define SLV_SUM_ZERO(a) SLV_ZERO(a)
+#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
+#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
 #define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
 #define SLV_SUM_2(a, b)                                                                            \
     _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))

@@ -71,6 +71,8 @@
     a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
 #define SLV_SUM_DECLARE(a) float64x2_t a;
 #define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
+#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
 #define SLV_SUM_DOT(a, l, v)                                                                       \
     a = vfmsq_f64(a, vld1q_f64((l) + 0), v##_0);                                                   \
     a = vfmsq_f64(a, vld1q_f64((l) + 2), v##_1);                                                   \

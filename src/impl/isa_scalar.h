@@ -77,6 +77,8 @@
     }
 #define SLV_SUM_DECLARE(a) double a;
 #define SLV_SUM_ZERO(a) a = 0.0;
+#define SLV_SUM_LOAD(a, p) a = *(p);
+#define SLV_SUM_STORE(p, a) *(p) = a;
 #define SLV_SUM_DOT(a, l, v)                                                                       \
     a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) +                       \
          (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));

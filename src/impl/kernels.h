@@ -15,6 +15,11 @@
  * slowly for the hardware to run ahead far enough, and at every page it starts anew. */
 #define SLI_AHEAD 4096
 
+/* A sweep of so few steps is taken for one that finds L in a cache. There two row tiles at a time are
+ * faster; from main memory only the strict order of the panels keeps the hardware reading ahead. The
+ * numbers are the same. */
+#define SLI_FEW_STEPS 4096
+
 /* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
  * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {

@@ -11,6 +11,7 @@
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_FEW_STEPS
 #undef SLI_CASE
 #undef SLI_CASES
 #undef SLI_AHEAD

@@ -39,3 +39,5 @@
 #undef SLV_SUM_2
 #undef SLV_SUM_4
 #undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
