@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 8c2bd7d94ce216c7
+ * FNV-1a of all that follows this comment, license aside: 7d092bfcf6938372
  *
  * Contents
  *         (what a user reads)
@@ -23,45 +23,45 @@
  *   1212  impl/isa_scalar.h          the kernels in plain C: an octet is an array
  *   1352  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
  *   1382  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2433  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2478  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2614  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2787  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   2951  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3208  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3256  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3391  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4122  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5076  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   6827  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   8650  impl/select.h              the kernel table for an instruction set
+ *   2496  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2541  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2677  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2850  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3014  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3271  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3319  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3454  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4228  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5182  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   6975  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   8841  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   8683  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9100  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9173  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   8874  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9291  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9364  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   9527  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   9568  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   9700  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   9786  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *   9927  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10012  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10085  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10245  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10321  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *  10394  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  10674  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   9718  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   9759  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   9891  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   9977  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10118  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10203  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10276  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10436  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  10512  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *  10585  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  10865  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  10817  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  10897  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  10977  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *  11038  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *  11274  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  11330  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  11578  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  11621  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11008  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11088  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11168  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *  11229  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *  11465  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  11521  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  11769  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  11812  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  11923  impl/leave.h               takes every internal macro away again
+ *  12114  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1422,14 +1422,14 @@ typedef struct sli_kernels {
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -1446,7 +1446,7 @@ typedef struct sli_kernels {
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -1457,7 +1457,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -1480,13 +1480,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -1503,7 +1503,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -1516,17 +1516,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -1543,6 +1544,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -1582,9 +1601,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -1632,9 +1651,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -1694,6 +1714,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -1783,14 +1804,14 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -1807,7 +1828,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -1818,7 +1839,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -1841,13 +1862,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -1864,7 +1885,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -1877,17 +1898,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -1904,6 +1926,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -1943,9 +1983,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -1993,9 +2033,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -2055,6 +2096,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -2144,14 +2186,14 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -2168,7 +2210,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -2179,7 +2221,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -2202,13 +2244,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -2225,7 +2267,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -2238,17 +2280,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -2265,6 +2308,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -2304,9 +2365,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -2354,9 +2415,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -2416,6 +2478,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -3443,14 +3506,14 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -3467,7 +3530,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -3478,7 +3541,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -3501,13 +3564,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -3524,7 +3587,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -3537,17 +3600,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -3564,6 +3628,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -3603,9 +3685,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -3653,9 +3735,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -3715,6 +3798,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -3730,6 +3814,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 /* end src/impl/lanes_ymm.inl.h */
 
 #define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_LANES 8
 #define SLW_ROWS 4
 #define SLW_DECLARE(a) __m256d a##_0, a##_1;
@@ -3789,14 +3874,14 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -3813,7 +3898,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -3824,7 +3909,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -3847,13 +3932,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -3870,7 +3955,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -3883,17 +3968,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -3910,6 +3996,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -3949,9 +4053,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -3999,9 +4103,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -4061,6 +4166,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -5200,14 +5306,14 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -5224,7 +5330,7 @@ static const sli_kernels SLV_NAME(kernels) = {
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -5235,7 +5341,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -5258,13 +5364,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -5281,7 +5387,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -5294,17 +5400,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -5321,6 +5428,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -5360,9 +5485,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -5410,9 +5535,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -5472,6 +5598,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -5539,14 +5666,14 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -5563,7 +5690,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -5574,7 +5701,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -5597,13 +5724,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -5620,7 +5747,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -5633,17 +5760,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -5660,6 +5788,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -5699,9 +5845,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -5749,9 +5895,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -5811,6 +5958,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -7005,14 +7153,14 @@ static const sli_kernels SLV_NAME(kernels) = {
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -7029,7 +7177,7 @@ static const sli_kernels SLV_NAME(kernels) = {
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -7040,7 +7188,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -7063,13 +7211,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -7086,7 +7234,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -7099,17 +7247,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -7126,6 +7275,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -7165,9 +7332,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -7215,9 +7382,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -7277,6 +7445,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
@@ -7291,6 +7460,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 /* end src/impl/lanes.inl.h */
 
 #define SLW_NAME(f) sli_##f##8_neon
+#define SLW_HALF(f) sli_##f##4_neon
 #define SLW_LANES 8
 #define SLW_ROWS 4
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
@@ -7363,14 +7533,14 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -7387,7 +7557,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -7398,7 +7568,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -7421,13 +7591,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -7444,7 +7614,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -7457,17 +7627,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -7484,6 +7655,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -7523,9 +7712,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -7573,9 +7762,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -7635,6 +7825,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH

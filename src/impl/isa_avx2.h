@@ -137,6 +137,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #include "lanes_ymm.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_LANES 8
 #define SLW_ROWS 4
 #define SLW_DECLARE(a) __m256d a##_0, a##_1;

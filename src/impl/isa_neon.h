@@ -140,6 +140,7 @@
 #include "lanes.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_neon
+#define SLW_HALF(f) sli_##f##4_neon
 #define SLW_LANES 8
 #define SLW_ROWS 4
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;

@@ -40,14 +40,14 @@
 
 #if SLW_ROWS == 8
 /* A supernode of 1 to 8 columns, the width folded in as in narrow.inl.h: the columns' rows stay in
- * registers, and the rows below pass by one after the other. */
+ * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*SLW_LANES)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*SLW_LANES, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                       \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -64,7 +64,7 @@
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
                                                              const sl_int *rows, const double *l,
                                                              double *xs, double *x) {
     sl_int lane = w, i;
@@ -75,7 +75,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
     for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
-        double *to = x + (ptrdiff_t)rows[i] * SLW_LANES;
+        double *to = x + (ptrdiff_t)rows[i] * stride;
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
@@ -98,13 +98,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*SLW_LANES)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                            \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int below,
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
                                                               const sl_int *rows, const double *l,
                                                               const double *d, double *xs,
                                                               const double *x) {
@@ -121,7 +121,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
             SLW_HIGH(SLI_AHEAD_OWN, -SLI_AHEAD)
             SLW_LOW(SLI_AHEAD_OWN, -SLI_AHEAD)
         }
-        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * SLW_LANES)
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
         SLW_HIGH(SLI_ABOVE_OWN, 0)
         SLW_LOW(SLI_ABOVE_OWN, 0)
     }
@@ -134,17 +134,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_NAME(narrow_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_NAME(narrow_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                  const double *l, double *xs, double *x) {
+SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const double *l, double *xs,
+                                                  double *x) {
     SLI_CASES(SLI_FORWARD)
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                   const double *l, const double *d, double *xs,
-                                                   const double *x) {
+SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const double *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -161,6 +162,24 @@ SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int below, const
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#elif defined(SLW_HALF)
+/* Registers do not suffice for 8 such rows: half of the lanes, then the other half. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const double *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs, x);
+    SLW_HALF(forward_narrow)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const double *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_LANES / 2;
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs, x);
+    SLW_HALF(backward_narrow)(w, stride, below, rows, l, d, xs + half, x + half);
+}
 #endif
 
 /* The rows of a tile that are not all columns of the supernode, side by side in buf: `inner` of its
@@ -200,9 +219,9 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_LANES;
         ptrdiff_t row;
         sl_int j;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_narrow)(w, s->below, rows, tile, xs, x);
+            SLW_NAME(forward_narrow)(w, SLW_LANES, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -250,9 +269,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
-#if SLW_ROWS == 8
+#if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
+                                      x);
             continue;
         }
 #endif
@@ -312,6 +332,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLW_NAME
 #undef SLW_LANES
 #undef SLW_ROWS
+#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
