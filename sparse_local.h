@@ -1,67 +1,67 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 7d092bfcf6938372
+ * FNV-1a of all that follows this comment, license aside: baf0653b69b1c438
  *
  * Contents
  *         (what a user reads)
  *     69  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    113  public/config.h            what a user may set before including the header, the version, and the integer types
- *    159  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    327  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    442  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    501  public/factor.h            the numbers: P A P' = L D L'
- *    568  public/solve.h             full solves, and the workspace that every solve writes to
- *    630  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    114  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    160  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    328  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    443  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    502  public/factor.h            the numbers: P A P' = L D L'
+ *    569  public/solve.h             full solves, and the workspace that every solve writes to
+ *    631  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *         (bodies, in one source file)
  *         (L0 ground)
- *    723  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    796  impl/status.h              status codes in words, and the error fields of stats
- *    852  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *    949  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1010  impl/cpu.h                 which instruction sets this processor and operating system run
+ *    724  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    798  impl/status.h              status codes in words, and the error fields of stats
+ *    854  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *    951  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1012  impl/cpu.h                 which instruction sets this processor and operating system run
  *         (L1 kernels: raw arrays only)
- *   1048  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1212  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1352  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1382  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2496  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2541  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2677  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
- *   2850  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3014  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3271  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3319  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3454  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4228  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   1050  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1216  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1356  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1386  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2500  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2545  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2681  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
+ *   2854  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3016  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3273  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3321  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3456  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4230  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
  *   5182  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   6975  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   8841  impl/select.h              the kernel table for an instruction set
+ *   6973  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   8837  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   8874  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9291  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9364  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   8870  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9287  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9360  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   9718  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   9759  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   9891  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   9977  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10118  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10203  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10276  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10436  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10512  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *  10585  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  10865  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   9714  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   9755  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   9887  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *   9973  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10114  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10199  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10272  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10432  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  10508  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *  10581  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  10861  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11008  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11088  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11168  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *  11229  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *  11465  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  11521  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  11769  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  11812  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11004  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11084  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11164  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *  11225  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *  11461  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  11517  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  11765  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  11807  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  12114  impl/leave.h               takes every internal macro away again
+ *  12109  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -93,7 +93,8 @@
  *              tree, -1 at a root; L is unit lower triangular in supernodal panels, D diagonal; a reach is
  *              a set of columns closed under parent.
  * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and
- *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements.
+ *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements,
+ *              or row-major in the calls named interleaved.
  *              Row numbers, also those in errors, are the caller's. The library never prints, never aborts and has no mutable globals.
  * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
  *              solve on one factor, each with its own sl_work.
@@ -752,7 +753,8 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))
 /* the cache line some bytes from p, which need not exist: asking for it has no other effect */
-#define SLI_PREFETCH(p, bytes) __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
+#define SLI_PREFETCH(p, bytes)                                                                     \
+    __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
 #else
 #define SLI_INLINE static inline
@@ -1129,11 +1131,13 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                                const double *D, double *x_super, double *x, double *scratch,
                                double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all
- * lanes, and for one or two lanes 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in one or
+ * two lanes, and for those 8 partial sums of every column; more lanes work upon x itself, and keep
+ * only the rows of one tile. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes +
-           (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
+    const size_t tile = SLI_TILE;
+    return lanes > 2 ? tile * (size_t)lanes
+                     : tile * ((size_t)sli_tiles(height) * (size_t)lanes + (size_t)width);
 }
 
 /* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves
@@ -1259,17 +1263,17 @@ typedef struct sli_kernels {
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
             part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
         }                                                                                          \
-        memcpy(a, part_, sizeof part_);                                                                         \
+        memcpy(a, part_, sizeof part_);                                                            \
     }
 #define SLV_FIRST(a, count)                                                                        \
     {                                                                                              \
         double part_[SLI_TILE];                                                                    \
         sl_int i_;                                                                                 \
-        memcpy(part_, a, sizeof part_);                                                                        \
+        memcpy(part_, a, sizeof part_);                                                            \
         for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
             part_[i_] = 0.0;                                                                       \
         }                                                                                          \
-        memcpy(a, part_, sizeof part_);                                                                         \
+        memcpy(a, part_, sizeof part_);                                                            \
     }
 #define SLV_LANE(b, a, k)                                                                          \
     {                                                                                              \
@@ -1425,11 +1429,11 @@ typedef struct sli_kernels {
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -1446,9 +1450,10 @@ typedef struct sli_kernels {
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -1480,16 +1485,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -1521,9 +1526,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -1589,7 +1592,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -1653,8 +1657,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -1673,8 +1677,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -1807,11 +1811,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -1828,9 +1832,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -1862,16 +1867,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -1903,9 +1908,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -1971,7 +1974,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -2035,8 +2039,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -2055,8 +2059,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -2189,11 +2193,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -2210,9 +2214,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -2244,16 +2249,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -2285,9 +2290,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -2353,7 +2356,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -2417,8 +2421,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -2437,8 +2441,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -2852,8 +2856,8 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 
 /* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
  * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
- * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
- * sums of all columns stay in registers, and x is gathered straight into them. */
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
+ * the sums of all columns stay in registers, and x is gathered straight into them. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -2915,7 +2919,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_
         SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
     }
-#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS                                                                                   \
+    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
  * the tile of the columns, anything for the columns' lanes */
 #define SLI_PLACE(k) rows[at + (k)]
@@ -2970,11 +2975,10 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     SLV_DIVIDE(z, z, v)
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
-    SLV_STORE_ANY(r, v)
-    {
+    SLV_STORE_ANY(r, v) {
         SLI_EACH8(SLI_SET, 0)
-        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
-        SLI_EACH8(SLI_GET, 0)
+        SLI_ROW(7)
+        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
     }
 }
 
@@ -2983,13 +2987,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
                                                       const double *l, double *xs, double *x,
-                                                      double *buf) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                      double *buf){SLI_CASES(SLI_FORWARD)}
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const double *l, const double *d, double *xs,
-                                                       const double *x) {
+SLV_FUNCTION SLI_INLINE
+    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
+                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -3509,11 +3511,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -3530,9 +3532,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -3564,16 +3567,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -3605,9 +3608,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -3673,7 +3674,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -3737,8 +3739,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -3757,8 +3759,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -3877,11 +3879,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -3898,9 +3900,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -3932,16 +3935,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -3973,9 +3976,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -4041,7 +4042,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -4105,8 +4107,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -4125,8 +4127,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -4713,8 +4715,8 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 
 /* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
  * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
- * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
- * sums of all columns stay in registers, and x is gathered straight into them. */
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
+ * the sums of all columns stay in registers, and x is gathered straight into them. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -4776,7 +4778,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_
         SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
     }
-#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS                                                                                   \
+    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
  * the tile of the columns, anything for the columns' lanes */
 #define SLI_PLACE(k) rows[at + (k)]
@@ -4831,11 +4834,10 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     SLV_DIVIDE(z, z, v)
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
-    SLV_STORE_ANY(r, v)
-    {
+    SLV_STORE_ANY(r, v) {
         SLI_EACH8(SLI_SET, 0)
-        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
-        SLI_EACH8(SLI_GET, 0)
+        SLI_ROW(7)
+        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
     }
 }
 
@@ -4844,13 +4846,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
                                                       const double *l, double *xs, double *x,
-                                                      double *buf) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                      double *buf){SLI_CASES(SLI_FORWARD)}
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const double *l, const double *d, double *xs,
-                                                       const double *x) {
+SLV_FUNCTION SLI_INLINE
+    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
+                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -5309,11 +5309,11 @@ static const sli_kernels SLV_NAME(kernels) = {
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -5330,9 +5330,10 @@ static const sli_kernels SLV_NAME(kernels) = {
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -5364,16 +5365,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -5405,9 +5406,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -5473,7 +5472,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -5537,8 +5537,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -5557,8 +5557,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -5669,11 +5669,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -5690,9 +5690,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -5724,16 +5725,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -5765,9 +5766,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -5833,7 +5832,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -5897,8 +5897,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -5917,8 +5917,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -6505,8 +6505,8 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 
 /* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
  * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
- * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
- * sums of all columns stay in registers, and x is gathered straight into them. */
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
+ * the sums of all columns stay in registers, and x is gathered straight into them. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -6568,7 +6568,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_
         SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
     }
-#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS                                                                                   \
+    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
  * the tile of the columns, anything for the columns' lanes */
 #define SLI_PLACE(k) rows[at + (k)]
@@ -6623,11 +6624,10 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     SLV_DIVIDE(z, z, v)
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
-    SLV_STORE_ANY(r, v)
-    {
+    SLV_STORE_ANY(r, v) {
         SLI_EACH8(SLI_SET, 0)
-        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
-        SLI_EACH8(SLI_GET, 0)
+        SLI_ROW(7)
+        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
     }
 }
 
@@ -6636,13 +6636,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
                                                       const double *l, double *xs, double *x,
-                                                      double *buf) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                      double *buf){SLI_CASES(SLI_FORWARD)}
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const double *l, const double *d, double *xs,
-                                                       const double *x) {
+SLV_FUNCTION SLI_INLINE
+    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
+                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -7156,11 +7154,11 @@ static const sli_kernels SLV_NAME(kernels) = {
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -7177,9 +7175,10 @@ static const sli_kernels SLV_NAME(kernels) = {
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -7211,16 +7210,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -7252,9 +7251,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -7320,7 +7317,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -7384,8 +7382,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -7404,8 +7402,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -7536,11 +7534,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -7557,9 +7555,10 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -7591,16 +7590,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -7632,9 +7631,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -7700,7 +7697,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -7764,8 +7762,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -7784,8 +7782,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
@@ -8372,8 +8370,8 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const double *from, sl_int from_w, s
 
 /* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
  * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
- * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
- * sums of all columns stay in registers, and x is gathered straight into them. */
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
+ * the sums of all columns stay in registers, and x is gathered straight into them. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -8435,7 +8433,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_
         SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
     }
-#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS                                                                                   \
+    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
  * the tile of the columns, anything for the columns' lanes */
 #define SLI_PLACE(k) rows[at + (k)]
@@ -8490,11 +8489,10 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     SLV_DIVIDE(z, z, v)
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
-    SLV_STORE_ANY(r, v)
-    {
+    SLV_STORE_ANY(r, v) {
         SLI_EACH8(SLI_SET, 0)
-        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
-        SLI_EACH8(SLI_GET, 0)
+        SLI_ROW(7)
+        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
     }
 }
 
@@ -8503,13 +8501,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
                                                       const double *l, double *xs, double *x,
-                                                      double *buf) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                      double *buf){SLI_CASES(SLI_FORWARD)}
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const double *l, const double *d, double *xs,
-                                                       const double *x) {
+SLV_FUNCTION SLI_INLINE
+    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
+                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 
@@ -11782,8 +11778,7 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
 }
 
 SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size_t ldx,
-                                             const double *B, size_t ldb, sl_int nrhs,
-                                             sl_work *W) {
+                                             const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     sli_query q;
     if (F == NULL) {
         return SL_ERR_ARGUMENT;

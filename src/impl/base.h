@@ -31,7 +31,8 @@
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))
 /* the cache line some bytes from p, which need not exist: asking for it has no other effect */
-#define SLI_PREFETCH(p, bytes) __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
+#define SLI_PREFETCH(p, bytes)                                                                     \
+    __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
 #else
 #define SLI_INLINE static inline

@@ -49,17 +49,17 @@
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
             part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
         }                                                                                          \
-        memcpy(a, part_, sizeof part_);                                                                         \
+        memcpy(a, part_, sizeof part_);                                                            \
     }
 #define SLV_FIRST(a, count)                                                                        \
     {                                                                                              \
         double part_[SLI_TILE];                                                                    \
         sl_int i_;                                                                                 \
-        memcpy(part_, a, sizeof part_);                                                                        \
+        memcpy(part_, a, sizeof part_);                                                            \
         for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
             part_[i_] = 0.0;                                                                       \
         }                                                                                          \
-        memcpy(a, part_, sizeof part_);                                                                         \
+        memcpy(a, part_, sizeof part_);                                                            \
     }
 #define SLV_LANE(b, a, k)                                                                          \
     {                                                                                              \

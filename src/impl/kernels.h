@@ -84,11 +84,13 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                                const double *D, double *x_super, double *x, double *scratch,
                                double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all
- * lanes, and for one or two lanes 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in one or
+ * two lanes, and for those 8 partial sums of every column; more lanes work upon x itself, and keep
+ * only the rows of one tile. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes +
-           (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
+    const size_t tile = SLI_TILE;
+    return lanes > 2 ? tile * (size_t)lanes
+                     : tile * ((size_t)sli_tiles(height) * (size_t)lanes + (size_t)width);
 }
 
 /* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves

@@ -43,11 +43,11 @@
  * registers, and the rows below pass by one after the other. Rows of x are `stride` apart. */
 #define SLI_LOAD_OWN(k, p)                                                                         \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(a##k, (p) + (k)*stride)                                                        \
+        SLW_LOAD(a##k, (p) + (k)*stride)                                                           \
     }
 #define SLI_STORE_OWN(k, p)                                                                        \
     if ((k) < w) {                                                                                 \
-        SLW_STORE((p) + (k)*stride, a##k)                                                       \
+        SLW_STORE((p) + (k)*stride, a##k)                                                          \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_AHEAD_OWN(k, bytes)                                                                    \
@@ -64,9 +64,10 @@
         SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k)                                                \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const double *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -98,16 +99,16 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_forward)(const sl_int w, sl_
     }
 #define SLI_DIVIDE_OWN(k, unused)                                                                  \
     if ((k) < w) {                                                                                 \
-        SLW_LOAD(b, xs + (k)*stride)                                                            \
+        SLW_LOAD(b, xs + (k)*stride)                                                               \
         SLW_DIVIDE(b, d[k])                                                                        \
         SLW_ADD(a##k, b)                                                                           \
     }
 
 /* l points at the panel's last tile. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const double *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
@@ -139,9 +140,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION static void SLW_NAME(forward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const double *l, double *xs,
-                                                  double *x) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                  double *x){SLI_CASES(SLI_FORWARD)}
 
 SLV_FUNCTION static void SLW_NAME(backward_narrow)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const double *l,
@@ -207,7 +206,8 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_LANES)
         SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_LANES
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES, b)
+                            : x + (ptrdiff_t)rows[r - inner] * SLW_LANES,
+                  b)
     }
 }
 
@@ -271,8 +271,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_narrow)(w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs,
-                                      x);
+            SLW_NAME(backward_narrow)
+            (w, SLW_LANES, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
 #endif
@@ -291,8 +291,8 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner,
-                                  rows_end + (row + inner - w), own, x);
+                SLW_NAME(rows_in)
+                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
             }
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {

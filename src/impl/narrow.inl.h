@@ -2,8 +2,8 @@
 
 /* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
  * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
- * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or the
- * sums of all columns stay in registers, and x is gathered straight into them. */
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
+ * the sums of all columns stay in registers, and x is gathered straight into them. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -65,7 +65,8 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_
         SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
     }
-#define SLI_DOTS SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS                                                                                   \
+    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
  * the tile of the columns, anything for the columns' lanes */
 #define SLI_PLACE(k) rows[at + (k)]
@@ -120,11 +121,10 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     SLV_DIVIDE(z, z, v)
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
-    SLV_STORE_ANY(r, v)
-    {
+    SLV_STORE_ANY(r, v) {
         SLI_EACH8(SLI_SET, 0)
-        SLI_ROW(7) SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1)
-        SLI_EACH8(SLI_GET, 0)
+        SLI_ROW(7)
+        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
     }
 }
 
@@ -133,13 +133,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
                                                       const double *l, double *xs, double *x,
-                                                      double *buf) {
-    SLI_CASES(SLI_FORWARD)
-}
+                                                      double *buf){SLI_CASES(SLI_FORWARD)}
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const double *l, const double *d, double *xs,
-                                                       const double *x) {
+SLV_FUNCTION SLI_INLINE
+    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
+                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD)
 }
 

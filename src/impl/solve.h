@@ -15,8 +15,7 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
 }
 
 SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size_t ldx,
-                                             const double *B, size_t ldb, sl_int nrhs,
-                                             sl_work *W) {
+                                             const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     sli_query q;
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
