@@ -223,6 +223,7 @@ void bench_call_plan_solve(void *state);
 void bench_call_plan_solve_apart(void *state); /* one right-hand side after the other */
 void bench_call_one_shot(void *state);
 void bench_call_full(void *state);
+void bench_call_full_interleaved(void *state); /* B and X read as row-major */
 void bench_call_full_apart(void *state);
 
 /* ---- conjugate gradients, the rival (cg.c) ---- */

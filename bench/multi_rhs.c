@@ -17,7 +17,7 @@ static void one_count(bench_run *run, bench_report *report, bench_plot *plot, be
                       const forms *f) {
     bench_contender contenders[2] = {{f->together, q, q->count, NULL},
                                      {f->apart, q, q->count, NULL}};
-    int full = f->together == bench_call_full;
+    int full = f->apart == bench_call_full_apart;
     if (full) {
         contenders[0].batch = contenders[1].batch = 1;
     }
@@ -50,6 +50,8 @@ static void one_system(bench_run *run, bench_report *report, bench_plot *plot,
                        const bench_system *system) {
     static const int counts[] = {1, 2, 3, 4, 6, 8};
     static const forms full = {"full", bench_call_full, bench_call_full_apart};
+    static const forms interleaved = {"full, inter.", bench_call_full_interleaved,
+                                      bench_call_full_apart};
     static const forms vertex = {"vertex", bench_call_plan_solve, bench_call_plan_solve_apart};
     static const forms patch = {"patch 2000", bench_call_plan_solve, bench_call_plan_solve_apart};
     bench_patch patches[4];
@@ -64,6 +66,9 @@ static void one_system(bench_run *run, bench_report *report, bench_plot *plot,
         bench_call_full(v);
         if (bench_check_residual(run, system, v->X_full, v->B_full, counts[c], "full solve")) {
             one_count(run, report, plot, v, &full);
+            if (counts[c] == 8) {
+                one_count(run, report, plot, v, &interleaved);
+            }
         }
         bench_queries_free(v);
         bench_queries *p = bench_queries_create(system, 4, counts[c]);

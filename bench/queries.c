@@ -183,6 +183,13 @@ void bench_call_full(void *state) {
                "full solve");
 }
 
+void bench_call_full_interleaved(void *state) {
+    bench_queries *q = state;
+    size_t ld = (size_t)q->nrhs;
+    bench_must(sl_factor_solve_interleaved(q->system->F, q->X_full, ld, q->B_full, ld, q->nrhs, q->W),
+               "full solve, interleaved");
+}
+
 void bench_call_full_apart(void *state) {
     bench_queries *q = state;
     size_t n = (size_t)q->system->n;

@@ -13,6 +13,18 @@ typedef struct batch_t {
     size_t size[REQUESTS]; /* of X */
 } batch_t;
 
+/* What a single call answers to request k. */
+static void solve_alone(batch_t *t, int k) {
+    const sl_request *r = &t->request[k];
+    if (!r->plan) {
+        SL_CHECK((r->is_interleaved ? sl_factor_solve_interleaved : sl_factor_solve)(
+            t->y.F, t->wanted[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+    } else {
+        SL_CHECK((r->is_interleaved ? sl_plan_solve_interleaved : sl_plan_solve)(
+            r->plan, t->y.F, t->wanted[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+    }
+}
+
 static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa) {
     static const sl_int columns[REQUESTS] = {1, 3, 8, 0, 40, 17, 2, 9, 21};
     sl_options opt = options_none();
@@ -34,16 +46,18 @@ static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa) {
         sl_request *r = &t.request[k];
         r->plan = t.plan[k];
         r->nrhs = columns[k];
-        r->ldb = (size_t)nb + 2;
-        r->ldx = (size_t)nx + 1;
-        t.size[k] = r->ldx * (size_t)columns[k];
+        r->is_interleaved = k % 3 == 1 || k == REQUESTS - 1;
+        size_t across = (size_t)columns[k];
+        r->ldb = r->is_interleaved ? across + 3 : (size_t)nb + 2;
+        r->ldx = r->is_interleaved ? across + 1 : (size_t)nx + 1;
+        t.size[k] = r->ldx * (r->is_interleaved ? (size_t)nx : across);
         t.X[k] = r->X = test_reals(t.size[k]);
-        t.B[k] = test_reals(r->ldb * (size_t)columns[k]);
+        size_t size_b = r->ldb * (r->is_interleaved ? (size_t)nb : across);
+        t.B[k] = test_reals(size_b);
         t.wanted[k] = test_reals(t.size[k]);
-        gen_reals(t.B[k], r->ldb * (size_t)columns[k], gen_bits(&seed));
+        gen_reals(t.B[k], size_b, gen_bits(&seed));
         r->B = t.B[k];
-        SL_CHECK(is_full ? sl_factor_solve(t.y.F, t.wanted[k], r->ldx, r->B, r->ldb, r->nrhs, NULL)
-                         : sl_plan_solve(t.plan[k], t.y.F, t.wanted[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+        solve_alone(&t, k);
         free(bset);
         free(xset);
     }
@@ -128,7 +142,7 @@ static void the_work_is_shared(void **state) {
 static void wrong_requests_touch_nothing(void **state) {
     (void)state;
     batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO), other = batch_make(GEN_PATH, 100, SL_ISA_AUTO);
-    sl_request keep = t.request[4];
+    sl_request keep = t.request[5]; /* column-major, 17 right-hand sides */
     sl_int failed = 7;
     int calls = 0;
     sl_threads threads = {2, run_backwards, &calls};
@@ -139,7 +153,7 @@ static void wrong_requests_touch_nothing(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(t.y.F, t.request, -1, NULL, NULL, &failed));
     assert_int_equal(failed, -1);
     for (int wrong = 0; wrong < 5; wrong++) {
-        sl_request *r = &t.request[4];
+        sl_request *r = &t.request[5];
         switch (wrong) {
         case 0: r->X = NULL; break;
         case 1: r->ldx -= 2; break;
@@ -149,7 +163,7 @@ static void wrong_requests_touch_nothing(void **state) {
         }
         SL_EXPECT(wrong == 4 ? SL_ERR_STATE : SL_ERR_ARGUMENT,
                   sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, &failed));
-        assert_int_equal(failed, 4);
+        assert_int_equal(failed, 5);
         *r = keep;
     }
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));

@@ -38,13 +38,20 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 
 #if defined(__GNUC__)
 #define SLI_INLINE __attribute__((unused)) static inline
+/* for bodies that are worth it only with a constant argument folded into them */
+#define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
+/* the cache line some bytes from p, which need not exist: asking for it has no other effect */
+#define SLI_PREFETCH(p, bytes)                                                                     \
+    __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
 #define SLI_UNROLL _Pragma("GCC unroll 8") /* of the loop that follows, which has at most 8 turns */
 #else
 #define SLI_INLINE static inline
+#define SLI_ALWAYS_INLINE static inline
 #define SLI_TARGET(list)
 #define SLI_ALIGNED(variable) variable
+#define SLI_PREFETCH(p, bytes) ((void)0)
 #define SLI_UNROLL
 #endif
 

@@ -21,6 +21,10 @@ static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
     return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
 }
 
+SLI_INLINE sli_layout sli_request_layout(const sl_request *r) {
+    return r->is_interleaved ? SLI_INTERLEAVED : SLI_COLUMN_MAJOR;
+}
+
 /* What one block of 8 right-hand sides reads, and one for the call itself. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
     return 1.0 + (double)q->forward.entries + (double)q->backward.entries;
@@ -49,8 +53,10 @@ static void sli_batch_share(void *data, sl_int k) {
                                 ? r->nrhs
                                 : sli_blocks_before(to, before, weight, r->nrhs);
         if (first < last && q.nx > 0) {
-            sli_sweep(b->F, &q, r->X + (size_t)first * r->ldx, r->ldx,
-                      q.nb > 0 ? r->B + (size_t)first * r->ldb : r->B, r->ldb, last - first,
+            const sli_layout layout = sli_request_layout(r);
+            const sli_dense x_at = sli_dense_of(layout, r->ldx), b_at = sli_dense_of(layout, r->ldb);
+            sli_sweep(b->F, &q, r->X + (size_t)first * x_at.column, x_at,
+                      q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
                       memory);
         }
         before += weight * (sli_tiles(r->nrhs));
@@ -63,7 +69,8 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
         const sl_request *r = &b->requests[*at];
         const sli_query q = sli_request_query(b->F, r);
         size_t bytes;
-        const sl_status status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
+        const sl_status status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb,
+                                                 sli_request_layout(r), r->nrhs);
         if (status != SL_OK) {
             return status;
         }

@@ -52,6 +52,11 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
+        if (w <= SLI_TILE) {
+            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            rows += s->below;
+            continue;
+        }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -65,81 +70,152 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass over one panel: buf holds the final x of the rows below and 0 on the columns, z
- * the columns' right side; the columns come out in buf. sums keeps 8 partial sums a column, one for
- * each lane. end: one past the panel. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_backward)(const double *end, sl_int t0, sl_int width,
-                                                      sl_int height, const double *z, double *buf,
-                                                      double *sums) {
-    const sl_int first = SLI_TILE * t0;
-    const double *tile = end;
-    sl_int t, j, k;
+/* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
+ * below the columns at once, which spares loads and stores of the sums. */
+#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
+                                             sl_int final, double *sums) {
+    sl_int j;
     SLV_DECLARE(v)
-    SLV_DECLARE(a)
-    SLV_ZERO(a)
-    for (j = first; j < width; j++) {
-        SLV_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v, x)
+    for (j = final - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
     }
-    for (t = sli_tiles(height) - 1; t >= t0; t--) {
-        const sl_int row = SLI_TILE * t, inner = sli_clamp(width - row, SLI_TILE);
-        tile -= SLI_TILE * sli_min(width, row + SLI_TILE);
-        if (inner > 0) {
-            double r[SLI_TILE];
-            const double *l = tile + SLI_TILE * row;
-            SLV_LOAD(v, buf + row) /* 0 on the columns: only rows below count here */
-            for (k = 0; k < inner; k++) {
-                SLV_LOAD(a, sums + SLI_TILE * (row + k))
-                if (inner < SLI_TILE) {
-                    SLV_DOT(a, l + SLI_TILE * k, v)
-                }
-                r[k] = z[row + k] + SLV_SUM(a);
-            }
-            if (inner == SLI_TILE) {
-                SLV_NAME(tile_backward)(l, r);
-            } else {
-                for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
-                    for (j = 0; j < k; j++) {
-                        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
-                    }
-                }
-            }
-            for (k = 0; k < inner; k++) {
-                buf[row + k] = r[k];
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
+                                             sl_int w, double *sums) {
+    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
+    sl_int j;
+    SLV_DECLARE(v0)
+    SLV_DECLARE(v1)
+    SLV_SUM_DECLARE(a)
+    SLV_LOAD(v0, x)
+    SLV_LOAD(v1, x + SLI_TILE)
+    for (j = w - 1; j >= first; j--) {
+        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
+        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
+        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
+        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    }
+}
+
+/* The diagonal tile of the columns row .. row+inner-1: what the rows below them left is summed, the
+ * right side added, the triangle solved. l: the tile's diagonal part. */
+#define SLI_TAKE_SUM(k, unused)                                                                    \
+    if ((k) < inner) {                                                                             \
+        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k))                                                  \
+        if (inner < SLI_TILE) {                                                                    \
+            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                               \
+        }                                                                                          \
+    } else {                                                                                       \
+        SLV_SUM_ZERO(a##k)                                                                         \
+    }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
+                                                const double *d, double *xs, double *buf) {
+    double r[SLI_TILE];
+    sl_int j, k;
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLI_EACH8(SLI_TAKE_SUM, 0)
+    SLV_LOAD_PART(z, xs, inner, 0.0)
+    SLV_LOAD_PART(v, d, inner, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v)
+    if (inner == SLI_TILE) {
+        SLV_NAME(tile_backward)(l, r);
+    } else {
+        for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+            for (j = 0; j < k; j++) {
+                r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
             }
         }
-        SLV_LOAD(v, buf + row)
-        for (j = sli_min(row, width) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
-            SLV_LOAD(a, sums + SLI_TILE * j)
-            SLV_DOT(a, tile + SLI_TILE * j, v)
-            SLV_STORE(sums + SLI_TILE * j, a)
+    }
+    for (k = 0; k < inner; k++) {
+        xs[k] = buf[k] = r[k];
+    }
+}
+
+/* buf: the rows of two tiles; behind them the sums. */
+SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
+                                            const double *L, const double *D, double *x,
+                                            double *buf) {
+    const int by_two = count <= SLI_FEW_STEPS;
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
+        double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
+        const sl_int *rows = rows_end -= s->below;
+        sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
+        SLV_DECLARE(v)
+        SLV_SUM_DECLARE(a)
+        if (w <= SLI_TILE) {
+            SLV_NAME(backward_narrow)(w, s->below, rows, tile, d, xs, x);
+            continue;
+        }
+        SLV_SUM_ZERO(a)
+        for (j = first; j < w; j++) {
+            SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+        }
+        for (; row >= first; row -= SLI_TILE) {
+            const sl_int inner = sli_clamp(w - row, SLI_TILE);
+            const sl_int final = sli_min(row, w), at = row + inner - w;
+            tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
+                row -= SLI_TILE;
+                tile -= SLI_TILE * (ptrdiff_t)w;
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf, v)
+                rows += SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_STORE(buf + SLI_TILE, v)
+                SLV_NAME(dots2)(tile, buf, first, w, sums);
+                continue;
+            }
+            if (inner < SLI_TILE) {
+                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+                if (part > 0) {
+                    SLV_GATHER(v, x, SLI_PLACE_PART)
+                    SLV_FIRST(v, inner + part)
+                    SLV_STORE(buf, v)
+                } else {
+                    SLV_ZERO(v)
+                    SLV_STORE(buf, v)
+                }
+                for (j = 0; j < inner; j++) {
+                    buf[j] = 0.0;
+                }
+            }
+            if (inner > 0) {
+                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+            }
+            SLV_NAME(dots1)(tile, buf, first, final, sums);
         }
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
-    for (s += count; count > 0; count--) {
-        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        double *xs = x + s->base - first;
-        const double *d = D + s->column - first, *end = L + s->panel + sli_panel_size(w, s->below);
-        sl_int i;
-        rows_end -= s->below;
-        for (i = first; i < w; i++) {
-            xs[i] /= d[i];
-            buf[i] = 0.0;
-        }
-        for (i = 0; i < s->below; i++) {
-            buf[w + i] = x[rows_end[i]];
-        }
-        for (i = height; i < padded; i++) {
-            buf[i] = 0.0;
-        }
-        SLV_NAME(panel_backward)(end, s->first_tile, w, height, xs, buf, buf + padded);
-        memcpy(xs + first, buf + first, (size_t)(w - first) * sizeof(double));
-    }
-}
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_TAKE_SUM
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                                        const double *D, double *xs, double *x, double *buf,

@@ -22,6 +22,15 @@ SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
         _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
 }
 
+/* The first count lanes from p, rest in the others: count = -3 .. 8. */
+SLV_FUNCTION SLI_INLINE __m256d sli_load_part(const double *p, int count, double rest) {
+    const __m256d others = sli_lanes_from(count);
+    return _mm256_blendv_pd(
+        _mm256_maskload_pd(p, _mm256_castpd_si256(_mm256_xor_pd(
+                                  others, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))))),
+        _mm256_set1_pd(rest), others);
+}
+
 SLI_INLINE int sli_count4(unsigned mask) {
     return (int)((mask & 1u) + (mask >> 1 & 1u) + (mask >> 2 & 1u) + (mask >> 3));
 }
@@ -67,6 +76,29 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    a##_0 = sli_load_part((p), (count), (rest)), a##_1 = sli_load_part((p) + 4, (count)-4, (rest));
+#define SLV_FIRST(a, count)                                                                        \
+    a##_0 = _mm256_andnot_pd(sli_lanes_from(count), a##_0),                                        \
+    a##_1 = _mm256_andnot_pd(sli_lanes_from((count)-4), a##_1);
+#define SLV_LANE(b, a, k)                                                                          \
+    b##_0 = b##_1 = _mm256_permute4x64_pd((k) < 4 ? a##_0 : a##_1, (k) % 4 * 0x55);
+#define SLV_GATHER(a, x, at)                                                                       \
+    a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]),                         \
+    a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
+/* one register a column: two would leave none for L */
+#define SLV_SUM_DECLARE(a) __m256d a;
+#define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
+#define SLV_SUM_DOT(a, l, v)                                                                       \
+    a = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a);                                             \
+    a = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a);
+#define SLV_SUM_4(a, b, c, d)                                                                      \
+    _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20),        \
+                  _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
+#define SLV_SUMS(r, a)                                                                             \
+    r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -105,6 +137,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #include "lanes_ymm.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_LANES 8
 #define SLW_ROWS 4
 #define SLW_DECLARE(a) __m256d a##_0, a##_1;
@@ -130,6 +163,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "narrow.inl.h"
 
 #include "body.inl.h"
 

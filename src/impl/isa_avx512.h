@@ -26,6 +26,26 @@
     sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
+#define SLV_FIRST(a, count) a = _mm512_maskz_mov_pd((__mmask8)(0xff >> (8 - (count))), a);
+#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
+#define SLV_GATHER(a, x, at)                                                                       \
+    a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)],      \
+                      (x)[at(1)], (x)[at(0)]);
+#define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
+#define SLV_SUM_ZERO(a) SLV_ZERO(a)
+#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
+#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
+#define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
+#define SLV_SUM_2(a, b)                                                                            \
+    _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
+#define SLV_SUM_4(a, b)                                                                            \
+    _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88),                                    \
+                  _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
+#define SLV_SUMS(r, a)                                                                             \
+    r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)),                         \
+                  SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
 #define SLV_TILES 2
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8
@@ -77,6 +97,8 @@
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "narrow.inl.h"
 
 #include "body.inl.h"
 

@@ -39,6 +39,48 @@
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
     a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
+        }                                                                                          \
+        SLV_LOAD(a, part_)                                                                         \
+    }
+#define SLV_FIRST(a, count)                                                                        \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        SLV_STORE(part_, a)                                                                        \
+        for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
+            part_[i_] = 0.0;                                                                       \
+        }                                                                                          \
+        SLV_LOAD(a, part_)                                                                         \
+    }
+#define SLV_LANE(b, a, k)                                                                          \
+    b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(                                                   \
+        vgetq_lane_f64((k) < 2   ? a##_0                                                           \
+                       : (k) < 4 ? a##_1                                                           \
+                       : (k) < 6 ? a##_2                                                           \
+                                 : a##_3,                                                          \
+                       (k) % 2));
+#define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
+#define SLV_GATHER(a, x, at)                                                                       \
+    a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)),                  \
+    a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
+#define SLV_SUM_DECLARE(a) float64x2_t a;
+#define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
+#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
+#define SLV_SUM_DOT(a, l, v)                                                                       \
+    a = vfmsq_f64(a, vld1q_f64((l) + 0), v##_0);                                                   \
+    a = vfmsq_f64(a, vld1q_f64((l) + 2), v##_1);                                                   \
+    a = vfmsq_f64(a, vld1q_f64((l) + 4), v##_2);                                                   \
+    a = vfmsq_f64(a, vld1q_f64((l) + 6), v##_3);
+#define SLV_SUMS(r, a)                                                                             \
+    r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3),                                \
+    r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -98,6 +140,7 @@
 #include "lanes.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_neon
+#define SLW_HALF(f) sli_##f##4_neon
 #define SLW_LANES 8
 #define SLW_ROWS 4
 #define SLW_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
@@ -136,6 +179,8 @@
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "narrow.inl.h"
 
 #include "body.inl.h"
 

@@ -18,6 +18,7 @@
     }
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_ADD(a, b)                                                                              \
     {                                                                                              \
         int i_;                                                                                    \
@@ -41,6 +42,49 @@
         }                                                                                          \
     }
 #define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
+#define SLV_LOAD_PART(a, p, count, rest)                                                           \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
+        }                                                                                          \
+        memcpy(a, part_, sizeof part_);                                                            \
+    }
+#define SLV_FIRST(a, count)                                                                        \
+    {                                                                                              \
+        double part_[SLI_TILE];                                                                    \
+        sl_int i_;                                                                                 \
+        memcpy(part_, a, sizeof part_);                                                            \
+        for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
+            part_[i_] = 0.0;                                                                       \
+        }                                                                                          \
+        memcpy(a, part_, sizeof part_);                                                            \
+    }
+#define SLV_LANE(b, a, k)                                                                          \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            b[i_] = a[k];                                                                          \
+        }                                                                                          \
+    }
+#define SLV_GATHER(a, x, at)                                                                       \
+    {                                                                                              \
+        int i_;                                                                                    \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            a[i_] = (x)[at(i_)];                                                                   \
+        }                                                                                          \
+    }
+#define SLV_SUM_DECLARE(a) double a;
+#define SLV_SUM_ZERO(a) a = 0.0;
+#define SLV_SUM_LOAD(a, p) a = *(p);
+#define SLV_SUM_STORE(p, a) *(p) = a;
+#define SLV_SUM_DOT(a, l, v)                                                                       \
+    a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) +                       \
+         (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
+#define SLV_SUMS(r, a)                                                                             \
+    r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3;                                            \
+    r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -110,6 +154,8 @@
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "narrow.inl.h"
 
 #include "body.inl.h"
 

@@ -11,6 +11,15 @@
  * above it, and the padding of the last tile are 0. */
 #define SLI_TILE 8
 
+/* Bytes between what a solve reads of L and what it asks for ahead. Small supernodes are read too
+ * slowly for the hardware to run ahead far enough, and at every page it starts anew. */
+#define SLI_AHEAD 4096
+
+/* A sweep of so few steps is taken for one that finds L in a cache. There two row tiles at a time are
+ * faster; from main memory only the strict order of the panels keeps the hardware reading ahead. The
+ * numbers are the same. */
+#define SLI_FEW_STEPS 4096
+
 /* Where tile t of a panel of w columns starts, in doubles: the trapezoid grows until it is w
  * columns wide. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
@@ -75,11 +84,13 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                                const double *D, double *x_super, double *x, double *scratch,
                                double *pivot, double *magnitude);
 
-/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in all
- * lanes, and for one or two lanes 8 partial sums of every column. */
+/* Doubles of scratch that a step of some height (width + below) and width needs: the rows in one or
+ * two lanes, and for those 8 partial sums of every column; more lanes work upon x itself, and keep
+ * only the rows of one tile. */
 SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
-    return (size_t)SLI_TILE * (size_t)sli_tiles(height) * (size_t)lanes +
-           (lanes <= 2 ? (size_t)SLI_TILE * (size_t)width : 0);
+    const size_t tile = SLI_TILE;
+    return lanes > 2 ? tile * (size_t)lanes
+                     : tile * ((size_t)sli_tiles(height) * (size_t)lanes + (size_t)width);
 }
 
 /* The rows that a lanes kernel keeps in registers at once, 4 or 8: op(0, k) op(1, k) .., and halves
@@ -92,6 +103,24 @@ SLI_INLINE size_t sli_scratch_size(sl_int height, sl_int width, sl_int lanes) {
 #define SLI_HIGH8(op, k) op(7, k) op(6, k) op(5, k) op(4, k)
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
+
+/* Calls one of 8 copies of a body that is compiled for a constant number of columns, w = 1 .. 8. */
+#define SLI_CASE(k, call)                                                                          \
+    case k:                                                                                        \
+        call(k);                                                                                   \
+        break;
+#define SLI_CASES(call)                                                                            \
+    switch (w) {                                                                                   \
+        SLI_CASE(1, call)                                                                          \
+        SLI_CASE(2, call)                                                                          \
+        SLI_CASE(3, call)                                                                          \
+        SLI_CASE(4, call)                                                                          \
+        SLI_CASE(5, call)                                                                          \
+        SLI_CASE(6, call)                                                                          \
+        SLI_CASE(7, call)                                                                          \
+    default:                                                                                       \
+        call(8);                                                                                   \
+    }
 
 /* Fronts. The front of a supernode of w columns and u rows below is its panel and its update
  * matrix: the lower triangle, by tiles as in a panel, over the same row tiles from tile w/8 on, so

@@ -2,9 +2,11 @@
 #undef SLI_X86
 #undef SLI_ARM
 #undef SLI_INLINE
+#undef SLI_ALWAYS_INLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_ALIGNED
+#undef SLI_PREFETCH
 #undef SLI_ASSERT
 #undef SLI_ROWS_MAX
 #undef SLI_ALIGN
@@ -14,6 +16,10 @@
 #undef SLI_TAKE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
+#undef SLI_FEW_STEPS
+#undef SLI_CASE
+#undef SLI_CASES
+#undef SLI_AHEAD
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_EACH4_AGAIN
@@ -27,6 +33,7 @@
 #undef SLI_FRONT_INVERSE
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS
+#undef SLI_ROWS_AHEAD
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
 #undef SLI_CLIMB

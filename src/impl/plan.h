@@ -193,18 +193,17 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                                const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    sl_status status;
-    if (P == NULL || F == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, nrhs);
-    if (status != SL_OK) {
-        return status;
-    }
-    if (!F->is_good || F->S != P->query.S) {
-        return SL_ERR_STATE;
-    }
-    return sli_answer(F, &P->query, X, ldx, B, ldb, nrhs, W);
+    return P == NULL || F == NULL
+               ? SL_ERR_ARGUMENT
+               : sli_solve(F, &P->query, X, ldx, B, ldb, SLI_COLUMN_MAJOR, nrhs, W);
+}
+
+SL_API sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F, double *X,
+                                           size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                                           sl_work *W) {
+    return P == NULL || F == NULL
+               ? SL_ERR_ARGUMENT
+               : sli_solve(F, &P->query, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
 SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs) {
@@ -263,7 +262,8 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         stats->bytes_plan = 0;
     }
     if (nrhs > 0 && q.nx > 0) {
-        sli_sweep(F, &q, X, ldx, B, ldb, nrhs, (unsigned char *)W->block + bytes);
+        sli_sweep(F, &q, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
+                  sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs, (unsigned char *)W->block + bytes);
     }
     return SL_OK;
 }
@@ -284,7 +284,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
     }
     b = sli_set_of(F->S, bset, nb);
     x = sli_set_of(F->S, xset, nx);
-    status = sli_check_dense(X, ldx, x.count, B, ldb, b.count, nrhs);
+    status = sli_check_dense(X, ldx, x.count, B, ldb, b.count, SLI_COLUMN_MAJOR, nrhs);
     if (status != SL_OK) {
         return status;
     }

@@ -7,19 +7,21 @@
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
                                  size_t ldb, sl_int nrhs, sl_work *W) {
     sli_query q;
-    sl_status status;
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
-    if (status != SL_OK) {
-        return status;
-    }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
+    q = sli_query_all(F->S);
+    return sli_solve(F, &q, X, ldx, B, ldb, SLI_COLUMN_MAJOR, nrhs, W);
+}
+
+SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size_t ldx,
+                                             const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+    sli_query q;
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
     }
     q = sli_query_all(F->S);
-    return sli_answer(F, &q, X, ldx, B, ldb, nrhs, W);
+    return sli_solve(F, &q, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
 /* Room for the blocks of a query. */

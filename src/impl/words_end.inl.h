@@ -28,3 +28,16 @@
 #undef SLV_BELOW_2
 #undef SLV_SPREAD
 #undef SLV_SPREAD_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE

@@ -7,10 +7,11 @@
 /** One solve of a batch: a plan and its right-hand sides, or a full solve. */
 typedef struct sl_request {
     const sl_plan *plan; /* NULL: b known and x wanted everywhere, as in sl_factor_solve */
-    double *X;           /* nx x nrhs (n x nrhs), column-major, leading dimension ldx elements */
+    double *X;           /* nx x nrhs (n x nrhs), leading dimension ldx elements */
     size_t ldx;
-    const double *B; /* nb x nrhs (n x nrhs), column-major, leading dimension ldb elements */
+    const double *B; /* nb x nrhs (n x nrhs), leading dimension ldb elements */
     size_t ldb;
+    int is_interleaved; /* 0: X and B column-major; else row-major, as in the calls named interleaved */
     sl_int nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
 } sl_request;
 

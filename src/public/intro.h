@@ -24,9 +24,10 @@
  *              tree, -1 at a root; L is unit lower triangular in supernodal panels, D diagonal; a reach is
  *              a set of columns closed under parent.
  * Conventions  Everything that can fail returns sl_status; outputs are NULL, or untouched, on error. Options and
- *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements.
- *              Row numbers, also those in errors, are the caller's. The library itself never prints, never aborts
- *              and has no mutable globals; what METIS does while it orders stands at sl_symbolic_create.
+ *              stats may be NULL. Dense arguments are column-major with a leading dimension in elements, or row-major
+ *              in the calls named interleaved. Row numbers, also those in errors, are the caller's. The library itself
+ *              never prints, never aborts and has no mutable globals; what METIS does while it orders stands at
+ *              sl_symbolic_create.
  * Threads      A symbolic and a plan are immutable; a factor is const while solved with. Any number of threads may
  *              solve on one factor, each with its own sl_work.
  *

@@ -53,6 +53,23 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor 
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
                                               sl_work *W);
 
+/** sl_plan_solve with the right-hand sides interleaved, as in sl_factor_solve_interleaved: the same bits.
+ *
+ *  F      [in]   a factor over the plan's analysis.
+ *  X      [out]  nx x nrhs, row-major, ldx >= nrhs elements from row to row, rows in the order of xset; may be B itself
+ *                (then ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs, row-major, ldb >= nrhs elements from row to row, rows in the order of bset.
+ *  nrhs   [in]   number of right-hand sides, 0 or more.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  as sl_plan_solve.
+ *  Cost     as sl_plan_solve.
+ *  Threads  any number at once on one P and one F, each with its own W.
+ *  Example  tests/test_interleaved.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F,
+                                                          double *X, size_t ldx, const double *B,
+                                                          size_t ldb, sl_int nrhs, sl_work *W);
+
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.

@@ -46,4 +46,24 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
                                                 const double *B, size_t ldb, sl_int nrhs,
                                                 sl_work *W);
 
+/** Solves A X = B with the right-hand sides interleaved: the numbers of one row stand side by side.
+ *
+ *  The same bits as sl_factor_solve, and what several right-hand sides are fastest in: 8 columns that lie apart take
+ *  about a fifth of a solve to bring together and to part again.
+ *
+ *  F      [in]   factor of A, n x n.
+ *  X      [out]  n x nrhs, row-major, ldx >= nrhs elements from row to row; may be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   n x nrhs, row-major, ldb >= nrhs elements from row to row.
+ *  nrhs   [in]   as in sl_factor_solve.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  as sl_factor_solve.
+ *  Cost     as sl_factor_solve.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Example  tests/test_interleaved.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X,
+                                                            size_t ldx, const double *B, size_t ldb,
+                                                            sl_int nrhs, sl_work *W);
+
 #endif

@@ -1,0 +1,159 @@
+/* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
+
+/* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
+ * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
+ * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
+ * the sums of all columns stay in registers, and x is gathered straight into them. */
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+
+/* the diagonal tile, column after column; L is 0 above its diagonal */
+#define SLI_COLUMN(k, unused)                                                                      \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        SLV_LANE(y##k, a, k)                                                                       \
+        SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                       \
+    }
+/* a tile below: even columns into one sum, odd ones into another */
+#define SLI_EVEN_ODD(k, unused)                                                                    \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
+        if ((k) % 2 == 0) {                                                                        \
+            SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                   \
+        } else {                                                                                   \
+            SLV_DOT(b, l + SLI_TILE * (k), y##k)                                                   \
+        }                                                                                          \
+    }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             double *xs, double *x, double *buf) {
+    sl_int row, i;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, y)
+    SLV_LOAD_PART(a, xs, w, 0.0)
+    SLI_EACH8(SLI_COLUMN, 0)
+    SLV_STORE(buf, a)
+    for (i = 0; i < w; i++) {
+        xs[i] = buf[i];
+    }
+    for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+        l += SLI_TILE * w;
+        SLV_ZERO(a)
+        SLV_ZERO(b)
+        SLI_EACH8(SLI_EVEN_ODD, 0)
+        SLV_ADD(a, b)
+        SLV_STORE(buf + row, a)
+    }
+    buf += w;
+    for (i = 0; i + 4 <= below; i += 4) {
+        x[rows[i]] += buf[i];
+        x[rows[i + 1]] += buf[i + 1];
+        x[rows[i + 2]] += buf[i + 2];
+        x[rows[i + 3]] += buf[i + 3];
+    }
+    for (; i < below; i++) {
+        x[rows[i]] += buf[i];
+    }
+}
+
+/* x(j) -= L(rows, j)' x(rows), from the last column down as L is read backward in memory */
+#define SLI_DOT(k)                                                                                 \
+    if ((k) < w) {                                                                                 \
+        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
+        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
+    }
+#define SLI_DOTS                                                                                   \
+    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+/* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
+ * the tile of the columns, anything for the columns' lanes */
+#define SLI_PLACE(k) rows[at + (k)]
+#define SLI_PLACE_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_PLACE_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+#define SLI_SET(k, unused) double r##k = r[k];
+#define SLI_GET(k, unused)                                                                         \
+    if ((k) < w) {                                                                                 \
+        xs[k] = r##k;                                                                              \
+    }
+#define SLI_XT(j, k)                                                                               \
+    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */                                         \
+        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j);                                     \
+    }
+#define SLI_ROW(k)                                                                                 \
+    SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
+
+/* l points at the panel's end. */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows, const double *l,
+                                                              const double *d, double *xs,
+                                                              const double *x) {
+    const sl_int count = (w + below) % SLI_TILE;
+    sl_int row = w + below - count, at = below;
+    double r[SLI_TILE];
+    SLV_DECLARE(v)
+    SLV_DECLARE(z)
+    SLI_EACH8(SLI_SUM_DECLARE, a)
+    SLI_EACH8(SLI_SUM_ZERO, a)
+    if (row > 0 && count > 0) {
+        at -= count;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE_PART)
+        SLV_FIRST(v, count)
+        SLI_DOTS
+    }
+    for (; row > SLI_TILE; row -= SLI_TILE) {
+        at -= SLI_TILE;
+        l -= SLI_TILE * w;
+        SLV_GATHER(v, x, SLI_PLACE)
+        SLI_DOTS
+    }
+    l -= SLI_TILE * w;
+    if (w < SLI_TILE && at > 0) {
+        SLV_GATHER(v, x, SLI_PLACE_OWN)
+        SLV_FIRST(v, w + at)
+        SLV_BELOW(v, w - 1)
+        SLI_DOTS
+    }
+    SLV_LOAD_PART(z, xs, w, 0.0)
+    SLV_LOAD_PART(v, d, w, 1.0)
+    SLV_DIVIDE(z, z, v)
+    SLV_SUMS(v, a)
+    SLV_ADD(v, z)
+    SLV_STORE_ANY(r, v) {
+        SLI_EACH8(SLI_SET, 0)
+        SLI_ROW(7)
+        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
+    }
+}
+
+#define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const double *l, double *xs, double *x,
+                                                      double *buf){SLI_CASES(SLI_FORWARD)}
+
+SLV_FUNCTION SLI_INLINE
+    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
+                                   const double *d, double *xs, const double *x) {
+    SLI_CASES(SLI_BACKWARD)
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_COLUMN
+#undef SLI_EVEN_ODD
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_PLACE
+#undef SLI_PLACE_PART
+#undef SLI_PLACE_OWN
+#undef SLI_SET
+#undef SLI_GET
+#undef SLI_XT
+#undef SLI_ROW
+#undef SLI_FORWARD
+#undef SLI_BACKWARD

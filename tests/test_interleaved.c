@@ -1,0 +1,131 @@
+/* test_interleaved.c: right-hand sides interleaved give the bits of the column-major calls, full and local */
+#include "problem.h"
+
+enum { MOST = 17, GUARD = 4 };
+
+/* rows x nrhs, column-major with leading dimension rows, to rows of ld elements that hold `rest` elsewhere */
+static double *rows_of(const double *M, size_t rows, size_t nrhs, size_t ld, double rest) {
+    double *R = test_reals(rows * ld + 1);
+    for (size_t q = 0; q < rows * ld; q++) {
+        R[q] = q % ld < nrhs ? M[q / ld + q % ld * rows] : rest;
+    }
+    return R;
+}
+
+/* the rows of R hold the columns of M, and beside them nothing was written */
+static void assert_rows(const double *R, size_t ld, const double *M, size_t rows, size_t nrhs, double rest) {
+    for (size_t k = 0; k < rows; k++) {
+        for (size_t r = 0; r < ld; r++) {
+            if (r < nrhs) {
+                SAME_VALUES(R + k * ld + r, M + k + r * rows, 1);
+            } else {
+                assert_true(R[k * ld + r] == rest);
+            }
+        }
+    }
+}
+
+static void full_solves_have_the_same_bits(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_KKT, GEN_ONE, GEN_GRID3};
+    for (int k = 0; k < 4 * isas.count; k++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[k / 4];
+        problem_t y = problem_make(kinds[k % 4], 90, 1, 0, &opt);
+        size_t n = (size_t)y.M.view.n_cols;
+        for (sl_int nrhs = 0; nrhs <= MOST; nrhs++) {
+            size_t cols = (size_t)nrhs, ldb = cols + GUARD, ldx = cols + (nrhs % 2 ? 0 : GUARD);
+            double *B = test_reals(n * MOST), *X = test_reals(n * MOST);
+            gen_reals(B, n * MOST, 6);
+            SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, NULL));
+            double *Bi = rows_of(B, n, cols, ldb, 77.0), *Xi = rows_of(B, n, 0, ldx, 1234.5);
+            SL_CHECK(sl_factor_solve_interleaved(y.F, Xi, ldx, Bi, ldb, nrhs, NULL));
+            assert_rows(Xi, ldx, X, n, cols, 1234.5);
+            assert_rows(Bi, ldb, B, n, cols, 77.0);
+            SL_CHECK(sl_factor_solve_interleaved(y.F, Bi, ldb, Bi, ldb, nrhs, NULL)); /* in place */
+            assert_rows(Bi, ldb, X, n, cols, 77.0);
+            free(B);
+            free(X);
+            free(Bi);
+            free(Xi);
+        }
+        problem_free(&y);
+    }
+}
+
+static void plans_have_the_same_bits(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[k];
+        problem_t y = problem_make(GEN_GRID2, 200, 1, 0, &opt);
+        sl_int bset[30], xset[45];
+        for (sl_int q = 0; q < 30; q++) {
+            bset[q] = 5 * (29 - q) + 3;
+        }
+        for (sl_int q = 0; q < 45; q++) {
+            xset[q] = 4 * q;
+        }
+        sl_plan *P = NULL;
+        SL_CHECK(sl_plan_create(&P, y.S, bset, 30, xset, 45, NULL, NULL));
+        for (sl_int nrhs = 0; nrhs <= MOST; nrhs++) {
+            size_t cols = (size_t)nrhs, ld = cols + GUARD;
+            double B[30 * MOST], X[45 * MOST];
+            gen_reals(B, 30 * MOST, 9);
+            SL_CHECK(sl_plan_solve(P, y.F, X, 45, B, 30, nrhs, NULL));
+            double *Bi = rows_of(B, 30, cols, ld, 77.0), *Xi = rows_of(B, 45, 0, ld, 1234.5);
+            SL_CHECK(sl_plan_solve_interleaved(P, y.F, Xi, ld, Bi, ld, nrhs, NULL));
+            assert_rows(Xi, ld, X, 45, cols, 1234.5);
+            assert_rows(Bi, ld, B, 30, cols, 77.0);
+            memcpy(Xi, Bi, 30 * ld * sizeof *Bi); /* in place, with more rows out than in */
+            SL_CHECK(sl_plan_solve_interleaved(P, y.F, Xi, ld, Xi, ld, nrhs, NULL));
+            for (size_t q = 0; q < 45; q++) {
+                for (size_t r = 0; r < cols; r++) {
+                    SAME_VALUES(Xi + q * ld + r, X + q + r * 45, 1);
+                }
+            }
+            free(Bi);
+            free(Xi);
+        }
+        sl_plan_free(P);
+        problem_free(&y);
+    }
+}
+
+static void wrong_arguments(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_PATH, 6, 1, 0, NULL);
+    problem_t z = problem_make(GEN_PATH, 6, 1, 0, NULL);
+    const sl_int set[2] = {1, 4};
+    double X[18] = {1, 2}, B[18] = {3, 4};
+    sl_plan *P = NULL;
+    SL_CHECK(sl_plan_create(&P, y.S, set, 2, set, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(NULL, X, 3, B, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, NULL, 3, B, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, NULL, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 2, B, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 2, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 3, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, X, 2, 2, NULL)); /* in place, two strides */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(NULL, y.F, X, 3, B, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, NULL, X, 3, B, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 2, B, 3, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 3, B, 2, 3, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_interleaved(P, z.F, X, 3, B, 3, 3, NULL)); /* of another analysis */
+    assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
+    SL_CHECK(sl_factor_solve_interleaved(y.F, X, 1, B, 1, 1, NULL)); /* shorter than a column */
+    sl_plan_free(P);
+    problem_free(&y);
+    problem_free(&z);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(full_solves_have_the_same_bits),
+        cmocka_unit_test(plans_have_the_same_bits),
+        cmocka_unit_test(wrong_arguments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
