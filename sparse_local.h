@@ -1,74 +1,74 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 5be10aa563301431
+ * FNV-1a of all that follows this comment, license aside: ca0c48919ec4f3b3
  *
  * Contents
  *         (what a user reads)
  *     76  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    125  public/config.h            what a user may set before including the header, the version, and the integer types
  *    174  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    347  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    467  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    529  public/factor.h            the numbers: P A P' = L D L'
- *    622  public/solve.h             full solves, and the workspace that every solve writes to
- *    691  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    777  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    354  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    474  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    536  public/factor.h            the numbers: P A P' = L D L'
+ *    642  public/solve.h             full solves, and the workspace that every solve writes to
+ *    711  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    797  public/batch.h             many independent solves with one factor, spread over threads by one call
  *         (bodies, in one source file)
  *         (L0 ground)
- *    823  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    914  impl/status.h              status codes in words, and the error fields of stats
- *    970  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1095  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1170  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1207  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    843  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    934  impl/status.h              status codes in words, and the error fields of stats
+ *    990  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1115  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1190  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1227  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1241  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1439  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1579  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1609  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2723  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2768  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2905  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3108  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3270  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3529  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3577  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3712  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4486  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5471  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7299  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9196  impl/select.h              the kernel table for an instruction set
+ *   1261  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1472  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1612  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1642  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2756  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2801  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   2938  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3144  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3306  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3565  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3613  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3748  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4522  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5510  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7341  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9241  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9229  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9657  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9730  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9274  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9702  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9775  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10084  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10123  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10270  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10384  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10528  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10613  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10686  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10852  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10928  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  10969  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11162  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11448  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10129  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10168  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10315  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10429  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10573  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10658  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10731  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10897  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  10973  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11014  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11207  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11493  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11611  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11731  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11812  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12070  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12157  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12449  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12544  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12604  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  12853  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  12895  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11656  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11788  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11874  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12134  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12221  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12515  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  12631  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  12691  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  12940  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  12982  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13197  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13284  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  13352  impl/leave.h               takes every internal macro away again
+ *  13439  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -251,6 +251,12 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: everything else; threads */
 } sl_method;
 
+/** What a null pivot means. */
+typedef enum sl_definiteness {
+    SL_DEFINITE = 0, /* D of any sign; a null pivot is SL_ERR_PIVOT */
+    SL_SEMIDEFINITE  /* a null pivot is skipped and counted, its row of x is 0: raw Laplacians */
+} sl_definiteness;
+
 /** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
@@ -282,6 +288,7 @@ typedef struct sl_options {
     sl_isa isa;
     sl_method method;
     sl_threads threads;
+    sl_definiteness definiteness;
     double
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
@@ -319,7 +326,7 @@ typedef struct sl_stats {
     sl_method method; /* the one that was used */
     sl_int positive; /* pivots by sign: the inertia of A */
     sl_int negative;
-    sl_int null;      /* pivots refused (0 or 1) */
+    sl_int null;      /* null pivots: skipped (SL_SEMIDEFINITE), or the one that was refused */
     double pivot_min; /* smallest and largest |d| */
     double pivot_max;
     double seconds_setup;  /* processor seconds in the schedule and the memory of sl_factor_create */
@@ -536,10 +543,14 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  Definite and quasi-definite matrices work in any order unless rounding loses a pivot: one that comes out below
  *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
+ *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. Solves
+ *  then give a solution of every consistent system, the one that is 0 in the rows of sl_factor_null_rows; of a system
+ *  that is not consistent they leave a residual in those rows alone.
+ *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
- *  opt    [in]   isa, method, threads, null_tolerance, allocator; may be NULL.
+ *  opt    [in]   isa, method, threads, definiteness, null_tolerance, allocator; may be NULL.
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
  *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
@@ -591,7 +602,16 @@ SL_API void sl_factor_free(sl_factor *F);
 /** Fills the factor group of stats again. */
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
-/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+/** The rows whose null pivots were skipped, in the order of elimination.
+ *
+ *  rows   [out]  the first `most` of them; NULL where most = 0.
+ *  count  [out]  how many there are, also above most.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
+                                                    sl_int *count);
+
+/** log |det A| and the sign of det A (-1 or 1) from D, skipped null pivots left out; det of a 0 x 0 matrix is 1.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
  */
@@ -612,7 +632,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 typedef struct sl_factor_view_t {
     const sl_symbolic *symbolic;
     const double *L; /* panels, laid out as sl_symbolic_view_t tells */
-    const double *D; /* n pivots, in pivot order */
+    const double *D; /* n pivots, in pivot order; DBL_MAX where a null pivot was skipped */
 } sl_factor_view_t;
 
 SL_API sl_factor_view_t sl_factor_view(const sl_factor *F);
@@ -1395,7 +1415,20 @@ typedef struct sli_front {
     double *D;         /* width pivots */
     double *magnitude; /* 8 a tile: what each diagonal entry was made of, in absolute value */
     double *inverse;   /* 16 a column tile: 1/d, or 0 first where they are out of range; -sign d */
+    double null_tolerance;
+    int skips_null; /* a null pivot becomes SLI_NULL_PIVOT */
 } sli_front;
+
+/* Stands for a null pivot that is skipped: so large that what is divided by it is nothing, and 0 times
+ * it is still 0. */
+#define SLI_NULL_PIVOT DBL_MAX
+
+/* Is a pivot null against the magnitude of what it was made of? Terms that overflow in magnitude and
+ * not in sum tell nothing about what was lost. */
+SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
+    const double size = fabs(pivot);
+    return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
+}
 
 /* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On
  * entry panel and update hold A and what the children hand over, magnitude their absolute values. At
@@ -2941,6 +2974,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
         d = x[SLI_TILE * (k) + (k)];                                                               \
+        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
+            d = SLI_NULL_PIVOT;                                                                    \
+        }                                                                                          \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
@@ -4833,6 +4869,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
         d = x[SLI_TILE * (k) + (k)];                                                               \
+        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
+            d = SLI_NULL_PIVOT;                                                                    \
+        }                                                                                          \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
@@ -6660,6 +6699,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
         d = x[SLI_TILE * (k) + (k)];                                                               \
+        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
+            d = SLI_NULL_PIVOT;                                                                    \
+        }                                                                                          \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
@@ -8558,6 +8600,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
         d = x[SLI_TILE * (k) + (k)];                                                               \
+        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
+            d = SLI_NULL_PIVOT;                                                                    \
+        }                                                                                          \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
@@ -11628,6 +11673,7 @@ struct sl_factor {
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     double null_tolerance;
+    sl_definiteness definiteness;
     sl_method method;
     int is_good;    /* L and D hold a factor */
     double *L;      /* the panels */
@@ -11701,26 +11747,37 @@ static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
 /* Refuses a pivot that is not a number or null against what it was made of. */
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
                                      sli_failure *failure) {
-    const double size = fabs(pivot);
     if (!sli_is_finite(pivot)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
-    /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
-    if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
+    if (sli_is_null(pivot, magnitude, F->null_tolerance)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
     return SL_OK;
 }
 
+/* Was pivot k null and skipped? */
+SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
+    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
+}
+
 /* Counts and bounds of the first pivots. */
-static void sli_count_pivots(sl_stats *stats, const double *D, sl_int count) {
+static void sli_count_pivots(sl_factor *F, sl_int count) {
+    sl_stats *stats = &F->stats;
     sl_int k;
-    stats->positive = stats->negative = 0;
-    stats->pivot_min = stats->pivot_max = count > 0 ? fabs(D[0]) : 0.0;
+    stats->positive = stats->negative = stats->null = 0;
+    stats->pivot_min = stats->pivot_max = 0.0;
     for (k = 0; k < count; k++) {
-        const double size = fabs(D[k]);
-        stats->positive += D[k] > 0.0;
-        stats->negative += D[k] < 0.0;
+        const double size = fabs(F->D[k]);
+        if (sli_is_skipped(F, k)) {
+            stats->null++;
+            continue;
+        }
+        if (stats->positive + stats->negative == 0) {
+            stats->pivot_min = size;
+        }
+        stats->positive += F->D[k] > 0.0;
+        stats->negative += F->D[k] < 0.0;
         stats->pivot_min = size < stats->pivot_min ? size : stats->pivot_min;
         stats->pivot_max = size > stats->pivot_max ? size : stats->pivot_max;
     }
@@ -11798,7 +11855,12 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
         F->D[k] = pivot;
-        status = sli_check_pivot(F, k, pivot, magnitude, failure);
+        if (F->definiteness == SL_SEMIDEFINITE &&
+            sli_is_null(pivot, magnitude, F->null_tolerance)) {
+            F->D[k] = SLI_NULL_PIVOT;
+        } else {
+            status = sli_check_pivot(F, k, pivot, magnitude, failure);
+        }
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
             sli_wait_for_row(F, s);
@@ -11837,6 +11899,8 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.D = F->D + step->column;
     f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
     f.inverse = F->inverse + (ptrdiff_t)worker * SLI_FRONT_INVERSE;
+    f.null_tolerance = F->null_tolerance;
+    f.skips_null = F->definiteness == SL_SEMIDEFINITE;
     return f;
 }
 
@@ -11897,18 +11961,18 @@ static void sli_front_hand_over(const sli_front *f) {
            SLI_TILE * (size_t)tiles * sizeof(double));
 }
 
-/* A null pivot is a failure. */
+/* A null pivot that was not skipped is a failure. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
+    sl_status status = SL_OK;
     sl_int k;
-    for (k = 0; k < f->width; k++) {
-        const sl_status status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
-        if (status != SL_OK) {
-            return status;
+    for (k = 0; k < f->width && status == SL_OK; k++) {
+        if (!sli_is_skipped(F, first + k)) {
+            status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
         }
     }
-    return SL_OK;
+    return status;
 }
 
 /* The panel of a front, from A and all updates to L. */
@@ -12241,7 +12305,6 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
 /* Pivots in numbers, and a failure in the caller's rows. */
 static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int good = F->S->n; /* pivots before the failure */
-    F->stats.null = f->status == SL_ERR_PIVOT;
     if (f->status != SL_OK && f->pivot >= 0) {
         good = f->pivot;
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
@@ -12250,7 +12313,8 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
         sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
                     f->value);
     }
-    sli_count_pivots(&F->stats, F->D, good);
+    sli_count_pivots(F, good);
+    F->stats.null += f->status == SL_ERR_PIVOT;
 }
 
 /* What a factorization came to, for the caller and for F itself. */
@@ -12359,9 +12423,10 @@ static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-/* Are the method and the number of threads such as exist? */
+/* Are the method, the definiteness and the number of threads such as exist? */
 static int sli_way_is_known(const sl_options *opt) {
     return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
                            opt->threads.count >= 0);
 }
 
@@ -12400,6 +12465,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.S = S;
     draft.null_tolerance =
         opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
+    draft.definiteness = opt == NULL ? SL_DEFINITE : opt->definiteness;
     draft.method = sli_method(S, opt);
     draft.schedule.workers = 1;
     if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
@@ -12468,10 +12534,31 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
         return SL_ERR_STATE;
     }
     for (k = 0; k < F->S->n; k++) {
-        sum += log(fabs(F->D[k]));
+        sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
     }
     *log_abs_det = sum;
     *sign = F->stats.negative % 2 == 0 ? 1.0 : -1.0;
+    return SL_OK;
+}
+
+SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
+                                     sl_int *count) {
+    sl_int k;
+    if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    *count = 0;
+    for (k = 0; k < F->S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            if (*count < most) {
+                rows[*count] = F->S->perm[k];
+            }
+            ++*count;
+        }
+    }
     return SL_OK;
 }
 
@@ -13383,6 +13470,7 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 #undef SLI_GROUP
 #undef SLI_CHUNK
 #undef SLI_FRONT_INVERSE
+#undef SLI_NULL_PIVOT
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS
 #undef SLI_ROWS_AHEAD

@@ -114,6 +114,8 @@ static sli_front front_of(const shape *s, double *item) {
     f.D = f.update + s->update;
     f.magnitude = f.D + s->pivots;
     f.inverse = inverse;
+    f.null_tolerance = 0.0;
+    f.skips_null = 0;
     return f;
 }
 

@@ -92,7 +92,6 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
 /* Pivots in numbers, and a failure in the caller's rows. */
 static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int good = F->S->n; /* pivots before the failure */
-    F->stats.null = f->status == SL_ERR_PIVOT;
     if (f->status != SL_OK && f->pivot >= 0) {
         good = f->pivot;
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
@@ -101,7 +100,8 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
         sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
                     f->value);
     }
-    sli_count_pivots(&F->stats, F->D, good);
+    sli_count_pivots(F, good);
+    F->stats.null += f->status == SL_ERR_PIVOT;
 }
 
 /* What a factorization came to, for the caller and for F itself. */
@@ -210,9 +210,10 @@ static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-/* Are the method and the number of threads such as exist? */
+/* Are the method, the definiteness and the number of threads such as exist? */
 static int sli_way_is_known(const sl_options *opt) {
     return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
                            opt->threads.count >= 0);
 }
 
@@ -251,6 +252,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     draft.S = S;
     draft.null_tolerance =
         opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
+    draft.definiteness = opt == NULL ? SL_DEFINITE : opt->definiteness;
     draft.method = sli_method(S, opt);
     draft.schedule.workers = 1;
     if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {

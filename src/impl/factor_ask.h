@@ -21,10 +21,31 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
         return SL_ERR_STATE;
     }
     for (k = 0; k < F->S->n; k++) {
-        sum += log(fabs(F->D[k]));
+        sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
     }
     *log_abs_det = sum;
     *sign = F->stats.negative % 2 == 0 ? 1.0 : -1.0;
+    return SL_OK;
+}
+
+SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
+                                     sl_int *count) {
+    sl_int k;
+    if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    *count = 0;
+    for (k = 0; k < F->S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            if (*count < most) {
+                rows[*count] = F->S->perm[k];
+            }
+            ++*count;
+        }
+    }
     return SL_OK;
 }
 

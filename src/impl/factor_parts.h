@@ -22,6 +22,7 @@ struct sl_factor {
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     double null_tolerance;
+    sl_definiteness definiteness;
     sl_method method;
     int is_good;    /* L and D hold a factor */
     double *L;      /* the panels */
@@ -95,26 +96,37 @@ static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
 /* Refuses a pivot that is not a number or null against what it was made of. */
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
                                      sli_failure *failure) {
-    const double size = fabs(pivot);
     if (!sli_is_finite(pivot)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
-    /* terms that overflow in magnitude and not in sum tell nothing about what was lost */
-    if (size == 0.0 || (sli_is_finite(magnitude) && size <= F->null_tolerance * magnitude)) {
+    if (sli_is_null(pivot, magnitude, F->null_tolerance)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
     return SL_OK;
 }
 
+/* Was pivot k null and skipped? */
+SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
+    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
+}
+
 /* Counts and bounds of the first pivots. */
-static void sli_count_pivots(sl_stats *stats, const double *D, sl_int count) {
+static void sli_count_pivots(sl_factor *F, sl_int count) {
+    sl_stats *stats = &F->stats;
     sl_int k;
-    stats->positive = stats->negative = 0;
-    stats->pivot_min = stats->pivot_max = count > 0 ? fabs(D[0]) : 0.0;
+    stats->positive = stats->negative = stats->null = 0;
+    stats->pivot_min = stats->pivot_max = 0.0;
     for (k = 0; k < count; k++) {
-        const double size = fabs(D[k]);
-        stats->positive += D[k] > 0.0;
-        stats->negative += D[k] < 0.0;
+        const double size = fabs(F->D[k]);
+        if (sli_is_skipped(F, k)) {
+            stats->null++;
+            continue;
+        }
+        if (stats->positive + stats->negative == 0) {
+            stats->pivot_min = size;
+        }
+        stats->positive += F->D[k] > 0.0;
+        stats->negative += F->D[k] < 0.0;
         stats->pivot_min = size < stats->pivot_min ? size : stats->pivot_min;
         stats->pivot_max = size > stats->pivot_max ? size : stats->pivot_max;
     }

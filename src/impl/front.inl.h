@@ -36,6 +36,9 @@
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
         d = x[SLI_TILE * (k) + (k)];                                                               \
+        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
+            d = SLI_NULL_PIVOT;                                                                    \
+        }                                                                                          \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \

@@ -157,7 +157,20 @@ typedef struct sli_front {
     double *D;         /* width pivots */
     double *magnitude; /* 8 a tile: what each diagonal entry was made of, in absolute value */
     double *inverse;   /* 16 a column tile: 1/d, or 0 first where they are out of range; -sign d */
+    double null_tolerance;
+    int skips_null; /* a null pivot becomes SLI_NULL_PIVOT */
 } sli_front;
+
+/* Stands for a null pivot that is skipped: so large that what is divided by it is nothing, and 0 times
+ * it is still 0. */
+#define SLI_NULL_PIVOT DBL_MAX
+
+/* Is a pivot null against the magnitude of what it was made of? Terms that overflow in magnitude and
+ * not in sum tell nothing about what was lost. */
+SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
+    const double size = fabs(pivot);
+    return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
+}
 
 /* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On
  * entry panel and update hold A and what the children hand over, magnitude their absolute values. At

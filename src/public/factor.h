@@ -9,10 +9,14 @@
  *  Definite and quasi-definite matrices work in any order unless rounding loses a pivot: one that comes out below
  *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
+ *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. Solves
+ *  then give a solution of every consistent system, the one that is 0 in the rows of sl_factor_null_rows; of a system
+ *  that is not consistent they leave a residual in those rows alone.
+ *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
- *  opt    [in]   isa, method, threads, null_tolerance, allocator; may be NULL.
+ *  opt    [in]   isa, method, threads, definiteness, null_tolerance, allocator; may be NULL.
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
  *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
@@ -64,7 +68,16 @@ SL_API void sl_factor_free(sl_factor *F);
 /** Fills the factor group of stats again. */
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
-/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+/** The rows whose null pivots were skipped, in the order of elimination.
+ *
+ *  rows   [out]  the first `most` of them; NULL where most = 0.
+ *  count  [out]  how many there are, also above most.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
+                                                    sl_int *count);
+
+/** log |det A| and the sign of det A (-1 or 1) from D, skipped null pivots left out; det of a 0 x 0 matrix is 1.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
  */
@@ -85,7 +98,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 typedef struct sl_factor_view_t {
     const sl_symbolic *symbolic;
     const double *L; /* panels, laid out as sl_symbolic_view_t tells */
-    const double *D; /* n pivots, in pivot order */
+    const double *D; /* n pivots, in pivot order; DBL_MAX where a null pivot was skipped */
 } sl_factor_view_t;
 
 SL_API sl_factor_view_t sl_factor_view(const sl_factor *F);

@@ -79,6 +79,12 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: everything else; threads */
 } sl_method;
 
+/** What a null pivot means. */
+typedef enum sl_definiteness {
+    SL_DEFINITE = 0, /* D of any sign; a null pivot is SL_ERR_PIVOT */
+    SL_SEMIDEFINITE  /* a null pivot is skipped and counted, its row of x is 0: raw Laplacians */
+} sl_definiteness;
+
 /** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
@@ -110,6 +116,7 @@ typedef struct sl_options {
     sl_isa isa;
     sl_method method;
     sl_threads threads;
+    sl_definiteness definiteness;
     double
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
@@ -147,7 +154,7 @@ typedef struct sl_stats {
     sl_method method; /* the one that was used */
     sl_int positive; /* pivots by sign: the inertia of A */
     sl_int negative;
-    sl_int null;      /* pivots refused (0 or 1) */
+    sl_int null;      /* null pivots: skipped (SL_SEMIDEFINITE), or the one that was refused */
     double pivot_min; /* smallest and largest |d| */
     double pivot_max;
     double seconds_setup;  /* processor seconds in the schedule and the memory of sl_factor_create */

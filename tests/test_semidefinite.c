@@ -1,0 +1,223 @@
+/* test_semidefinite.c: null pivots skipped: their number and rows, solutions of consistent systems, the residual of others */
+#include "parallel_for.h"
+#include "problem.h"
+
+/* The Laplacian of a generated graph with weights that are not exact: a component is a null pivot. */
+static gen_matrix_t laplacian(gen_kind_t kind, sl_int size, int style, sl_int *components) {
+    gen_list_t t = gen_make(kind, size, 1, 17);
+    gen_list_t clean = gen_list(t.n);
+    sl_int *group = test_ints((size_t)t.n);
+    double *diagonal = test_reals((size_t)t.n);
+    for (sl_int k = 0; k < t.n; k++) {
+        group[k] = k;
+    }
+    for (size_t k = 0; k < t.count; k++) {
+        sl_int i = t.row[k], j = t.col[k];
+        if (i != j) {
+            double w = 0.1 + fabs(t.x[k]) / 3.0;
+            gen_add(&clean, i, j, -w);
+            diagonal[i] += w;
+            diagonal[j] += w;
+            while (group[i] != i) {
+                i = group[i];
+            }
+            while (group[j] != j) {
+                j = group[j];
+            }
+            group[i > j ? i : j] = i > j ? j : i;
+        }
+    }
+    *components = 0;
+    for (sl_int k = 0; k < t.n; k++) {
+        *components += group[k] == k;
+        gen_add(&clean, k, k, diagonal[k]); /* a lone row has a 0 */
+    }
+    gen_matrix_t M = gen_store(&clean, gen_style(style), 1);
+    gen_list_free(&t);
+    gen_list_free(&clean);
+    free(group);
+    free(diagonal);
+    return M;
+}
+
+static sl_options options_semidefinite(const way_list_t *ways, int k) {
+    sl_options opt = options_none();
+    way_take(&opt, ways, k);
+    opt.definiteness = SL_SEMIDEFINITE;
+    return opt;
+}
+
+/* Solves A x = A z, which is consistent, and A x = e_k + A z, which is not. */
+static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
+    sl_int n = A->n_cols, count = 0, *rows = test_ints((size_t)n + 1);
+    double *z = test_reals((size_t)n), *b = test_reals((size_t)n), *x = test_reals((size_t)n);
+    double *r = test_reals((size_t)n), eta;
+    SL_CHECK(sl_factor_null_rows(F, rows, n, &count));
+    assert_int_equal(count, nulls);
+    gen_reals(z, (size_t)n, 9);
+    SL_CHECK(sl_csc_multiply(A, SL_AS_SYMMETRIC, b, (size_t)n, z, (size_t)n, 1));
+    SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
+    BACKWARD_PASSES(A, x, (size_t)n, b, (size_t)n, 1);
+    for (sl_int k = 0; k < count; k++) {
+        assert_true(fabs(x[rows[k]]) < 1e-290);
+    }
+    /* a source in row 0: the residual is in the null row of its component alone */
+    b[0] += 1.0;
+    SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
+    SL_CHECK(sl_csc_residual(A, r, (size_t)n, &eta, x, (size_t)n, b, (size_t)n, 1));
+    double total = 0.0, most = 0.0;
+    for (sl_int i = 0; i < n; i++) {
+        most = fmax(most, fabs(x[i]));
+        total += r[i];
+    }
+    for (sl_int k = 0; k < count; k++) {
+        r[rows[k]] = 0.0;
+    }
+    for (sl_int i = 0; i < n; i++) {
+        assert_true(fabs(r[i]) <= 1e-11 * (1.0 + most));
+    }
+    assert_true(fabs(total - 1.0) <= 1e-10 * (1.0 + most));
+    free(rows);
+    free(z);
+    free(b);
+    free(x);
+    free(r);
+}
+
+static void a_null_pivot_for_each_component(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[9] = {GEN_ONE,   GEN_DIAGONAL, GEN_PATH,   GEN_STAR,      GEN_GRID2,
+                                        GEN_GRID3, GEN_FOREST,   GEN_RANDOM, GEN_COMPONENTS};
+    static const sl_int sizes[3] = {12, 90, 700};
+    way_list_t ways = ways_present();
+    for (int kind = 0; kind < 9; kind++) {
+        for (int size = 0; size < 3; size++) {
+            sl_int components = 0;
+            gen_matrix_t M = laplacian(kinds[kind], sizes[size], kind % GEN_STYLES, &components);
+            sl_symbolic *S = NULL;
+            SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+            for (int k = 0; k < ways.count; k++) {
+                sl_options opt = options_semidefinite(&ways, k);
+                sl_factor *F = NULL;
+                sl_stats stats;
+                double log_det, sign;
+                memset(&stats, 0, sizeof stats);
+                SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+                assert_int_equal(stats.null, components);
+                assert_int_equal(stats.positive, M.view.n_cols - components);
+                assert_int_equal(stats.negative, 0);
+                assert_true(stats.pivot_max < 1e300);
+                SL_CHECK(sl_factor_logdet(F, &log_det, &sign));
+                assert_true(isfinite(log_det) && sign == 1.0);
+                assert_solves(&M.view, F, components);
+                SL_CHECK(sl_factor_refactor(F, &M.view, &stats));
+                assert_int_equal(stats.null, components);
+                const sl_int all[1] = {0};
+                SL_CHECK(sl_factor_refactor_changed(F, &M.view, all, 1, &stats));
+                assert_int_equal(stats.null, components);
+                assert_solves(&M.view, F, components);
+                sl_factor_free(F);
+                /* without the wish it is refused */
+                opt.definiteness = SL_DEFINITE;
+                SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
+                assert_int_equal(stats.null, 1);
+            }
+            sl_symbolic_free(S);
+            gen_matrix_free(&M);
+        }
+    }
+}
+
+/* Local solves are the full ones' bits here as well, and threads change none. */
+static void local_and_threads_as_ever(void **state) {
+    (void)state;
+    sl_int components = 0;
+    gen_matrix_t M = laplacian(GEN_COMPONENTS, 600, 0, &components);
+    sl_int n = M.view.n_cols, *bset = test_ints((size_t)n), *xset = test_ints((size_t)n);
+    way_list_t ways = ways_present();
+    sl_symbolic *S = NULL;
+    sl_plan *P = NULL;
+    uint64_t seed = 3;
+    gen_set(bset, 20, n, gen_bits(&seed));
+    gen_set(xset, 30, n, gen_bits(&seed));
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, bset, 20, xset, 30, NULL, NULL));
+    for (int k = 0; k < ways.count; k++) {
+        for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+            sl_options opt = options_semidefinite(&ways, k);
+            sl_factor *F = NULL, *G = NULL;
+            int calls = 0;
+            double *B = test_reals((size_t)(20 * nrhs)), *X = test_reals((size_t)(30 * nrhs));
+            double *full = test_reals((size_t)(n * nrhs)), *wanted = test_reals((size_t)(30 * nrhs));
+            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+            opt.threads.count = 3;
+            opt.threads.run = run_backwards;
+            opt.threads.context = &calls;
+            SL_CHECK(sl_factor_create(&G, S, &M.view, &opt, NULL));
+            assert_same_bits(F, G);
+            gen_reals(B, (size_t)(20 * nrhs), 8);
+            for (sl_int r = 0; r < nrhs; r++) {
+                for (int i = 0; i < 20; i++) {
+                    full[bset[i] + n * r] = B[i + 20 * r];
+                }
+            }
+            SL_CHECK(sl_factor_solve(F, full, (size_t)n, full, (size_t)n, nrhs, NULL));
+            SL_CHECK(sl_plan_solve(P, F, X, 30, B, 20, nrhs, NULL));
+            for (sl_int r = 0; r < nrhs; r++) {
+                for (int i = 0; i < 30; i++) {
+                    wanted[i + 30 * r] = full[xset[i] + n * r];
+                }
+            }
+            SAME_VALUES(X, wanted, (size_t)(30 * nrhs));
+            free(B);
+            free(X);
+            free(full);
+            free(wanted);
+            sl_factor_free(F);
+            sl_factor_free(G);
+        }
+    }
+    free(bset);
+    free(xset);
+    sl_plan_free(P);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* A definite matrix has the same bits with the wish and without, and a NaN stays an error. */
+static void definite_matrices_and_failures(void **state) {
+    (void)state;
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_none();
+        way_take(&opt, &ways, k);
+        problem_t y = problem_make(GEN_GRID2, 300, 0, 0, &opt);
+        sl_factor *F = NULL;
+        sl_int count = 7, one[1];
+        opt = options_semidefinite(&ways, k);
+        SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+        assert_same_bits(F, y.F);
+        SL_CHECK(sl_factor_null_rows(F, NULL, 0, &count));
+        assert_int_equal(count, 0);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(F, NULL, 1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(F, one, -1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(F, one, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(NULL, one, 1, &count));
+        y.M.x[5] = NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &y.M.view, NULL));
+        SL_EXPECT(SL_ERR_STATE, sl_factor_null_rows(F, one, 1, &count));
+        sl_factor_free(F);
+        opt.definiteness = (sl_definiteness)2;
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+        problem_free(&y);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_null_pivot_for_each_component),
+        cmocka_unit_test(local_and_threads_as_ever),
+        cmocka_unit_test(definite_matrices_and_failures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
