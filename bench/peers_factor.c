@@ -3,7 +3,8 @@
 
 /* What a simplicial factorization can repeat; beyond that it is timed once, CHOLMOD's only where it does not take as
  * long as all else together: Eigen's, of the same kind, is a bit faster. */
-static const double few_flops = 1e9, most_flops_simple = 5e9, many_flops = 1e11;
+static const double few_flops = 1e9, most_flops_simple = 5e9, most_flops_simple_full = 5e10,
+                    many_flops = 1e11;
 
 /* ---- contenders ---- */
 
@@ -112,9 +113,9 @@ static void analyse_steps(bench_run *run, bench_report *report, match *m) {
 }
 
 /* Simplicial ones: raced where they are quick, else one time. */
-static int add_simplicial(match *m, entry *entries, int count) {
+static int add_simplicial(const bench_run *run, match *m, entry *entries, int count) {
     const double flops = m->system->stats.flops;
-    if (flops < most_flops_simple) {
+    if (flops < (run->size == BENCH_FULL ? most_flops_simple_full : most_flops_simple)) {
         entry simple = {.method = "CHOLMOD simplicial", .call = cholmod_simple_call};
         if (flops >= few_flops) {
             const double start = bench_now();
@@ -143,7 +144,7 @@ static void refactor_steps(bench_run *run, bench_report *report, match *m) {
             .method = "ours, AVX2 forced", .call = refactor_narrow_call, .isa = SL_ISA_AVX2};
     }
     entries[ours] = (entry){.method = "CHOLMOD supernodal", .call = cholmod_factor_call};
-    count = add_simplicial(m, entries, ours + 1);
+    count = add_simplicial(run, m, entries, ours + 1);
     for (int c = 0; c < count; c++) {
         entries[c].state = m;
         entries[c].foreign = c >= ours;
