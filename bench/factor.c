@@ -13,9 +13,9 @@
 #endif
 
 /* Every way to factor one system, over the order that its analysis found; the permutation is given, so the analysis
- * is timed without METIS. All refactor at least once before they are timed, and a solve with each is checked. The
- * rate is stats.flops (the sum over columns of entries^2, twice the multiply-adds of L without relaxation) a second,
- * the limit these flops at the peak of the ISA, times the threads. */
+ * is timed without METIS. A solve with each is checked. The rate is stats.flops (the sum over columns of entries^2,
+ * twice the multiply-adds of L without relaxation) a second, the limit these flops at the peak of the ISA, times the
+ * threads. */
 enum { MAX_SYSTEMS = 8, MOST_WAYS = 8, THREADS = 2 };
 
 /* What is slow is timed apart, so that the rest gets more rounds, and where it would take minutes not at all. */
@@ -171,7 +171,6 @@ static int check_way(bench_run *run, way *w) {
     double *b = bench_alloc(n, sizeof *b), *x = bench_alloc(n, sizeof *x);
     uint64_t chance = 6;
     bench_random_fill(&chance, b, n);
-    call_refactor(w);
     bench_must(sl_factor_solve(w->F, x, n, b, n, 1, NULL), "full solve");
     const int good = bench_check_residual(run, w->system, x, b, 1, w->method);
     free(x);
@@ -210,7 +209,7 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
     }
     if (good) {
         bench_race(samples, contenders, fast, run->seconds);
-        bench_race(samples + fast, contenders + fast, count - fast, run->seconds / 5);
+        bench_race(samples + fast, contenders + fast, count - fast, run->seconds / 20);
         const double baseline = samples[0].median;
         bench_contender cold[2] = {{call_analyse, &a, 1, ready_analyse},
                                    {call_first, &first, 1, ready_first}};

@@ -40,7 +40,7 @@ enum { N_QUESTIONS = sizeof questions / sizeof *questions };
 
 static void list(FILE *out) {
     for (int k = 0; k < N_QUESTIONS; k++) {
-        fprintf(out, "  %-10s %s\n", questions[k].name, questions[k].text);
+        fprintf(out, "  %-14s %s\n", questions[k].name, questions[k].text);
     }
 }
 

@@ -12,16 +12,23 @@ static const double large = 3e6; /* vertices: so many right-hand sides at once w
 static void one_system(bench_run *run, bench_report *report, const bench_system *system) {
     static const sl_int counts[] = {1, 2, 3, 4, 8, 16, 64}, counts_brief[] = {1, 2, 3, 8, 64};
     const sl_int most = system->n > large ? 16 : PEERS_MOST_RHS;
+    const double start = bench_now();
     match *m = match_create(run, system, most);
+    const double created = bench_now();
     peers_factor(run, report, m);
+    const double factored = bench_now();
     for (int k = 0; k < (m->is_brief ? 5 : 7); k++) {
         const sl_int nrhs = m->is_brief ? counts_brief[k] : counts[k];
         if (nrhs <= most) {
             peers_solve(run, report, m, nrhs);
         }
     }
+    const double solved = bench_now();
     peers_local(run, report, m);
     match_free(m);
+    bench_progress("[%s: made ready %.0f s, factor %.0f s, full solves %.0f s, local %.0f s]\n",
+                   system->name, created - start, factored - created, solved - factored,
+                   bench_now() - solved);
 }
 
 void bench_peers(bench_run *run) {

@@ -1,8 +1,10 @@
 /* peers_factor.c: analysis and factorization beside CHOLMOD's and Eigen's, on one thread and on two */
 #include "peers_steps.h"
 
-/* What a simplicial factorization can repeat; beyond that it is timed once. */
-static const double few_flops = 1e9, most_flops_simple = 5e10;
+/* What a simplicial factorization can repeat; beyond that it is timed once, CHOLMOD's only where it does not take as
+ * long as all else together: Eigen's, of the same kind, is a bit faster. */
+static const double few_flops = 1e9, most_flops_simple = 5e9, most_flops_simple_full = 5e10,
+                    many_flops = 1e11;
 
 /* ---- contenders ---- */
 
@@ -69,6 +71,12 @@ static void eigen_factor_call(void *state) {
 
 /* ---- steps ---- */
 
+/* Seconds for a race of factorizations; where one takes seconds, its warm-up will do. */
+static double patience(const bench_run *run, const match *m) {
+    return m->is_brief && m->system->stats.flops > many_flops ? 0.6 * run->seconds
+                                                              : 2 * run->seconds;
+}
+
 static bench_sample one_time(double seconds) {
     bench_sample sample = {1, seconds, seconds, seconds};
     return sample;
@@ -105,9 +113,9 @@ static void analyse_steps(bench_run *run, bench_report *report, match *m) {
 }
 
 /* Simplicial ones: raced where they are quick, else one time. */
-static int add_simplicial(match *m, entry *entries, int count) {
+static int add_simplicial(const bench_run *run, match *m, entry *entries, int count) {
     const double flops = m->system->stats.flops;
-    if (flops < most_flops_simple) {
+    if (flops < (run->size == BENCH_FULL ? most_flops_simple_full : most_flops_simple)) {
         entry simple = {.method = "CHOLMOD simplicial", .call = cholmod_simple_call};
         if (flops >= few_flops) {
             const double start = bench_now();
@@ -136,14 +144,14 @@ static void refactor_steps(bench_run *run, bench_report *report, match *m) {
             .method = "ours, AVX2 forced", .call = refactor_narrow_call, .isa = SL_ISA_AVX2};
     }
     entries[ours] = (entry){.method = "CHOLMOD supernodal", .call = cholmod_factor_call};
-    count = add_simplicial(m, entries, ours + 1);
+    count = add_simplicial(run, m, entries, ours + 1);
     for (int c = 0; c < count; c++) {
         entries[c].state = m;
         entries[c].foreign = c >= ours;
         entries[c].flops = m->system->stats.flops;
     }
-    const double baseline = peers_race(m->is_brief ? run->seconds : 2 * run->seconds, report, m,
-                                       "refactor", 0, entries, count, NULL, 0);
+    const double baseline =
+        peers_race(patience(run, m), report, m, "refactor", 0, entries, count, NULL, 0);
     entry both[2] = {{.method = "ours", .call = refactor_threaded_call, .ready = peers_nap},
                      {.method = "CHOLMOD supernodal", .call = cholmod_factor_call, .foreign = 1}};
     for (int c = 0; c < 2; c++) {
@@ -173,7 +181,8 @@ void peers_factor(bench_run *run, bench_report *report, match *m) {
     if (m->eigen) {
         first[2].sample = one_time(m->eigen_first);
     }
-    peers_race(run->seconds, report, m, "first factor", 0, first, m->eigen ? 3 : 2, NULL, 0);
+    peers_race(patience(run, m) / 2, report, m, "first factor", 0, first, m->eigen ? 3 : 2, NULL,
+               0);
     first_ready(m);
     refactor_steps(run, report, m);
 }

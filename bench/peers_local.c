@@ -9,7 +9,7 @@
 /* cholmod_solve2 gives x on the reach of Bset alone, so its Bset is the wanted set, which holds b's; it takes one
  * right-hand side, so several go one after the other. Where a full solve is quicker for CHOLMOD, the row of that name
  * says so: its time is that of the step before. */
-enum { VERTICES = 256, VERTICES_BRIEF = 32, PATCHES = 5 };
+enum { VERTICES = 128, VERTICES_BRIEF = 32, PATCHES = 5 };
 
 typedef struct local_match {
     match *m;
