@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: baf0653b69b1c438
+ * FNV-1a of all that follows this comment, license aside: 9e61d86f5d9e9898
  *
  * Contents
  *         (what a user reads)
@@ -28,40 +28,40 @@
  *   2681  impl/front.inl.h           one front of the multifrontal factorization: its panel is factored, its update matrix updated
  *   2854  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
  *   3016  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3273  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3321  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3456  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4230  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5182  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   6973  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   8837  impl/select.h              the kernel table for an instruction set
+ *   3282  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3330  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3465  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4239  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5200  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7000  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   8873  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   8870  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9287  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9360  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   8906  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9323  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9396  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *   9714  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *   9755  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *   9887  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *   9973  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10114  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10199  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10272  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10432  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10508  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
- *  10581  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  10861  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *   9750  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *   9791  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *   9923  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10009  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10150  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10235  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10308  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10468  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  10544  impl/fronts.h              the fronts of the supernodes: where a child's rows stand in its parent, where update matrices wait
+ *  10617  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  10897  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11004  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11084  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11164  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
- *  11225  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
- *  11461  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  11517  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  11765  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  11807  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11040  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11120  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11200  impl/multifrontal.h        the supernodal factorization: front by front, every child handing its update matrix to its parent
+ *  11261  impl/factor.h              the factor object: creation, refactorization, and what can be asked of it
+ *  11497  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  11553  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  11801  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  11843  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (last: takes every internal macro away again)
- *  12109  impl/leave.h               takes every internal macro away again
+ *  12145  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3087,8 +3087,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -3096,34 +3096,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -3145,7 +3143,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -3189,40 +3190,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
@@ -4946,8 +4955,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -4955,34 +4964,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -5004,7 +5011,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -5048,40 +5058,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
@@ -6736,8 +6754,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -6745,34 +6763,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -6794,7 +6810,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -6838,40 +6857,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
@@ -8601,8 +8628,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -8610,34 +8637,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -8659,7 +8684,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -8703,40 +8731,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
