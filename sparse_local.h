@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: ca0c48919ec4f3b3
+ * FNV-1a of all that follows this comment, license aside: 4f3e7d05ba2b2e67
  *
  * Contents
  *         (what a user reads)
@@ -30,45 +30,45 @@
  *   2938  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
  *   3144  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
  *   3306  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3565  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3613  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3748  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4522  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5510  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7341  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9241  impl/select.h              the kernel table for an instruction set
+ *   3574  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3622  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3757  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4531  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5528  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7368  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9277  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9274  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9702  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9775  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9310  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9738  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9811  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10129  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10168  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10315  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10429  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10573  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10658  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10731  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10897  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10973  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  11014  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11207  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11493  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10165  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10204  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10351  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10465  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10609  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10694  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10767  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10933  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  11009  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11050  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11243  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11529  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11656  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11788  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11874  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12134  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12221  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12515  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12631  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12691  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  12940  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  12982  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11692  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11824  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11910  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12170  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12257  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12551  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  12667  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  12727  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  12976  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13018  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13284  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13320  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  13439  impl/leave.h               takes every internal macro away again
+ *  13475  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3377,8 +3377,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -3386,34 +3386,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -3435,7 +3433,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -3479,40 +3480,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
@@ -5272,8 +5281,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -5281,34 +5290,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -5330,7 +5337,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -5374,40 +5384,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
@@ -7102,8 +7120,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -7111,34 +7129,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -7160,7 +7176,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -7204,40 +7223,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
@@ -9003,8 +9030,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -9012,34 +9039,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -9061,7 +9086,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -9105,40 +9133,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }

@@ -74,6 +74,29 @@ static void every_pair_of_rows(void **state) {
     }
 }
 
+/* Kernels take sweeps of thousands of supernodes in another order of memory than those of a path: the bits stay. */
+static void long_and_short_sweeps_agree(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    sl_options opt = options_none();
+    opt.relaxation = SL_RELAXATION_NONE;
+    problem_t y = problem_make(GEN_GRID2, 12100, 1, 0, &opt);
+    uint64_t seed = 3;
+    assert_true(sl_symbolic_view(y.S).n_supers > 5000);
+    for (int k = 0; k < isas.count; k++) {
+        problem_t z = y;
+        opt.isa = isas.isa[k];
+        SL_CHECK(sl_factor_create(&z.F, y.S, &y.M.view, &opt, NULL));
+        for (sl_int nrhs = 1; nrhs <= 8; nrhs *= 2) {
+            for (int round = 0; round < 4; round++) {
+                try_sets(&z, 1 + gen_below(&seed, 5), 1 + gen_below(&seed, 5), nrhs, ++seed, NULL);
+            }
+        }
+        sl_factor_free(z.F);
+    }
+    problem_free(&y);
+}
+
 static void in_place_when_the_sets_allow(void **state) {
     (void)state;
     problem_t y = problem_make(GEN_GRID2, 100, 1, 0, NULL);
@@ -300,6 +323,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(local_equals_full_on_the_zoo),
         cmocka_unit_test(every_pair_of_rows),
+        cmocka_unit_test(long_and_short_sweeps_agree),
         cmocka_unit_test(in_place_when_the_sets_allow),
         cmocka_unit_test(one_plan_serves_many_factors),
         cmocka_unit_test(companions_do_not_matter),

@@ -71,8 +71,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 }
 
 /* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of several
- * below the columns at once, which spares loads and stores of the sums. */
+ * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
+ * once, which spares half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_PLACE(k) rows[at + (k)]
@@ -80,34 +80,32 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
-    sl_int j;
+    ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
-    for (j = final - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l + j, v)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l, const double *x, sl_int first,
-                                             sl_int w, double *sums) {
-    const double *l1 = l + SLI_TILE * (ptrdiff_t)w;
-    sl_int j;
+/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
+                                             sl_int first, sl_int final, double *sums) {
+    ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v0, x)
     SLV_LOAD(v1, x + SLI_TILE)
-    for (j = w - 1; j >= first; j--) {
-        SLI_PREFETCH(l + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLI_PREFETCH(l1 + SLI_TILE * (ptrdiff_t)j, -SLI_AHEAD);
-        SLV_SUM_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
-        SLV_SUM_DOT(a, l1 + SLI_TILE * (ptrdiff_t)j, v1)
-        SLV_SUM_DOT(a, l + SLI_TILE * (ptrdiff_t)j, v0)
-        SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+        SLV_SUM_LOAD(a, sums + j)
+        SLV_SUM_DOT(a, l1 + j, v1)
+        SLV_SUM_DOT(a, l0 + j, v0)
+        SLV_SUM_STORE(sums + j, a)
     }
 }
 
@@ -129,7 +127,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
-    SLV_LOAD(v, buf) /* 0 on the columns: only rows below count here */
+    SLV_ZERO(v)
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+        SLV_LOAD(v, buf)
+    }
     SLI_EACH8(SLI_TAKE_SUM, 0)
     SLV_LOAD_PART(z, xs, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -173,40 +174,48 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
         }
         for (; row >= first; row -= SLI_TILE) {
-            const sl_int inner = sli_clamp(w - row, SLI_TILE);
-            const sl_int final = sli_min(row, w), at = row + inner - w;
+            const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+            const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+            const double *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-            if (by_two && row - SLI_TILE >= w && row + SLI_TILE <= height) {
-                row -= SLI_TILE;
-                tile -= SLI_TILE * (ptrdiff_t)w;
-                rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
-                SLV_STORE(buf, v)
-                rows += SLI_TILE;
+            above = tile - SLI_TILE * (ptrdiff_t) final;
+            if (part == SLI_TILE) {
                 SLV_GATHER(v, x, SLI_PLACE)
                 SLV_STORE(buf + SLI_TILE, v)
-                SLV_NAME(dots2)(tile, buf, first, w, sums);
-                continue;
-            }
-            if (inner < SLI_TILE) {
-                const sl_int part = sli_min(height - row, SLI_TILE) - inner; /* rows below */
+            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+                SLV_ZERO(v)
                 if (part > 0) {
                     SLV_GATHER(v, x, SLI_PLACE_PART)
                     SLV_FIRST(v, inner + part)
-                    SLV_STORE(buf, v)
-                } else {
-                    SLV_ZERO(v)
-                    SLV_STORE(buf, v)
                 }
+                SLV_STORE(buf + SLI_TILE, v)
                 for (j = 0; j < inner; j++) {
-                    buf[j] = 0.0;
+                    buf[SLI_TILE + j] = 0.0;
                 }
             }
             if (inner > 0) {
                 SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
+                                   buf + SLI_TILE);
             }
-            SLV_NAME(dots1)(tile, buf, first, final, sums);
+            if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                continue;
+            }
+            row -= SLI_TILE;
+            if (inner == 0) {
+                rows -= SLI_TILE;
+                SLV_GATHER(v, x, SLI_PLACE)
+                rows += SLI_TILE;
+                SLV_STORE(buf, v)
+                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+            } else {
+                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
+                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+            }
+            tile = above;
         }
     }
 }
