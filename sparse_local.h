@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 4f3e7d05ba2b2e67
+ * FNV-1a of all that follows this comment, license aside: 4cf623e16b7bd329
  *
  * Contents
  *         (what a user reads)
@@ -11921,8 +11921,8 @@ typedef struct sli_job {
     sli_front front;
 } sli_job;
 
-/* A front of this many flops takes some 50 us, and is shared out at some 2 us a step. */
-#define SLI_SHARED_FLOPS 4e6
+/* A front of this many flops takes some 15 us, and is shared out at 1 or 2 us a step. */
+#define SLI_SHARED_FLOPS 1e6
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
