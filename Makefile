@@ -55,7 +55,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	format tidy clean always build-tests run-tests run-fuzz
+	format tidy clean always build-tests run-tests run-fuzz races test-openmp
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -205,6 +205,16 @@ test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, e
 sanitize: deps sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all'
+
+THREADED = test_threads test_batch
+
+races: deps sparse_local.h ## the tests of threads, watched for data races
+	@$(MAKE) --no-print-directory run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \
+	TEST_PROGRAMS='$(THREADED:%=build/races/tests/%)'
+
+test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
+	@$(MAKE) --no-print-directory run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \
+	TEST_PROGRAMS='$(THREADED:%=build/openmp/tests/%)'
 
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
 	@tools/deps.sh valgrind=valgrind
