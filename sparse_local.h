@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 4cf623e16b7bd329
+ * FNV-1a of all that follows this comment, license aside: fe4c101ce6d6e265
  *
  * Contents
  *         (what a user reads)
@@ -28,47 +28,47 @@
  *   2756  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
  *   2801  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
  *   2938  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3144  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3306  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3574  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3622  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3757  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4531  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5528  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7368  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9277  impl/select.h              the kernel table for an instruction set
+ *   3150  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3312  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3580  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3628  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3763  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4537  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5540  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7386  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9301  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9310  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9738  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9811  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9334  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9762  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9835  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10165  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10204  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10351  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10465  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10609  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10694  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10767  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10933  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  11009  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  11050  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11243  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11529  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10189  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10228  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10375  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10489  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10633  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10718  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10791  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10957  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  11033  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11074  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11267  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11553  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11692  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11824  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11910  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12170  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12257  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12551  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12667  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12727  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  12976  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  13018  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11716  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11848  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11934  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12194  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12281  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12575  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  12691  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  12751  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  13000  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13042  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13320  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13344  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  13475  impl/leave.h               takes every internal macro away again
+ *  13499  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3064,16 +3064,20 @@ SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl
 /* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
                                                 sl_int t1, double *B) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
-     B);
+    if (c > c0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+         f->width, 0, B);
+    }
 }
 
 SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
@@ -3086,8 +3090,10 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
                                         double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(rows_of_tile)
@@ -4968,16 +4974,20 @@ SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl
 /* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
                                                 sl_int t1, double *B) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
-     B);
+    if (c > c0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+         f->width, 0, B);
+    }
 }
 
 SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
@@ -4990,8 +5000,10 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
                                         double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(rows_of_tile)
@@ -6807,16 +6819,20 @@ SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl
 /* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
                                                 sl_int t1, double *B) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
-     B);
+    if (c > c0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+         f->width, 0, B);
+    }
 }
 
 SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
@@ -6829,8 +6845,10 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
                                         double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(rows_of_tile)
@@ -8717,16 +8735,20 @@ SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl
 /* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
                                                 sl_int t1, double *B) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
-     B);
+    if (c > c0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+         f->width, 0, B);
+    }
 }
 
 SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
@@ -8739,8 +8761,10 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
                                         double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(rows_of_tile)

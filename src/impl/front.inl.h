@@ -126,16 +126,20 @@ SLV_FUNCTION static void SLV_NAME(rows_of_tile)(const sli_front *f, sl_int c, sl
 /* Column tile c of row tiles t0 .. t1-1 before its pivots are applied: the group's columns before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
                                                 sl_int t1, double *B) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel, f->width, 0,
-     B);
+    if (c > c0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+         f->width, 0, B);
+    }
 }
 
 SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         double *inverse = f->inverse + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
@@ -148,8 +152,10 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
                                         double *B) {
     const sl_int c1 = sli_min(c0 + SLI_GROUP, sli_tiles(f->width));
     sl_int c;
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    if (c0 > 0) {
+        SLV_NAME(product)
+        (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(rows_of_tile)
