@@ -146,6 +146,17 @@ const bench_system *bench_mesh(const char *path);
 /** Releases all of them. */
 void bench_systems_free(void);
 
+/** Bytes: the matrix, the panels of L, and what the library takes for them; nothing of METIS's where the order is
+ *  given. */
+typedef struct bench_memory {
+    double matrix, panels;
+    double analysis, analysis_peak; /* kept, and at once while it runs */
+    double factor;                  /* kept beside the analysis */
+    double peak;                    /* at once, of analyse + factor */
+} bench_memory;
+
+bench_memory bench_memory_of(const bench_system *system, sl_options options);
+
 /** A X = B holds: the backward error of each of the nrhs columns (leading dimensions n) is within rounding. */
 int bench_check_residual(bench_run *run, const bench_system *system, const double *X,
                          const double *B, sl_int nrhs, const char *method);

@@ -65,57 +65,15 @@ static void call_analyse(void *state) {
     bench_must(sl_symbolic_create(&a->S, &a->system->A, &a->options, NULL), "analysis");
 }
 
-/* ---- memory ---- */
-
-typedef struct meter {
-    size_t now, most;
-} meter;
-
-enum { HEAD = 16 }; /* keeps malloc's alignment */
-
-static void *meter_allocate(void *context, size_t bytes) {
-    meter *m = context;
-    unsigned char *block = bytes > SIZE_MAX - HEAD ? NULL : malloc(bytes + HEAD);
-    if (!block) {
-        return NULL;
-    }
-    memcpy(block, &bytes, sizeof bytes);
-    m->now += bytes;
-    m->most = m->now > m->most ? m->now : m->most;
-    return block + HEAD;
-}
-
-static void meter_release(void *context, void *block) {
-    meter *m = context;
-    size_t bytes;
-    memcpy(&bytes, (unsigned char *)block - HEAD, sizeof bytes);
-    m->now -= bytes;
-    free((unsigned char *)block - HEAD);
-}
-
-/* What the library has at once, of which nothing is METIS's: the order is given. */
 static void note_memory(bench_report *report, const bench_system *system, sl_options options) {
-    meter m = {0, 0};
-    sl_symbolic *S;
-    sl_factor *F;
-    const double panels = 8 * (double)system->stats.nnz_panels;
-    const double matrix = 12 * (double)system->A.p[system->n] + 4 * (double)system->n;
-    options.allocator.allocate = meter_allocate;
-    options.allocator.release = meter_release;
-    options.allocator.context = &m;
-    bench_must(sl_symbolic_create(&S, &system->A, &options, NULL), "analysis");
-    const double analyse_most = (double)m.most, analysed = (double)m.now;
-    bench_must(sl_factor_create(&F, S, &system->A, &options, NULL), "factor");
-    const double most = (double)m.most, kept = (double)m.now;
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    const bench_memory m = bench_memory_of(system, options);
     bench_report_note(report,
                       "%-14s   memory: A %.1f MB, panels of L %.1f MB; analysis %.1f MB (%.1f at "
                       "its peak), factor %.1f MB;",
-                      "", 1e-6 * matrix, 1e-6 * panels, 1e-6 * analysed, 1e-6 * analyse_most,
-                      1e-6 * (kept - analysed));
+                      "", 1e-6 * m.matrix, 1e-6 * m.panels, 1e-6 * m.analysis,
+                      1e-6 * m.analysis_peak, 1e-6 * m.factor);
     bench_report_note(report, "%-14s   peak of analyse + factor %.1f MB = %.2f (A + panels of L)",
-                      "", 1e-6 * most, most / (matrix + panels));
+                      "", 1e-6 * m.peak, m.peak / (m.matrix + m.panels));
 }
 
 /* ---- ways ---- */

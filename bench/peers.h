@@ -40,6 +40,9 @@ void peer_cholmod_threads(int count);
 const double *peer_cholmod_local(peer_cholmod *peer, const sl_int *bset, sl_int nb,
                                  const double *b);
 
+/** Bytes that the supernodal analysis and factorization had at once, by CHOLMOD's own count; A is not among them. */
+double peer_cholmod_peak(const peer_cholmod *peer);
+
 /** Entries of the simplicial L. */
 double peer_cholmod_nnz(const peer_cholmod *peer);
 

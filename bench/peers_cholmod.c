@@ -19,6 +19,7 @@ struct peer_cholmod {
     side super, simple;
     cholmod_factor *plan, *first; /* supernodal: analysed only; of the latest first factorization */
     cholmod_dense *b;             /* n x 1, read at Bset only */
+    double peak;                  /* bytes of the supernodal analysis and factorization */
     cholmod_sparse *bset;         /* a column of n rows */
     cholmod_sparse *xset;
 };
@@ -91,9 +92,12 @@ peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
     set_up(&peer->super, 1);
     set_up(&peer->simple, 0);
     peer->super.L = analyse(peer, &peer->super);
+    const size_t before = peer->super.common.memory_inuse;
     peer->plan = cholmod_copy_factor(peer->super.L, &peer->super.common);
     must(peer->plan != NULL, "memory");
+    const size_t plan = peer->super.common.memory_inuse - before;
     factor(peer, &peer->super);
+    peer->peak = (double)(peer->super.common.memory_usage - plan);
     make_simple(peer);
     peer->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &peer->simple.common);
     peer->bset = cholmod_allocate_sparse(n, 1, n, 0, 1, 0, CHOLMOD_PATTERN, &peer->simple.common);
@@ -125,6 +129,10 @@ void peer_cholmod_free(peer_cholmod *peer) {
     release(&peer->super);
     free(peer->perm);
     free(peer);
+}
+
+double peer_cholmod_peak(const peer_cholmod *peer) {
+    return peer->peak;
 }
 
 void peer_cholmod_analyse(peer_cholmod *peer) {
