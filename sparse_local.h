@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: fe4c101ce6d6e265
+ * FNV-1a of all that follows this comment, license aside: e13e409576ada4c5
  *
  * Contents
  *         (what a user reads)
@@ -28,47 +28,47 @@
  *   2756  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
  *   2801  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
  *   2938  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3150  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3312  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3580  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3628  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3763  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4537  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5540  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7386  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9301  impl/select.h              the kernel table for an instruction set
+ *   3151  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3313  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3581  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3629  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3764  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4538  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5542  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7389  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9305  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9334  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9762  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9835  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9338  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9766  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9839  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10189  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10228  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10375  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10489  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10633  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10718  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10791  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10957  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  11033  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  11074  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11267  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11553  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10193  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10232  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10379  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10493  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10637  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10722  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10795  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  10961  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  11037  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11078  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11271  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11557  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11716  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11848  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11934  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12194  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12281  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12575  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12691  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12751  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  13000  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  13042  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11720  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  11852  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  11938  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12198  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12285  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12579  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  12695  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  12755  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  13004  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13046  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13344  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13348  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  13499  impl/leave.h               takes every internal macro away again
+ *  13503  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2968,22 +2968,23 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p)                                                                            \
+#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
+        SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
         if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
             d = SLI_NULL_PIVOT;                                                                    \
+            SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
+        SLV_DIVIDE(l, a##k, b)                                                                     \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
         reciprocal[k] = 1.0 / d;                                                                   \
-        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
-        safe &= by_reciprocal;                                                                     \
-        SLI_SCALE(l, a##k, k)                                                                      \
+        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290;                                               \
         SLI_GAIN(l, a##k, k)                                                                       \
         SLV_BELOW(l, k)                                                                            \
         SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
@@ -3012,7 +3013,7 @@ SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, 
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
     double *sums = x + SLI_TILE * SLI_TILE;
-    int by_reciprocal, safe = 1;
+    int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
@@ -4878,22 +4879,23 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p)                                                                            \
+#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
+        SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
         if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
             d = SLI_NULL_PIVOT;                                                                    \
+            SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
+        SLV_DIVIDE(l, a##k, b)                                                                     \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
         reciprocal[k] = 1.0 / d;                                                                   \
-        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
-        safe &= by_reciprocal;                                                                     \
-        SLI_SCALE(l, a##k, k)                                                                      \
+        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290;                                               \
         SLI_GAIN(l, a##k, k)                                                                       \
         SLV_BELOW(l, k)                                                                            \
         SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
@@ -4922,7 +4924,7 @@ SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, 
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
     double *sums = x + SLI_TILE * SLI_TILE;
-    int by_reciprocal, safe = 1;
+    int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
@@ -6723,22 +6725,23 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p)                                                                            \
+#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
+        SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
         if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
             d = SLI_NULL_PIVOT;                                                                    \
+            SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
+        SLV_DIVIDE(l, a##k, b)                                                                     \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
         reciprocal[k] = 1.0 / d;                                                                   \
-        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
-        safe &= by_reciprocal;                                                                     \
-        SLI_SCALE(l, a##k, k)                                                                      \
+        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290;                                               \
         SLI_GAIN(l, a##k, k)                                                                       \
         SLV_BELOW(l, k)                                                                            \
         SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
@@ -6767,7 +6770,7 @@ SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, 
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
     double *sums = x + SLI_TILE * SLI_TILE;
-    int by_reciprocal, safe = 1;
+    int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
@@ -8639,22 +8642,23 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p)                                                                            \
+#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
+        SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
         if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
             d = SLI_NULL_PIVOT;                                                                    \
+            SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
+        SLV_DIVIDE(l, a##k, b)                                                                     \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
         reciprocal[k] = 1.0 / d;                                                                   \
-        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
-        safe &= by_reciprocal;                                                                     \
-        SLI_SCALE(l, a##k, k)                                                                      \
+        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290;                                               \
         SLI_GAIN(l, a##k, k)                                                                       \
         SLV_BELOW(l, k)                                                                            \
         SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
@@ -8683,7 +8687,7 @@ SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, 
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
     double *sums = x + SLI_TILE * SLI_TILE;
-    int by_reciprocal, safe = 1;
+    int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)

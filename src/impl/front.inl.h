@@ -30,22 +30,23 @@
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p)                                                                            \
+#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
         SLV_STORE(sums, m)                                                                         \
+        SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
         if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
             d = SLI_NULL_PIVOT;                                                                    \
+            SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
+        SLV_DIVIDE(l, a##k, b)                                                                     \
         D[k] = d;                                                                                  \
         magnitude[k] = sums[k];                                                                    \
         against[k] = d < 0.0 ? 1.0 : -1.0;                                                         \
         reciprocal[k] = 1.0 / d;                                                                   \
-        by_reciprocal = fabs(d) > 1e-290 && fabs(d) < 1e290;                                       \
-        safe &= by_reciprocal;                                                                     \
-        SLI_SCALE(l, a##k, k)                                                                      \
+        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290;                                               \
         SLI_GAIN(l, a##k, k)                                                                       \
         SLV_BELOW(l, k)                                                                            \
         SLV_STORE((p) + SLI_TILE * (k), l)                                                         \
@@ -74,7 +75,7 @@ SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, 
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
     double *sums = x + SLI_TILE * SLI_TILE;
-    int by_reciprocal, safe = 1;
+    int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
