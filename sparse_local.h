@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 554b9bc80030a8a5
+ * FNV-1a of all that follows this comment, license aside: 6c74f55cdf461b72
  *
  * Contents
  *         (what a user reads)
@@ -23,56 +23,56 @@
  *   1289  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
  *   1323  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1521  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1661  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1691  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2805  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2850  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2987  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3190  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3352  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3611  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3659  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3794  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4568  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5553  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7381  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9278  impl/select.h              the kernel table for an instruction set
+ *   1526  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1666  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1696  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2867  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2912  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3049  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3252  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3414  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3674  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3722  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3857  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4669  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5655  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7522  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9458  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9311  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9739  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9812  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9491  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9919  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9992  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10166  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10205  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10352  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10466  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10610  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10695  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10768  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10934  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  11010  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  11051  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11244  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11530  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10346  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10385  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10532  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10646  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10790  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10875  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10948  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  11114  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  11190  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11231  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11424  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11710  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11763  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11883  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11964  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12222  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12309  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12601  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12696  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12756  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  12993  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  13035  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11943  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  12063  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  12144  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12402  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12489  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12781  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  12876  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  12936  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  13173  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13215  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13333  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  13551  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  13874  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  14098  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13513  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  13754  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  14073  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  14300  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  14253  impl/leave.h               takes every internal macro away again
+ *  14455  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1505,6 +1505,10 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
                                     const sl_int *places, sl_int columns, sl_int first,
                                     sl_int last);
 
+/* sums(i, j) -= y(k, i) z(k, j) over `count` rows of 8 lanes each; sums is 8 x 8 by rows. All 64-byte
+ * aligned. */
+typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
@@ -1514,6 +1518,7 @@ typedef struct sli_kernels {
     sli_rows_kernel rows;
     sli_update_kernel update;
     sli_assemble_kernel assemble;
+    sli_products_kernel products;
 } sli_kernels;
 
 #endif
@@ -2010,6 +2015,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -2392,6 +2416,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -2773,6 +2816,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -3605,7 +3667,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -4125,6 +4188,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -4492,6 +4574,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -5497,7 +5598,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -5960,6 +6062,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -6319,6 +6440,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -7324,7 +7464,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -7838,6 +7979,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -8217,6 +8377,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -9222,7 +9401,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -13338,9 +13518,19 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #define SLI_LANES_MAX 8
 #define SLI_REQUESTS_MAX 64 /* of one group: 8 columns make 36 pairs; more are repetitions */
 
-/* Time of a sweep of 1, 2, 4, 8 lanes over so many entries, its reach compiled before, in that of one
- * lane. */
-static const double sli_lanes_cost[SLI_LANES_COUNT] = {1.0, 1.3, 1.5, 2.0};
+/* Time of a sweep of 1, 2, 4, 8 lanes over so many entries, its reach compiled before it, in that of
+ * one lane: measured on grids of 1e4 to 1e6 vertices (Zen 4); NEON, which was not, as AVX2. */
+static const double sli_lanes_cost[][SLI_LANES_COUNT] = {{1.0, 1.3, 1.9, 3.3},  /* of any other */
+                                                         {1.0, 1.2, 3.8, 8.6},  /* plain C */
+                                                         {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
+                                                         {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
+
+SLI_INLINE const double *sli_lanes_cost_of(sl_isa isa) {
+    return sli_lanes_cost[isa == SL_ISA_SCALAR   ? 1
+                          : isa == SL_ISA_AVX2   ? 2
+                          : isa == SL_ISA_AVX512 ? 3
+                                                 : 0];
+}
 
 /* Columns of L that share a reach, a lane each. */
 typedef struct sli_group {
@@ -13382,6 +13572,7 @@ static int sli_group_add(sli_group *g, sl_int column, const sl_symbolic *S) {
 /* Entries of the inverse that are asked for, near-by ones side by side. */
 typedef struct sli_requests {
     const sl_symbolic *S;
+    const double *lanes_cost;
     const sl_int *rows, *columns; /* count each; one array: columns of the inverse, or its diagonal.
                                      NULL: 0, 1, 2, ... */
     sl_int count;
@@ -13389,6 +13580,18 @@ typedef struct sli_requests {
     uint64_t *order; /* count: a key, and the request's place in the caller's order */
     uint64_t *taken; /* count: scratch of the sort; then how many requests each group takes */
 } sli_requests;
+
+static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
+                                    sl_int count) {
+    sli_requests r;
+    memset(&r, 0, sizeof r);
+    r.S = F->S;
+    r.lanes_cost = sli_lanes_cost_of(F->kernels->isa);
+    r.rows = rows;
+    r.columns = columns;
+    r.count = count;
+    return r;
+}
 
 SLI_INLINE sl_int sli_request_row(const sli_requests *r, sl_int k) {
     return r->S->iperm[r->rows == NULL ? k : r->rows[k]];
@@ -13447,7 +13650,7 @@ static sl_int sli_group_choose(const sli_requests *r, sl_int k, sli_group *best)
     sli_group g;
     memset(&g, 0, sizeof g);
     for (; k < r->count && k - from < SLI_REQUESTS_MAX && sli_group_request(&g, r, k, r->S); k++) {
-        const double time = sli_lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
+        const double time = r->lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
                             (double)(k - from + 1);
         if (taken == 0 || time <= least) {
             least = time;
@@ -13704,11 +13907,7 @@ static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int
         return status;
     }
     sli_inverse_stats(stats);
-    memset(&r, 0, sizeof r);
-    r.S = F->S;
-    r.rows = rows;
-    r.columns = columns;
-    r.count = count;
+    r = sli_requests_of(F, rows, columns, count);
     own = sli_work_own(F);
     status = count == 0 ? SL_OK : sli_inverse_entries(F, out, &r, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
@@ -13880,36 +14079,43 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
  * or so of the sums between them. */
 #define SLI_KEPT 16
 
-/* sums[8 i + j] = y_i' D^-1 y_j over the columns that two sweeps share, lane i of f, lane j of g. */
-SLI_ALWAYS_INLINE void sli_cross_sums_in(const sl_factor *F, const sli_forward *f,
-                                         const sli_forward *g, sl_int f_lanes, sl_int g_lanes,
-                                         double *sums) {
+/* z = D^-1 y over the whole reach of a sweep: once for all that it meets. */
+static void sli_forward_weigh(const sl_factor *F, const sli_forward *f, double *z) {
+    sl_int s, k;
+    for (s = 0; s < f->reach.count; s++) {
+        const sli_step *step = &f->reach.steps[s];
+        const double *d = F->D + step->column;
+        for (k = 0; k < sli_step_columns(step); k++) {
+            const ptrdiff_t at = (ptrdiff_t)(step->base + k) * f->lanes;
+            sli_weigh(z + at, f->y + at, d[k], f->lanes);
+        }
+    }
+}
+
+/* sums[8 i + j] = y_i' z_j over the columns that two sweeps share, lane i of f, and lane j of g, whose
+ * weighed vectors are z. In plain C a block of 128 x 128 near-by vertices took 2.8 times as long. */
+static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_forward *g,
+                           const double *z, double *sums) {
     sli_meeting m = sli_meeting_of(&f->reach, &g->reach);
-    double sum[SLI_LANES_MAX * SLI_LANES_MAX];
     sl_int k, i, j;
-    memset(sum, 0, sizeof sum);
+    memset(sums, 0, SLI_LANES_MAX * SLI_LANES_MAX * sizeof(double));
     while (sli_meet(&m)) {
-        const double *d = F->D + m.column, *y = f->y + (ptrdiff_t)m.in_a * f_lanes;
-        const double *x = g->y + (ptrdiff_t)m.in_b * g_lanes;
-        for (k = 0; k < m.count; k++, y += f_lanes, x += g_lanes) {
-            double z[SLI_LANES_MAX];
-            sli_weigh(z, y, d[k], f_lanes);
-            for (i = 0; i < f_lanes; i++) {
-                for (j = 0; j < g_lanes; j++) {
-                    sum[SLI_LANES_MAX * i + j] += z[i] * x[j];
+        const double *y = f->y + (ptrdiff_t)m.in_a * f->lanes;
+        const double *x = z + (ptrdiff_t)m.in_b * g->lanes;
+        if (f->lanes == SLI_LANES_MAX && g->lanes == SLI_LANES_MAX) {
+            F->kernels->products(m.count, y, x, sums);
+            continue;
+        }
+        for (k = 0; k < m.count; k++, y += f->lanes, x += g->lanes) {
+            for (i = 0; i < f->lanes; i++) {
+                for (j = 0; j < g->lanes; j++) {
+                    sums[SLI_LANES_MAX * i + j] -= y[i] * x[j];
                 }
             }
         }
     }
-    memcpy(sums, sum, sizeof sum);
-}
-
-static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_forward *g,
-                           double *sums) {
-    if (f->lanes == 8 && g->lanes == 8) { /* counted loops of a known length */
-        sli_cross_sums_in(F, f, g, 8, 8, sums);
-    } else {
-        sli_cross_sums_in(F, f, g, f->lanes, g->lanes, sums);
+    for (k = 0; k < SLI_LANES_MAX * SLI_LANES_MAX; k++) {
+        sums[k] = -sums[k];
     }
 }
 
@@ -13928,6 +14134,7 @@ typedef struct sli_inverse_block {
     int is_symmetric;                   /* both sides are one: kept serves as passing */
     sli_requests kept, passing;
     sli_swept sweeps[SLI_KEPT], pass;
+    double *weighed; /* of the group that passes by */
 } sli_inverse_block;
 
 static void sli_block_layout_requests(sli_inverse_block *q, sli_block *b) {
@@ -13944,6 +14151,8 @@ static void sli_block_layout_sweeps(sli_inverse_block *q, sli_block *b, const sl
     sl_int k;
     both.rows = passing->rows > both.rows ? passing->rows : both.rows;
     both.scratch = passing->scratch > both.scratch ? passing->scratch : both.scratch;
+    q->weighed = SLI_TAKE(b, double,
+                          passing->values > kept->values ? passing->values : kept->values);
     sli_forward_layout(&q->pass.forward, b, passing);
     sli_forward_layout_run(&q->pass.forward, b, &both);
     for (k = 0; k < count; k++) {
@@ -13962,12 +14171,12 @@ static void sli_swept_make(sli_swept *s, const sl_factor *F, const sli_requests 
     sli_forward_group(&s->forward, F, &s->group, stats);
 }
 
-/* Every entry between two groups. */
+/* Every entry between two groups, the second one weighed. */
 static void sli_block_write(const sli_inverse_block *q, const sli_swept *a, const sli_swept *b) {
     const sli_requests *passing = q->is_symmetric ? &q->kept : &q->passing;
-    double sums[SLI_LANES_MAX * SLI_LANES_MAX];
+    SLI_ALIGNED(double sums[SLI_LANES_MAX * SLI_LANES_MAX]);
     sl_int i, j;
-    sli_cross_sums(q->F, &a->forward, &b->forward, sums);
+    sli_cross_sums(q->F, &a->forward, &b->forward, q->weighed, sums);
     for (i = 0; i < a->taken; i++) {
         const sl_int from = sli_value(q->kept.order[a->first + i]);
         const sl_int lane = sli_group_lane(&a->group, sli_request_row(&q->kept, from));
@@ -13999,6 +14208,7 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
             first += taken;
         }
         for (k = 0; q->is_symmetric && k < count; k++) {
+            sli_forward_weigh(q->F, &q->sweeps[k].forward, q->weighed);
             for (m = 0; m <= k; m++) {
                 sli_block_write(q, &q->sweeps[m], &q->sweeps[k]);
             }
@@ -14007,6 +14217,7 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
         for (k = q->is_symmetric ? chunk + count : 0; k < passing->n_groups; k++) {
             const sl_int taken = (sl_int)passing->taken[k];
             sli_swept_make(&q->pass, q->F, passing, at, taken, stats);
+            sli_forward_weigh(q->F, &q->pass.forward, q->weighed);
             for (m = 0; m < count; m++) {
                 sli_block_write(q, &q->sweeps[m], &q->pass);
             }
@@ -14047,15 +14258,6 @@ static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *st
     return SL_OK;
 }
 
-static sli_requests sli_requests_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
-    sli_requests r;
-    memset(&r, 0, sizeof r);
-    r.S = S;
-    r.rows = r.columns = rows;
-    r.count = count;
-    return r;
-}
-
 SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,
                                   sl_int n_rows, const sl_int *columns, sl_int n_columns,
                                   sl_work *W, sl_stats *stats) {
@@ -14081,10 +14283,10 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     q.F = F;
     q.Z = Z;
     q.is_symmetric = rows == columns && n_rows == n_columns;
-    q.kept = rows_pass ? sli_requests_of(F->S, columns, n_columns)
-                       : sli_requests_of(F->S, rows, n_rows);
-    q.passing = rows_pass ? sli_requests_of(F->S, rows, n_rows)
-                          : sli_requests_of(F->S, columns, n_columns);
+    q.kept = rows_pass ? sli_requests_of(F, columns, columns, n_columns)
+                       : sli_requests_of(F, rows, rows, n_rows);
+    q.passing = rows_pass ? sli_requests_of(F, rows, rows, n_rows)
+                          : sli_requests_of(F, columns, columns, n_columns);
     q.kept_stride = rows_pass ? ldz : 1;
     q.passing_stride = rows_pass ? 1 : ldz;
     own = sli_work_own(F);

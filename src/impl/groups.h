@@ -7,9 +7,19 @@
 #define SLI_LANES_MAX 8
 #define SLI_REQUESTS_MAX 64 /* of one group: 8 columns make 36 pairs; more are repetitions */
 
-/* Time of a sweep of 1, 2, 4, 8 lanes over so many entries, its reach compiled before, in that of one
- * lane. */
-static const double sli_lanes_cost[SLI_LANES_COUNT] = {1.0, 1.3, 1.5, 2.0};
+/* Time of a sweep of 1, 2, 4, 8 lanes over so many entries, its reach compiled before it, in that of
+ * one lane: measured on grids of 1e4 to 1e6 vertices (Zen 4); NEON, which was not, as AVX2. */
+static const double sli_lanes_cost[][SLI_LANES_COUNT] = {{1.0, 1.3, 1.9, 3.3},  /* of any other */
+                                                         {1.0, 1.2, 3.8, 8.6},  /* plain C */
+                                                         {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
+                                                         {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
+
+SLI_INLINE const double *sli_lanes_cost_of(sl_isa isa) {
+    return sli_lanes_cost[isa == SL_ISA_SCALAR   ? 1
+                          : isa == SL_ISA_AVX2   ? 2
+                          : isa == SL_ISA_AVX512 ? 3
+                                                 : 0];
+}
 
 /* Columns of L that share a reach, a lane each. */
 typedef struct sli_group {
@@ -51,6 +61,7 @@ static int sli_group_add(sli_group *g, sl_int column, const sl_symbolic *S) {
 /* Entries of the inverse that are asked for, near-by ones side by side. */
 typedef struct sli_requests {
     const sl_symbolic *S;
+    const double *lanes_cost;
     const sl_int *rows, *columns; /* count each; one array: columns of the inverse, or its diagonal.
                                      NULL: 0, 1, 2, ... */
     sl_int count;
@@ -58,6 +69,18 @@ typedef struct sli_requests {
     uint64_t *order; /* count: a key, and the request's place in the caller's order */
     uint64_t *taken; /* count: scratch of the sort; then how many requests each group takes */
 } sli_requests;
+
+static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
+                                    sl_int count) {
+    sli_requests r;
+    memset(&r, 0, sizeof r);
+    r.S = F->S;
+    r.lanes_cost = sli_lanes_cost_of(F->kernels->isa);
+    r.rows = rows;
+    r.columns = columns;
+    r.count = count;
+    return r;
+}
 
 SLI_INLINE sl_int sli_request_row(const sli_requests *r, sl_int k) {
     return r->S->iperm[r->rows == NULL ? k : r->rows[k]];
@@ -116,7 +139,7 @@ static sl_int sli_group_choose(const sli_requests *r, sl_int k, sli_group *best)
     sli_group g;
     memset(&g, 0, sizeof g);
     for (; k < r->count && k - from < SLI_REQUESTS_MAX && sli_group_request(&g, r, k, r->S); k++) {
-        const double time = sli_lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
+        const double time = r->lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
                             (double)(k - from + 1);
         if (taken == 0 || time <= least) {
             least = time;

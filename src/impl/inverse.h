@@ -157,11 +157,7 @@ static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int
         return status;
     }
     sli_inverse_stats(stats);
-    memset(&r, 0, sizeof r);
-    r.S = F->S;
-    r.rows = rows;
-    r.columns = columns;
-    r.count = count;
+    r = sli_requests_of(F, rows, columns, count);
     own = sli_work_own(F);
     status = count == 0 ? SL_OK : sli_inverse_entries(F, out, &r, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
