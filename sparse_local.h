@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 6c74f55cdf461b72
+ * FNV-1a of all that follows this comment, license aside: c99dc3e96a53d7ae
  *
  * Contents
  *         (what a user reads)
@@ -12,67 +12,67 @@
  *    626  public/solve.h             full solves, and the workspace that every solve writes to
  *    695  public/plan.h              local solves: b known on a few rows, x wanted on a few others
  *    781  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    859  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    860  public/batch.h             many independent solves with one factor, spread over threads by one call
  *         (bodies, in one source file)
  *         (L0 ground)
- *    905  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    996  impl/status.h              status codes in words, and the error fields of stats
- *   1052  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1177  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1252  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1289  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    906  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *    997  impl/status.h              status codes in words, and the error fields of stats
+ *   1053  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1178  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1253  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1290  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1323  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1526  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1666  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1696  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2867  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2912  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3049  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3252  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3414  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3674  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3722  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3857  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4669  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5655  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7522  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9458  impl/select.h              the kernel table for an instruction set
+ *   1324  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1527  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1667  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1697  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2868  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2913  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3050  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3253  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3415  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3675  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3723  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3858  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4670  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5656  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7523  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9459  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9491  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9919  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9992  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9492  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *   9920  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *   9993  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10346  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10385  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10532  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10646  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10790  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10875  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10948  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  11114  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  11190  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  11231  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11424  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11710  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10347  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10386  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10533  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10647  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10791  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10876  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  10949  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  11115  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  11191  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11232  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11425  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11711  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11943  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  12063  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  12144  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12402  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12489  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12781  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12876  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12936  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  13173  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  13215  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  11944  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  12064  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  12145  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12403  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12490  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12782  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  12877  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  12937  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  13174  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13216  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13513  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  13754  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  14073  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  14300  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13514  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  13755  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  14074  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  14301  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  14455  impl/leave.h               takes every internal macro away again
+ *  14456  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -330,7 +330,7 @@ typedef struct sl_stats {
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
-    /* sl_plan_create, sl_local_solve */
+    /* sl_plan_create, sl_local_solve; sl_inverse_*, which have no backward sweep */
     sl_int b_supernodes; /* visited by the forward sweep */
     sl_int b_columns;
     sl_off b_entries;    /* doubles of L that the forward sweep reads */
@@ -800,8 +800,9 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
  *                   of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
- *  Cost     2 b_entries flops a lane: up to 8 lanes take about twice the time of one. Nothing O(n); no allocation once
- *           W has grown to the largest reach and 16 bytes a request.
+ *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
+ *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Example  tests/test_inverse.c
@@ -13834,7 +13835,7 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
     return SL_OK;
 }
 
-/* What the last group of the requests before k + taken asks for. */
+/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
 static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sli_forward *f,
                              const sli_group *g, sl_int k, sl_int taken, double *out) {
     sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;

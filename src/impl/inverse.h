@@ -84,7 +84,7 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
     return SL_OK;
 }
 
-/* What the last group of the requests before k + taken asks for. */
+/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
 static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sli_forward *f,
                              const sli_group *g, sl_int k, sl_int taken, double *out) {
     sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;

@@ -21,8 +21,9 @@
  *                   of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
- *  Cost     2 b_entries flops a lane: up to 8 lanes take about twice the time of one. Nothing O(n); no allocation once
- *           W has grown to the largest reach and 16 bytes a request.
+ *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
+ *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Example  tests/test_inverse.c
