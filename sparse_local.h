@@ -1,74 +1,78 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e13e409576ada4c5
+ * FNV-1a of all that follows this comment, license aside: c7639e67206a3ad2
  *
  * Contents
  *         (what a user reads)
- *     76  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    125  public/config.h            what a user may set before including the header, the version, and the integer types
- *    174  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    354  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    474  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    536  public/factor.h            the numbers: P A P' = L D L'
- *    642  public/solve.h             full solves, and the workspace that every solve writes to
- *    711  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    797  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *     80  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    129  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    178  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    358  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    478  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    540  public/factor.h            the numbers: P A P' = L D L'
+ *    646  public/solve.h             full solves, and the workspace that every solve writes to
+ *    715  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    801  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    880  public/batch.h             many independent solves with one factor, spread over threads by one call
  *         (bodies, in one source file)
  *         (L0 ground)
- *    843  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    934  impl/status.h              status codes in words, and the error fields of stats
- *    990  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1115  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1190  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1227  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    926  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1017  impl/status.h              status codes in words, and the error fields of stats
+ *   1073  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1198  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1273  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1310  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1261  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1472  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1612  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1642  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2756  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2801  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2938  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3151  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3313  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3581  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3629  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3764  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4538  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5542  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7389  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9305  impl/select.h              the kernel table for an instruction set
+ *   1344  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1560  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1700  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1730  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2901  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2946  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3083  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3296  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3458  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3727  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3775  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   3910  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4722  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   5727  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   7613  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *   9568  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9338  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9766  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9839  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *   9601  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  10029  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  10102  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10193  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10232  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10379  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10493  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10637  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10722  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10795  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10961  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  11037  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  11078  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11271  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11557  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  10456  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  10495  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  10642  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  10756  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  10900  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  10985  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  11058  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  11224  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  11300  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  11341  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  11534  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  11820  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11720  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11852  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11938  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12198  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12285  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12579  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12695  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12755  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  13004  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  13046  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  12053  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  12185  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  12271  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  12531  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  12618  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  12912  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  13028  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  13088  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  13325  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13367  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13348  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  13665  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  13906  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  14225  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  14452  impl/batch.h               independent solves spread over workers by the entries of L that they read
  *         (last: takes every internal macro away again)
- *  13503  impl/leave.h               takes every internal macro away again
+ *  14607  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -333,7 +337,7 @@ typedef struct sl_stats {
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
-    /* sl_plan_create, sl_local_solve */
+    /* sl_plan_create, sl_local_solve; sl_inverse_*, which have no backward sweep */
     sl_int b_supernodes; /* visited by the forward sweep */
     sl_int b_columns;
     sl_off b_entries;    /* doubles of L that the forward sweep reads */
@@ -794,6 +798,85 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 
 #endif
 /* end src/public/plan.h */
+/* begin src/public/inverse.h */
+/* inverse.h: entries, blocks and bilinear forms of the inverse, by forward sweeps alone */
+#ifndef SL_PUBLIC_INVERSE_H
+#define SL_PUBLIC_INVERSE_H
+
+/* With P A P' = L D L', y = L^-1 P b and z = L^-1 P c,
+ *
+ *     c' A^-1 b = sum over columns k of y(k) z(k) / d(k),
+ *
+ * where only the common ancestors of b and c in the elimination tree count: a forward sweep for each and no backward
+ * sweep. Requests are sorted inside, and near-by ones share one sweep of up to 8 lanes; results come in the caller's
+ * order, and equal those of full solves to rounding. What they share depends on what else is asked for in the same call,
+ * and so do the last bits.
+ *
+ * All calls below
+ *  F      [in]      a factor of A, n x n.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  stats  [out]     b_entries: doubles of L that all sweeps of the call read together; b_supernodes, b_columns: of the
+ *                   largest of their reaches; the rest of the plan group is 0. error_row, error_column: an index out
+ *                   of range. May be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
+ *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
+ *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
+ *  Example  tests/test_inverse.c
+ */
+
+/** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
+ *
+ *  out    [out]  count values.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repeated or not; NULL (with count ignored): all n.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *out,
+                                                    const sl_int *rows, sl_int count, sl_work *W,
+                                                    sl_stats *stats);
+
+/** Entries of the inverse: out[k] = (A^-1)(rows[k], columns[k]).
+ *
+ *  out    [out]  count values.
+ *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out,
+                                                 const sl_int *rows, const sl_int *columns,
+                                                 sl_int count, sl_work *W, sl_stats *stats);
+
+/** A dense block of the inverse: Z(i, j) = (A^-1)(rows[i], columns[j]).
+ *
+ *  Z        [out]  n_rows x n_columns, column-major, leading dimension ldz >= n_rows elements.
+ *  rows     [in]   n_rows rows of A in 0..n-1, any order, repeated or not.
+ *  columns  [in]   n_columns, the same. Where it is the same array as rows, of the same length, each sweep and each
+ *                  entry is computed once and the block is exactly symmetric.
+ *  Cost     beyond the sweeps n_rows n_columns times the common columns; W holds 128 vectors of the shorter side at
+ *           a time, and the longer side is swept again for each further 128 (not where both are one array).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                                                 const sl_int *rows, sl_int n_rows,
+                                                 const sl_int *columns, sl_int n_columns,
+                                                 sl_work *W, sl_stats *stats);
+
+/** A bilinear form of the inverse: out = c' A^-1 b for sparse b and c.
+ *
+ *  out   [out]  one value.
+ *  cset  [in]   nc rows of A in 0..n-1, any order, those given twice summed; NULL (with nc ignored): all n. c is 0
+ *               elsewhere.
+ *  c     [in]   nc values.
+ *  bset  [in]   nb rows of A, the same.
+ *  b     [in]   nb values. Where both sets and both values are the same arrays, b' A^-1 b takes half the operations.
+ *               An index out of range is error_row in cset, error_column in bset.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *out,
+                                                    const sl_int *cset, const double *c, sl_int nc,
+                                                    const sl_int *bset, const double *b, sl_int nb,
+                                                    sl_work *W, sl_stats *stats);
+
+#endif
+/* end src/public/inverse.h */
 /* begin src/public/batch.h */
 /* batch.h: many independent solves with one factor, spread over threads by one call */
 #ifndef SL_PUBLIC_BATCH_H
@@ -1456,6 +1539,10 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
                                     const sl_int *places, sl_int columns, sl_int first,
                                     sl_int last);
 
+/* sums(i, j) -= y(k, i) z(k, j) over `count` rows of 8 lanes each; sums is 8 x 8 by rows. All 64-byte
+ * aligned. */
+typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
@@ -1465,6 +1552,7 @@ typedef struct sli_kernels {
     sli_rows_kernel rows;
     sli_update_kernel update;
     sli_assemble_kernel assemble;
+    sli_products_kernel products;
 } sli_kernels;
 
 #endif
@@ -1961,6 +2049,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -2343,6 +2450,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -2724,6 +2850,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -3575,7 +3720,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -4095,6 +4241,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -4462,6 +4627,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -5486,7 +5670,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -5949,6 +6134,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -6308,6 +6512,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -7332,7 +7555,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -7846,6 +8070,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
@@ -8225,6 +8468,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         }
     }
 }
+
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -9249,7 +9511,8 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -11601,18 +11864,42 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
     return S->n_supers;
 }
 
+/* Doubles of L that a sweep reads of a panel it enters at a tile. */
+SLI_INLINE sl_off sli_entries_from(sl_int width, sl_int below, sl_int first_tile) {
+    return sli_panel_size(width, below) - sli_tile_offset(width, first_tile) -
+           (sl_off)SLI_TILE * SLI_TILE * first_tile * (sli_tiles(width + below) - first_tile);
+}
+
+/* Adds what column k brings to a reach: the supernodes of its path up to where it meets the path of
+ * the nearest column of the reach before it or behind it; -1 for none. Exact are supernodes, rows,
+ * height and width; columns are those of whole supernodes, and entries leave out that k may enter
+ * what it shares at an earlier tile. O(supernodes added). */
+static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
+                          sli_reach *R) {
+    const sl_int low = before < 0 ? -1 : S->super_of[before];
+    const sl_int high = behind < 0 ? S->n_supers : S->super_of[behind];
+    sl_int s = S->super_of[k];
+    while (s != -1 && s < high && S->descendant[s] > low) {
+        const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+        const sl_int below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+        R->count++;
+        R->n_rows += below;
+        R->columns += width;
+        R->widest = sli_max(R->widest, width);
+        R->tallest = sli_max(R->tallest, width + below);
+        R->entries += sli_entries_from(width, below, (k - first) / SLI_TILE);
+        k = below > 0 ? S->rows[S->rows_begin[s]] : k;
+        s = S->super_parent[s];
+    }
+}
+
 /* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
 static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                               sli_reach *R) {
-    sl_int k = 0, s, next;
+    sl_int k;
     memset(R, 0, sizeof *R);
-    while (k < count) {
-        s = S->super_of[sli_key(seeds[k])];
-        next = sli_next_seed(S, seeds, count, &k);
-        for (; s != -1 && s < next; s = S->super_parent[s]) {
-            R->count++;
-            R->n_rows += S->rows_begin[s + 1] - S->rows_begin[s];
-        }
+    for (k = 0; k < count; k++) {
+        sli_reach_add(S, sli_key(seeds[k]), k > 0 ? sli_key(seeds[k - 1]) : -1, -1, R);
     }
 }
 
@@ -11680,12 +11967,12 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows
- * skip many ancestors. */
+/* Compiles the reach of seeds; sli_reach_measure tells the room it takes. O(reach), times a
+ * logarithm where rows skip many ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
-    sl_off placed = 0;
+    memset(R, 0, sizeof *R);
     while (k < count) {
         sl_int seed = sli_key(seeds[k]);
         s = S->super_of[seed];
@@ -11695,23 +11982,69 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
             seed = INT32_MAX;
         }
     }
+    R->count = at;
     for (at = 0; at < R->count; at++) {
         const sli_step *step = &steps[at];
         steps[at].base = R->columns;
         R->columns += sli_step_columns(step);
         R->widest = sli_max(R->widest, step->width);
         R->tallest = sli_max(R->tallest, step->width + step->below);
-        R->entries += sli_panel_size(step->width, step->below) -
-                      sli_tile_offset(step->width, step->first_tile) -
-                      (sl_off)SLI_TILE * SLI_TILE * step->first_tile *
-                          (sli_tiles(step->width + step->below) - step->first_tile);
+        R->entries += sli_entries_from(step->width, step->below, step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, R->count, at, rows + placed);
-        placed += steps[at].below;
+        sli_reach_places(S, steps, R->count, at, rows + R->n_rows);
+        R->n_rows += steps[at].below;
     }
     R->steps = steps;
     R->rows = rows;
+}
+
+/* The place of a column in the reach's vector. *at, 0 at first, remembers the step for the next
+ * column, which is not smaller. */
+SLI_INLINE sl_int sli_reach_place(const sli_reach *R, sl_int *at, sl_int column) {
+    while (column >= R->steps[*at].column + sli_step_columns(&R->steps[*at])) {
+        ++*at;
+    }
+    return column - R->steps[*at].column + R->steps[*at].base;
+}
+
+/* A walk over the supernodes that two reaches share: set up by sli_meeting_of, then sli_meet until it
+ * gives 0. */
+typedef struct sli_meeting {
+    const sli_step *a, *a_end, *b, *b_end;
+    sl_int count;      /* columns shared of the supernode at hand */
+    sl_int column;     /* the first of them, and */
+    sl_int in_a, in_b; /* its places in the two vectors */
+} sli_meeting;
+
+SLI_INLINE sli_meeting sli_meeting_of(const sli_reach *a, const sli_reach *b) {
+    sli_meeting m;
+    memset(&m, 0, sizeof m);
+    m.a = a->steps;
+    m.a_end = a->steps + a->count;
+    m.b = b->steps;
+    m.b_end = b->steps + b->count;
+    return m;
+}
+
+SLI_INLINE int sli_meet(sli_meeting *m) {
+    while (m->a < m->a_end && m->b < m->b_end) {
+        if (m->a->panel == m->b->panel) { /* a panel belongs to one supernode */
+            m->column = sli_max(m->a->column, m->b->column);
+            m->count = m->a->column + sli_step_columns(m->a) - m->column;
+            m->in_a = m->a->base + m->column - m->a->column;
+            m->in_b = m->b->base + m->column - m->b->column;
+            m->a++;
+            m->b++;
+            return 1;
+        }
+        if (m->a->panel < m->b->panel) {
+            m->a++;
+        } else {
+            m->b++;
+        }
+    }
+    return 0;
 }
 
 #endif
@@ -12903,23 +13236,11 @@ static void sli_unpack(const sli_query *q, double *X, sli_dense at, const double
 /* y carried over to the columns that both reaches have; the rest of the backward vector starts from
  * 0. */
 static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lanes) {
-    const sli_step *f = q->forward.steps, *b = q->backward.steps;
-    const sli_step *f_end = f + q->forward.count, *b_end = b + q->backward.count;
+    sli_meeting m = sli_meeting_of(&q->forward, &q->backward);
     memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
-    while (f < f_end && b < b_end) {
-        if (f->panel == b->panel) { /* a panel belongs to one supernode */
-            const sl_int column = sli_max(f->column, b->column);
-            const sl_int count = f->column + sli_step_columns(f) - column;
-            memcpy(x + (ptrdiff_t)(b->base + column - b->column) * lanes,
-                   y + (ptrdiff_t)(f->base + column - f->column) * lanes,
-                   (size_t)count * (size_t)lanes * sizeof(double));
-            f++;
-            b++;
-        } else if (f->panel < b->panel) {
-            f++;
-        } else {
-            b++;
-        }
+    while (sli_meet(&m)) {
+        memcpy(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
+               (size_t)m.count * (size_t)lanes * sizeof(double));
     }
 }
 
@@ -13123,11 +13444,7 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
     }
     sli_reach_fill(S, set->seeds, set->count, set->steps, set->compact, R);
     for (k = 0; k < set->count; k++) {
-        const sl_int column = sli_key(set->seeds[k]);
-        while (column >= set->steps[at].column + sli_step_columns(&set->steps[at])) {
-            at++;
-        }
-        set->place[sli_value(set->seeds[k])] = column - set->steps[at].column + set->steps[at].base;
+        set->place[sli_value(set->seeds[k])] = sli_reach_place(R, &at, sli_key(set->seeds[k]));
     }
     *place = set->place;
 }
@@ -13345,6 +13662,793 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #endif
 /* end src/impl/plan.h */
 /* L5 on a factor */
+/* begin src/impl/groups.h */
+/* groups.h: unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together */
+#ifndef SLI_GROUPS_H
+#define SLI_GROUPS_H
+
+#define SLI_LANES_MAX 8
+#define SLI_REQUESTS_MAX 64 /* of one group: 8 columns make 36 pairs; more are repetitions */
+
+/* Time of a sweep of 1, 2, 4, 8 lanes over so many entries, its reach compiled before it, in that of
+ * one lane: measured on grids of 1e4 to 1e6 vertices (Zen 4); NEON, which was not, as AVX2. */
+static const double sli_lanes_cost[][SLI_LANES_COUNT] = {{1.0, 1.3, 1.9, 3.3},  /* of any other */
+                                                         {1.0, 1.2, 3.8, 8.6},  /* plain C */
+                                                         {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
+                                                         {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
+
+SLI_INLINE const double *sli_lanes_cost_of(sl_isa isa) {
+    return sli_lanes_cost[isa == SL_ISA_SCALAR   ? 1
+                          : isa == SL_ISA_AVX2   ? 2
+                          : isa == SL_ISA_AVX512 ? 3
+                                                 : 0];
+}
+
+/* Columns of L that share a reach, a lane each. */
+typedef struct sli_group {
+    sl_int count;
+    uint64_t seeds[SLI_LANES_MAX]; /* the columns, ascending: the k-th has lane k */
+    sli_reach size;                /* as sli_reach_add counts it; not compiled */
+} sli_group;
+
+/* The lane of a column, or the one it would take. */
+SLI_INLINE sl_int sli_group_lane(const sli_group *g, sl_int column) {
+    sl_int at = 0;
+    while (at < g->count && sli_key(g->seeds[at]) < column) {
+        at++;
+    }
+    return at;
+}
+
+/* Takes a column in; 0 where no lane is left. S NULL: its path is not counted. */
+static int sli_group_add(sli_group *g, sl_int column, const sl_symbolic *S) {
+    const sl_int at = sli_group_lane(g, column);
+    sl_int k;
+    if (at < g->count && sli_key(g->seeds[at]) == column) {
+        return 1;
+    }
+    if (g->count == SLI_LANES_MAX) {
+        return 0;
+    }
+    if (S != NULL) {
+        sli_reach_add(S, column, at > 0 ? sli_key(g->seeds[at - 1]) : -1,
+                      at < g->count ? sli_key(g->seeds[at]) : -1, &g->size);
+    }
+    for (k = g->count++; k > at; k--) {
+        g->seeds[k] = g->seeds[k - 1];
+    }
+    g->seeds[at] = sli_keyed(column, 0);
+    return 1;
+}
+
+/* Entries of the inverse that are asked for, near-by ones side by side. */
+typedef struct sli_requests {
+    const sl_symbolic *S;
+    const double *lanes_cost;
+    const sl_int *rows, *columns; /* count each; one array: columns of the inverse, or its diagonal.
+                                     NULL: 0, 1, 2, ... */
+    sl_int count;
+    sl_int n_groups;
+    uint64_t *order; /* count: a key, and the request's place in the caller's order */
+    uint64_t *taken; /* count: scratch of the sort; then how many requests each group takes */
+} sli_requests;
+
+static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
+                                    sl_int count) {
+    sli_requests r;
+    memset(&r, 0, sizeof r);
+    r.S = F->S;
+    r.lanes_cost = sli_lanes_cost_of(F->kernels->isa);
+    r.rows = rows;
+    r.columns = columns;
+    r.count = count;
+    return r;
+}
+
+SLI_INLINE sl_int sli_request_row(const sli_requests *r, sl_int k) {
+    return r->S->iperm[r->rows == NULL ? k : r->rows[k]];
+}
+
+SLI_INLINE sl_int sli_request_column(const sli_requests *r, sl_int k) {
+    return r->S->iperm[r->columns == NULL ? k : r->columns[k]];
+}
+
+static void sli_requests_layout(sli_requests *r, sli_block *b) {
+    r->order = SLI_TAKE(b, uint64_t, r->count);
+    r->taken = SLI_TAKE(b, uint64_t, r->count);
+}
+
+/* The lower 15 bits, with room for another bit before each. */
+SLI_INLINE uint32_t sli_widen_bits(uint32_t a) {
+    a = (a | a << 8) & 0x00ff00ffu;
+    a = (a | a << 4) & 0x0f0f0f0fu;
+    a = (a | a << 2) & 0x33333333u;
+    return (a | a << 1) & 0x55555555u;
+}
+
+/* Sorts requests: single columns by themselves, as they are numbered in postorder. Pairs along a
+ * Z-curve through (larger, smaller), so that near-by requests are near-by in both. */
+static void sli_requests_sort(sli_requests *r) {
+    sl_int k;
+    int shift = 0;
+    while ((r->S->n - 1) >> shift >= 1 << 15) {
+        shift++;
+    }
+    for (k = 0; k < r->count; k++) {
+        const sl_int i = sli_request_row(r, k), j = sli_request_column(r, k);
+        const uint32_t high = (uint32_t)(sli_max(i, j) >> shift);
+        const uint32_t low = (uint32_t)(sli_min(i, j) >> shift);
+        const sl_int key = r->rows == r->columns
+                               ? i
+                               : (sl_int)(sli_widen_bits(high) << 1 | sli_widen_bits(low));
+        r->order[k] = sli_keyed(key, k);
+    }
+    sli_sort(r->order, r->count, r->taken);
+}
+
+/* Adds both columns of the k-th of the sorted requests to a group; 0 where no lane is left. */
+SLI_INLINE int sli_group_request(sli_group *g, const sli_requests *r, sl_int k,
+                                 const sl_symbolic *S) {
+    const sl_int at = sli_value(r->order[k]);
+    return sli_group_add(g, sli_request_row(r, at), S) &&
+           sli_group_add(g, sli_request_column(r, at), S);
+}
+
+/* The group that starts at the k-th of the sorted requests: as many as make the time of one least. */
+static sl_int sli_group_choose(const sli_requests *r, sl_int k, sli_group *best) {
+    const sl_int from = k;
+    double least = 0.0;
+    sl_int taken = 0;
+    sli_group g;
+    memset(&g, 0, sizeof g);
+    for (; k < r->count && k - from < SLI_REQUESTS_MAX && sli_group_request(&g, r, k, r->S); k++) {
+        const double time = r->lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
+                            (double)(k - from + 1);
+        if (taken == 0 || time <= least) {
+            least = time;
+            taken = k - from + 1;
+            *best = g;
+        }
+    }
+    return taken;
+}
+
+/* The same group again: `taken` requests. */
+static void sli_group_again(const sli_requests *r, sl_int k, sl_int taken, sli_group *g) {
+    memset(g, 0, sizeof *g);
+    for (; taken > 0; taken--, k++) {
+        (void)sli_group_request(g, r, k, NULL);
+    }
+}
+
+/* Room for any of several sweeps. */
+typedef struct sli_room {
+    uint64_t steps, rows, values, scratch;
+} sli_room;
+
+static void sli_room_add(sli_room *room, const sli_reach *R, sl_int lanes) {
+    const uint64_t steps = (uint64_t)R->count, rows = (uint64_t)R->n_rows;
+    const uint64_t values = (uint64_t)R->columns * (uint64_t)lanes;
+    const uint64_t scratch = sli_scratch_size(R->tallest, R->widest, lanes);
+    room->steps = steps > room->steps ? steps : room->steps;
+    room->rows = rows > room->rows ? rows : room->rows;
+    room->values = values > room->values ? values : room->values;
+    room->scratch = scratch > room->scratch ? scratch : room->scratch;
+}
+
+/* Sorts and groups requests, and finds the room their sweeps need. */
+static void sli_requests_group(sli_requests *r, sli_room *room) {
+    sl_int k = 0;
+    sli_requests_sort(r);
+    for (r->n_groups = 0; k < r->count; r->n_groups++) {
+        sli_group g;
+        const sl_int taken = sli_group_choose(r, k, &g);
+        sli_room_add(room, &g.size, (sl_int)1 << sli_lanes_kind(g.count));
+        r->taken[r->n_groups] = (uint64_t)taken;
+        k += taken;
+    }
+}
+
+/* A forward sweep: its reach and vector stay, the rest serves while it runs. */
+typedef struct sli_forward {
+    sli_reach reach;
+    int kind;
+    sl_int lanes;
+    sli_step *steps;
+    double *y; /* reach.columns x lanes, interleaved */
+    sl_int *rows;
+    double *scratch;
+} sli_forward;
+
+static void sli_forward_layout(sli_forward *f, sli_block *b, const sli_room *room) {
+    f->steps = SLI_TAKE(b, sli_step, room->steps);
+    f->y = SLI_TAKE(b, double, room->values);
+}
+
+static void sli_forward_layout_run(sli_forward *f, sli_block *b, const sli_room *room) {
+    f->rows = SLI_TAKE(b, sl_int, room->rows);
+    f->scratch = SLI_TAKE(b, double, room->scratch);
+}
+
+/* The number of lanes for so many vectors, and those all 0 over a compiled reach. */
+static void sli_forward_clear(sli_forward *f, sl_int vectors) {
+    f->kind = sli_lanes_kind(vectors);
+    f->lanes = (sl_int)1 << f->kind;
+    memset(f->y, 0, (size_t)f->reach.columns * (size_t)f->lanes * sizeof(double));
+}
+
+/* y := L^-1 y; says in stats what was read. */
+static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats) {
+    F->kernels->forward[f->kind](f->reach.count, f->reach.steps, f->reach.rows, F->L, f->y,
+                                 f->scratch);
+    if (stats != NULL) {
+        stats->b_supernodes = sli_max(stats->b_supernodes, f->reach.count);
+        stats->b_columns = sli_max(stats->b_columns, f->reach.columns);
+        stats->b_entries += f->reach.entries;
+    }
+}
+
+/* L^-1 times the unit vectors of a group. */
+static void sli_forward_group(sli_forward *f, const sl_factor *F, const sli_group *g,
+                              sl_stats *stats) {
+    sl_int k, at = 0;
+    sli_reach_fill(F->S, g->seeds, g->count, f->steps, f->rows, &f->reach);
+    sli_forward_clear(f, g->count);
+    for (k = 0; k < g->count; k++) {
+        const sl_int place = sli_reach_place(&f->reach, &at, sli_key(g->seeds[k]));
+        f->y[(ptrdiff_t)place * f->lanes + k] = 1.0;
+    }
+    sli_forward_run(f, F, stats);
+}
+
+#endif
+/* end src/impl/groups.h */
+/* begin src/impl/inverse.h */
+/* inverse.h: entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D */
+#ifndef SLI_INVERSE_H
+#define SLI_INVERSE_H
+
+/* z = y / d in every lane, by one division. Where 1/d is out of range or short of digits, each for
+ * itself. */
+SLI_ALWAYS_INLINE void sli_weigh(double *z, const double *y, double d, sl_int lanes) {
+    const double inverse = 1.0 / d, size = fabs(inverse);
+    sl_int k;
+    if (size >= DBL_MIN && size <= DBL_MAX) {
+        for (k = 0; k < lanes; k++) {
+            z[k] = y[k] * inverse;
+        }
+    } else {
+        for (k = 0; k < lanes; k++) {
+            z[k] = y[k] / d;
+        }
+    }
+}
+
+/* sums[m] = y_i' D^-1 y_j over one sweep, for the lanes i = first[m], j = second[m]. */
+static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count,
+                          const sl_int *first, const sl_int *second, double *sums) {
+    sl_int s, k, m;
+    for (m = 0; m < count; m++) {
+        sums[m] = 0.0;
+    }
+    for (s = 0; s < f->reach.count; s++) {
+        const sli_step *step = &f->reach.steps[s];
+        const double *d = F->D + step->column, *y = f->y + (ptrdiff_t)step->base * f->lanes;
+        for (k = 0; k < sli_step_columns(step); k++, y += f->lanes) {
+            double z[SLI_LANES_MAX];
+            sli_weigh(z, y, d[k], f->lanes);
+            for (m = 0; m < count; m++) { /* sum(m) += y(k, i) / d(k) y(k, j) */
+                sums[m] += z[first[m]] * y[second[m]];
+            }
+        }
+    }
+}
+
+/* A workspace for one call, where the caller has none. */
+static sl_work sli_work_own(const sl_factor *F) {
+    sl_work own;
+    own.allocator = F->allocator;
+    own.block = NULL;
+    own.size = 0;
+    return own;
+}
+
+/* The base of W, grown to what a layout has counted, for its second run. */
+static sl_status sli_work_lay(sl_work *W, sli_block *b, size_t at_least) {
+    const sl_status status =
+        b->overflow ? SL_ERR_TOO_LARGE
+                    : sli_work_grow(W, b->used > at_least ? b->used : at_least + (at_least == 0));
+    b->base = (unsigned char *)W->block;
+    b->used = 0;
+    return status;
+}
+
+/* Clears what a call says of its sweeps. */
+static void sli_inverse_stats(sl_stats *stats) {
+    if (stats != NULL) {
+        sli_query none;
+        memset(&none, 0, sizeof none);
+        sli_query_stats(&none, stats);
+        stats->bytes_plan = 0;
+    }
+}
+
+/* Refuses rows out of range. */
+static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
+                                int is_column, sl_stats *stats) {
+    sl_int k;
+    for (k = 0; k < count && rows != NULL; k++) {
+        if (rows[k] < 0 || rows[k] >= S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
+                               is_column ? rows[k] : -1, 0.0);
+        }
+    }
+    return SL_OK;
+}
+
+/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
+static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sli_forward *f,
+                             const sli_group *g, sl_int k, sl_int taken, double *out) {
+    sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;
+    double sums[SLI_REQUESTS_MAX];
+    for (m = 0; m < taken; m++) {
+        const sl_int at = sli_value(r->order[k + m]);
+        first[m] = sli_group_lane(g, sli_request_row(r, at));
+        second[m] = sli_group_lane(g, sli_request_column(r, at));
+    }
+    sli_pair_sums(F, f, taken, first, second, sums);
+    for (m = 0; m < taken; m++) {
+        out[sli_value(r->order[k + m])] = sums[m];
+    }
+}
+
+/* Entries one by one. The room is known only once the requests are sorted and grouped: where W is too
+ * small for it, it grows and they are sorted again, before anything is written. */
+static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
+                                     sl_stats *stats) {
+    size_t bytes = 0;
+    sli_forward f;
+    sl_int k = 0, m;
+    for (;;) {
+        sli_block b = {NULL, 0, 0};
+        sli_room room = {0, 0, 0, 0};
+        sl_status status;
+        sli_requests_layout(r, &b);
+        status = sli_work_lay(W, &b, bytes);
+        if (status != SL_OK) {
+            return status;
+        }
+        sli_requests_layout(r, &b);
+        sli_requests_group(r, &room);
+        sli_forward_layout(&f, &b, &room);
+        sli_forward_layout_run(&f, &b, &room);
+        if (b.overflow) {
+            return SL_ERR_TOO_LARGE;
+        }
+        if (b.used <= W->size) {
+            break;
+        }
+        bytes = b.used;
+    }
+    for (m = 0; m < r->n_groups; m++) {
+        const sl_int taken = (sl_int)r->taken[m];
+        sli_group g;
+        sli_group_again(r, k, taken, &g);
+        sli_forward_group(&f, F, &g, stats);
+        sli_pairs_answer(F, r, &f, &g, k, taken, out);
+        k += taken;
+    }
+    return SL_OK;
+}
+
+static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
+                                   const sl_int *columns, sl_int count, sl_work *W,
+                                   sl_stats *stats) {
+    sl_work own;
+    sli_requests r;
+    sl_status status;
+    if (count < 0 || (count > 0 && out == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_check_rows(F->S, rows, count, 0, stats);
+    status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_inverse_stats(stats);
+    r = sli_requests_of(F, rows, columns, count);
+    own = sli_work_own(F);
+    status = count == 0 ? SL_OK : sli_inverse_entries(F, out, &r, W == NULL ? &own : W, stats);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
+                                     sl_int count, sl_work *W, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    return F == NULL ? SL_ERR_ARGUMENT
+                     : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W,
+                                         stats);
+}
+
+SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
+                                  const sl_int *columns, sl_int count, sl_work *W,
+                                  sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    return F == NULL || (count > 0 && (rows == NULL || columns == NULL))
+               ? SL_ERR_ARGUMENT
+               : sli_inverse_pairs(F, out, rows, columns, count, W, stats);
+}
+
+/* c' A^-1 b: two lanes over the reach of both sets, one where they are the same. */
+typedef struct sli_bilinear {
+    const sl_int *set[2];
+    const double *values[2];
+    sl_int count[2];
+    sl_int vectors;
+    uint64_t *seeds, *scratch; /* count[0] + count[1] in all, unless a set is NULL */
+} sli_bilinear;
+
+static void sli_bilinear_layout(sli_bilinear *q, sli_block *b) {
+    const int is_whole = q->set[0] == NULL || q->set[1] == NULL;
+    const uint64_t count = is_whole ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
+    q->seeds = SLI_TAKE(b, uint64_t, count);
+    q->scratch = SLI_TAKE(b, uint64_t, count);
+}
+
+/* The columns of both sets ascending, each with its place behind one another, and their reach. */
+static void sli_bilinear_measure(const sl_symbolic *S, sli_bilinear *q, sli_reach *R) {
+    const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
+    sl_int k;
+    if (q->set[0] == NULL || q->set[1] == NULL) {
+        *R = sli_reach_all(S);
+        return;
+    }
+    for (k = 0; k < total; k++) {
+        q->seeds[k] = sli_keyed(S->iperm[k < nc ? q->set[0][k] : q->set[1][k - nc]], k);
+    }
+    sli_sort(q->seeds, total, q->scratch);
+    sli_reach_measure(S, q->seeds, total, R);
+}
+
+/* Both vectors into the sweep. */
+static void sli_bilinear_pack(const sl_symbolic *S, const sli_bilinear *q, sli_forward *f) {
+    const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
+    sl_int k, lane, at = 0;
+    if (q->set[0] != NULL && q->set[1] != NULL) {
+        sli_reach_fill(S, q->seeds, total, f->steps, f->rows, &f->reach);
+        sli_forward_clear(f, q->vectors);
+        for (k = 0; k < total; k++) {
+            const sl_int place = sli_reach_place(&f->reach, &at, sli_key(q->seeds[k]));
+            const sl_int from = sli_value(q->seeds[k]);
+            lane = from >= nc;
+            f->y[(ptrdiff_t)place * f->lanes + lane] += q->values[lane][from - lane * nc];
+        }
+        return;
+    }
+    f->reach = sli_reach_all(S);
+    sli_forward_clear(f, q->vectors);
+    for (lane = 0; lane < q->vectors; lane++) {
+        for (k = 0; k < q->count[lane]; k++) {
+            const sl_int row = q->set[lane] == NULL ? k : q->set[lane][k];
+            f->y[(ptrdiff_t)S->iperm[row] * f->lanes + lane] += q->values[lane][k];
+        }
+    }
+}
+
+static sl_status sli_inverse_form(const sl_factor *F, double *out, sli_bilinear *q, sl_work *W,
+                                  sl_stats *stats) {
+    const int is_whole = q->set[0] == NULL || q->set[1] == NULL;
+    const sl_int first = 0, second = q->vectors - 1;
+    size_t bytes = 0;
+    sli_forward f;
+    for (;;) {
+        sli_block b = {NULL, 0, 0};
+        sli_room room = {0, 0, 0, 0};
+        sl_status status;
+        sli_bilinear_layout(q, &b);
+        status = sli_work_lay(W, &b, bytes);
+        if (status != SL_OK) {
+            return status;
+        }
+        sli_bilinear_layout(q, &b);
+        sli_bilinear_measure(F->S, q, &f.reach);
+        sli_room_add(&room, &f.reach, q->vectors);
+        room.steps = is_whole ? 0 : room.steps; /* the analysis has them */
+        room.rows = is_whole ? 0 : room.rows;
+        sli_forward_layout(&f, &b, &room);
+        sli_forward_layout_run(&f, &b, &room);
+        if (b.overflow) {
+            return SL_ERR_TOO_LARGE;
+        }
+        if (b.used <= W->size) {
+            break;
+        }
+        bytes = b.used;
+    }
+    sli_bilinear_pack(F->S, q, &f);
+    sli_forward_run(&f, F, stats);
+    sli_pair_sums(F, &f, 1, &first, &second, out);
+    return SL_OK;
+}
+
+SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *cset,
+                                     const double *c, sl_int nc, const sl_int *bset,
+                                     const double *b, sl_int nb, sl_work *W, sl_stats *stats) {
+    sl_work own;
+    sli_bilinear q;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL || out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    nc = cset == NULL ? F->S->n : nc;
+    nb = bset == NULL ? F->S->n : nb;
+    if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
+        return SL_ERR_TOO_LARGE;
+    }
+    status = sli_check_rows(F->S, cset, nc, 0, stats);
+    status = status == SL_OK ? sli_check_rows(F->S, bset, nb, 1, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_inverse_stats(stats);
+    if (nc == 0 || nb == 0) {
+        *out = 0.0;
+        return SL_OK;
+    }
+    memset(&q, 0, sizeof q);
+    q.set[0] = cset;
+    q.set[1] = bset;
+    q.values[0] = c;
+    q.values[1] = b;
+    q.count[0] = nc;
+    q.count[1] = nb;
+    q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
+    own = sli_work_own(F);
+    status = sli_inverse_form(F, out, &q, W == NULL ? &own : W, stats);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
+/* end src/impl/inverse.h */
+/* begin src/impl/inverse_block.h */
+/* inverse_block.h: dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps */
+#ifndef SLI_INVERSE_BLOCK_H
+#define SLI_INVERSE_BLOCK_H
+
+/* Sweeps that are kept while the other side passes by: 128 vectors. One more pass then costs a tenth
+ * or so of the sums between them. */
+#define SLI_KEPT 16
+
+/* z = D^-1 y over the whole reach of a sweep: once for all that it meets. */
+static void sli_forward_weigh(const sl_factor *F, const sli_forward *f, double *z) {
+    sl_int s, k;
+    for (s = 0; s < f->reach.count; s++) {
+        const sli_step *step = &f->reach.steps[s];
+        const double *d = F->D + step->column;
+        for (k = 0; k < sli_step_columns(step); k++) {
+            const ptrdiff_t at = (ptrdiff_t)(step->base + k) * f->lanes;
+            sli_weigh(z + at, f->y + at, d[k], f->lanes);
+        }
+    }
+}
+
+/* sums[8 i + j] = y_i' z_j over the columns that two sweeps share, lane i of f, and lane j of g, whose
+ * weighed vectors are z. In plain C a block of 128 x 128 near-by vertices took 2.8 times as long. */
+static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_forward *g,
+                           const double *z, double *sums) {
+    sli_meeting m = sli_meeting_of(&f->reach, &g->reach);
+    sl_int k, i, j;
+    memset(sums, 0, SLI_LANES_MAX * SLI_LANES_MAX * sizeof(double));
+    while (sli_meet(&m)) {
+        const double *y = f->y + (ptrdiff_t)m.in_a * f->lanes;
+        const double *x = z + (ptrdiff_t)m.in_b * g->lanes;
+        if (f->lanes == SLI_LANES_MAX && g->lanes == SLI_LANES_MAX) {
+            F->kernels->products(m.count, y, x, sums);
+            continue;
+        }
+        for (k = 0; k < m.count; k++, y += f->lanes, x += g->lanes) {
+            for (i = 0; i < f->lanes; i++) {
+                for (j = 0; j < g->lanes; j++) {
+                    sums[SLI_LANES_MAX * i + j] -= y[i] * x[j];
+                }
+            }
+        }
+    }
+    for (k = 0; k < SLI_LANES_MAX * SLI_LANES_MAX; k++) {
+        sums[k] = -sums[k];
+    }
+}
+
+/* A group with its sweep, and which of the sorted requests it answers. */
+typedef struct sli_swept {
+    sli_group group;
+    sli_forward forward;
+    sl_int first, taken;
+} sli_swept;
+
+/* One block: `kept` is the side with fewer requests. */
+typedef struct sli_inverse_block {
+    const sl_factor *F;
+    double *Z;
+    size_t kept_stride, passing_stride; /* of Z, from one request of a side to the next */
+    int is_symmetric;                   /* both sides are one: kept serves as passing */
+    sli_requests kept, passing;
+    sli_swept sweeps[SLI_KEPT], pass;
+    double *weighed; /* of the group that passes by */
+} sli_inverse_block;
+
+static void sli_block_layout_requests(sli_inverse_block *q, sli_block *b) {
+    sli_requests_layout(&q->kept, b);
+    if (!q->is_symmetric) {
+        sli_requests_layout(&q->passing, b);
+    }
+}
+
+static void sli_block_layout_sweeps(sli_inverse_block *q, sli_block *b, const sli_room *kept,
+                                    const sli_room *passing) {
+    const sl_int count = sli_min(q->kept.n_groups, SLI_KEPT);
+    sli_room both = *kept;
+    sl_int k;
+    both.rows = passing->rows > both.rows ? passing->rows : both.rows;
+    both.scratch = passing->scratch > both.scratch ? passing->scratch : both.scratch;
+    q->weighed = SLI_TAKE(b, double,
+                          passing->values > kept->values ? passing->values : kept->values);
+    sli_forward_layout(&q->pass.forward, b, passing);
+    sli_forward_layout_run(&q->pass.forward, b, &both);
+    for (k = 0; k < count; k++) {
+        sli_forward_layout(&q->sweeps[k].forward, b, kept);
+        q->sweeps[k].forward.rows = q->pass.forward.rows;
+        q->sweeps[k].forward.scratch = q->pass.forward.scratch;
+    }
+}
+
+/* Sweeps the group of `taken` requests that starts at the k-th. */
+static void sli_swept_make(sli_swept *s, const sl_factor *F, const sli_requests *r, sl_int k,
+                           sl_int taken, sl_stats *stats) {
+    s->first = k;
+    s->taken = taken;
+    sli_group_again(r, k, taken, &s->group);
+    sli_forward_group(&s->forward, F, &s->group, stats);
+}
+
+/* Every entry between two groups, the second one weighed. */
+static void sli_block_write(const sli_inverse_block *q, const sli_swept *a, const sli_swept *b) {
+    const sli_requests *passing = q->is_symmetric ? &q->kept : &q->passing;
+    SLI_ALIGNED(double sums[SLI_LANES_MAX * SLI_LANES_MAX]);
+    sl_int i, j;
+    sli_cross_sums(q->F, &a->forward, &b->forward, q->weighed, sums);
+    for (i = 0; i < a->taken; i++) {
+        const sl_int from = sli_value(q->kept.order[a->first + i]);
+        const sl_int lane = sli_group_lane(&a->group, sli_request_row(&q->kept, from));
+        for (j = 0; j < b->taken; j++) {
+            const sl_int to = sli_value(passing->order[b->first + j]);
+            const sl_int other = sli_group_lane(&b->group, sli_request_row(passing, to));
+            const sl_int low = a == b ? sli_min(lane, other) : lane;
+            const sl_int high = a == b ? sli_max(lane, other) : other;
+            const double sum = sums[SLI_LANES_MAX * low + high];
+            q->Z[(size_t)from * q->kept_stride + (size_t)to * q->passing_stride] = sum;
+            if (q->is_symmetric) {
+                q->Z[(size_t)to * q->kept_stride + (size_t)from * q->passing_stride] = sum;
+            }
+        }
+    }
+}
+
+/* Kept groups in chunks; for each chunk all of the other side passes by. Of a symmetric block, only
+ * what comes at or after the chunk. */
+static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
+    const sli_requests *passing = q->is_symmetric ? &q->kept : &q->passing;
+    sl_int chunk, first = 0, k, m;
+    for (chunk = 0; chunk < q->kept.n_groups; chunk += SLI_KEPT) {
+        const sl_int count = sli_min(SLI_KEPT, q->kept.n_groups - chunk);
+        sl_int at = 0;
+        for (k = 0; k < count; k++) {
+            const sl_int taken = (sl_int)q->kept.taken[chunk + k];
+            sli_swept_make(&q->sweeps[k], q->F, &q->kept, first, taken, stats);
+            first += taken;
+        }
+        for (k = 0; q->is_symmetric && k < count; k++) {
+            sli_forward_weigh(q->F, &q->sweeps[k].forward, q->weighed);
+            for (m = 0; m <= k; m++) {
+                sli_block_write(q, &q->sweeps[m], &q->sweeps[k]);
+            }
+        }
+        at = q->is_symmetric ? first : 0;
+        for (k = q->is_symmetric ? chunk + count : 0; k < passing->n_groups; k++) {
+            const sl_int taken = (sl_int)passing->taken[k];
+            sli_swept_make(&q->pass, q->F, passing, at, taken, stats);
+            sli_forward_weigh(q->F, &q->pass.forward, q->weighed);
+            for (m = 0; m < count; m++) {
+                sli_block_write(q, &q->sweeps[m], &q->pass);
+            }
+            at += taken;
+        }
+    }
+}
+
+/* Room as in sli_inverse_entries, then the block. */
+static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *stats) {
+    size_t bytes = 0;
+    for (;;) {
+        sli_block b = {NULL, 0, 0};
+        sli_room kept = {0, 0, 0, 0}, passing = {0, 0, 0, 0};
+        sl_status status;
+        sli_block_layout_requests(q, &b);
+        status = sli_work_lay(W, &b, bytes);
+        if (status != SL_OK) {
+            return status;
+        }
+        sli_block_layout_requests(q, &b);
+        sli_requests_group(&q->kept, &kept);
+        if (!q->is_symmetric) {
+            sli_requests_group(&q->passing, &passing);
+        } else if (q->kept.n_groups > SLI_KEPT) {
+            passing = kept;
+        }
+        sli_block_layout_sweeps(q, &b, &kept, &passing);
+        if (b.overflow) {
+            return SL_ERR_TOO_LARGE;
+        }
+        if (b.used <= W->size) {
+            break;
+        }
+        bytes = b.used;
+    }
+    sli_block_fill(q, stats);
+    return SL_OK;
+}
+
+SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,
+                                  sl_int n_rows, const sl_int *columns, sl_int n_columns,
+                                  sl_work *W, sl_stats *stats) {
+    const int rows_pass = n_rows > n_columns, is_empty = n_rows == 0 || n_columns == 0;
+    sl_work own;
+    sli_inverse_block q;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL || n_rows < 0 || n_columns < 0 || (n_rows > 0 && rows == NULL) ||
+        (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_check_rows(F->S, rows, n_rows, 0, stats);
+    status = status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_inverse_stats(stats);
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.Z = Z;
+    q.is_symmetric = rows == columns && n_rows == n_columns;
+    q.kept = rows_pass ? sli_requests_of(F, columns, columns, n_columns)
+                       : sli_requests_of(F, rows, rows, n_rows);
+    q.passing = rows_pass ? sli_requests_of(F, rows, rows, n_rows)
+                          : sli_requests_of(F, columns, columns, n_columns);
+    q.kept_stride = rows_pass ? ldz : 1;
+    q.passing_stride = rows_pass ? 1 : ldz;
+    own = sli_work_own(F);
+    status = is_empty ? SL_OK : sli_block_answer(&q, W == NULL ? &own : W, stats);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
+/* end src/impl/inverse_block.h */
 /* begin src/impl/batch.h */
 /* batch.h: independent solves spread over workers by the entries of L that they read */
 #ifndef SLI_BATCH_H
@@ -13541,6 +14645,9 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
 #undef SLI_CLIMB
+#undef SLI_LANES_MAX
+#undef SLI_REQUESTS_MAX
+#undef SLI_KEPT
 #undef SLI_ZEROS_SMALL
 /* end src/impl/leave.h */
 #endif

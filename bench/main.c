@@ -27,6 +27,8 @@ static const question questions[] = {
     {"multi_rhs", "1 to 8 right-hand sides together against one by one", bench_multi_rhs},
     {"pairs", "vertex to itself, random pairs with one tree or two (section 5, histogram)",
      bench_pairs},
+    {"inverse", "entries and blocks of the inverse by forward sweeps against local solves",
+     bench_inverse},
     {"locality", "the same local question on meshes of growing size", bench_locality},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",

@@ -13,6 +13,7 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
+#include "public/inverse.h"
 #include "public/batch.h"
 #ifdef __cplusplus
 }
@@ -66,6 +67,9 @@ extern "C" {
 #include "impl/solve.h"
 #include "impl/plan.h"
 /* L5 on a factor */
+#include "impl/groups.h"
+#include "impl/inverse.h"
+#include "impl/inverse_block.h"
 #include "impl/batch.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"

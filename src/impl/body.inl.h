@@ -262,4 +262,5 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(products8)};

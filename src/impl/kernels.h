@@ -198,6 +198,10 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
                                     const sl_int *places, sl_int columns, sl_int first,
                                     sl_int last);
 
+/* sums(i, j) -= y(k, i) z(k, j) over `count` rows of 8 lanes each; sums is 8 x 8 by rows. All 64-byte
+ * aligned. */
+typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
@@ -207,6 +211,7 @@ typedef struct sli_kernels {
     sli_rows_kernel rows;
     sli_update_kernel update;
     sli_assemble_kernel assemble;
+    sli_products_kernel products;
 } sli_kernels;
 
 #endif

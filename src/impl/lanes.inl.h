@@ -319,6 +319,25 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
+#if SLW_LANES == 8
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                                            double *sums) {
+    sl_int row, k;
+    for (row = 0; row < SLW_LANES; row += SLW_ROWS) {
+        const double *l = y + row, *p = z;
+        double *s = sums + row * SLW_LANES;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_EACH(SLI_LOAD, s)
+        for (k = 0; k < count; k++, l += SLW_LANES, p += SLW_LANES) {
+            SLW_LOAD(b, p)
+            SLW_EACH(SLI_APPLY, l)
+        }
+        SLW_EACH(SLI_STORE, s)
+    }
+}
+#endif
+
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE

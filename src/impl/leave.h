@@ -38,4 +38,7 @@
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
 #undef SLI_CLIMB
+#undef SLI_LANES_MAX
+#undef SLI_REQUESTS_MAX
+#undef SLI_KEPT
 #undef SLI_ZEROS_SMALL

@@ -80,11 +80,7 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
     }
     sli_reach_fill(S, set->seeds, set->count, set->steps, set->compact, R);
     for (k = 0; k < set->count; k++) {
-        const sl_int column = sli_key(set->seeds[k]);
-        while (column >= set->steps[at].column + sli_step_columns(&set->steps[at])) {
-            at++;
-        }
-        set->place[sli_value(set->seeds[k])] = column - set->steps[at].column + set->steps[at].base;
+        set->place[sli_value(set->seeds[k])] = sli_reach_place(R, &at, sli_key(set->seeds[k]));
     }
     *place = set->place;
 }

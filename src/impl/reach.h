@@ -47,18 +47,42 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
     return S->n_supers;
 }
 
+/* Doubles of L that a sweep reads of a panel it enters at a tile. */
+SLI_INLINE sl_off sli_entries_from(sl_int width, sl_int below, sl_int first_tile) {
+    return sli_panel_size(width, below) - sli_tile_offset(width, first_tile) -
+           (sl_off)SLI_TILE * SLI_TILE * first_tile * (sli_tiles(width + below) - first_tile);
+}
+
+/* Adds what column k brings to a reach: the supernodes of its path up to where it meets the path of
+ * the nearest column of the reach before it or behind it; -1 for none. Exact are supernodes, rows,
+ * height and width; columns are those of whole supernodes, and entries leave out that k may enter
+ * what it shares at an earlier tile. O(supernodes added). */
+static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
+                          sli_reach *R) {
+    const sl_int low = before < 0 ? -1 : S->super_of[before];
+    const sl_int high = behind < 0 ? S->n_supers : S->super_of[behind];
+    sl_int s = S->super_of[k];
+    while (s != -1 && s < high && S->descendant[s] > low) {
+        const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+        const sl_int below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+        R->count++;
+        R->n_rows += below;
+        R->columns += width;
+        R->widest = sli_max(R->widest, width);
+        R->tallest = sli_max(R->tallest, width + below);
+        R->entries += sli_entries_from(width, below, (k - first) / SLI_TILE);
+        k = below > 0 ? S->rows[S->rows_begin[s]] : k;
+        s = S->super_parent[s];
+    }
+}
+
 /* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
 static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                               sli_reach *R) {
-    sl_int k = 0, s, next;
+    sl_int k;
     memset(R, 0, sizeof *R);
-    while (k < count) {
-        s = S->super_of[sli_key(seeds[k])];
-        next = sli_next_seed(S, seeds, count, &k);
-        for (; s != -1 && s < next; s = S->super_parent[s]) {
-            R->count++;
-            R->n_rows += S->rows_begin[s + 1] - S->rows_begin[s];
-        }
+    for (k = 0; k < count; k++) {
+        sli_reach_add(S, sli_key(seeds[k]), k > 0 ? sli_key(seeds[k - 1]) : -1, -1, R);
     }
 }
 
@@ -126,12 +150,12 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
     }
 }
 
-/* Compiles the reach that sli_reach_measure has counted. O(reach), times a logarithm where rows
- * skip many ancestors. */
+/* Compiles the reach of seeds; sli_reach_measure tells the room it takes. O(reach), times a
+ * logarithm where rows skip many ancestors. */
 static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                            sli_step *steps, sl_int *rows, sli_reach *R) {
     sl_int k = 0, at = 0, waiting = -1, s, next;
-    sl_off placed = 0;
+    memset(R, 0, sizeof *R);
     while (k < count) {
         sl_int seed = sli_key(seeds[k]);
         s = S->super_of[seed];
@@ -141,23 +165,69 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
             seed = INT32_MAX;
         }
     }
+    R->count = at;
     for (at = 0; at < R->count; at++) {
         const sli_step *step = &steps[at];
         steps[at].base = R->columns;
         R->columns += sli_step_columns(step);
         R->widest = sli_max(R->widest, step->width);
         R->tallest = sli_max(R->tallest, step->width + step->below);
-        R->entries += sli_panel_size(step->width, step->below) -
-                      sli_tile_offset(step->width, step->first_tile) -
-                      (sl_off)SLI_TILE * SLI_TILE * step->first_tile *
-                          (sli_tiles(step->width + step->below) - step->first_tile);
+        R->entries += sli_entries_from(step->width, step->below, step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, R->count, at, rows + placed);
-        placed += steps[at].below;
+        sli_reach_places(S, steps, R->count, at, rows + R->n_rows);
+        R->n_rows += steps[at].below;
     }
     R->steps = steps;
     R->rows = rows;
+}
+
+/* The place of a column in the reach's vector. *at, 0 at first, remembers the step for the next
+ * column, which is not smaller. */
+SLI_INLINE sl_int sli_reach_place(const sli_reach *R, sl_int *at, sl_int column) {
+    while (column >= R->steps[*at].column + sli_step_columns(&R->steps[*at])) {
+        ++*at;
+    }
+    return column - R->steps[*at].column + R->steps[*at].base;
+}
+
+/* A walk over the supernodes that two reaches share: set up by sli_meeting_of, then sli_meet until it
+ * gives 0. */
+typedef struct sli_meeting {
+    const sli_step *a, *a_end, *b, *b_end;
+    sl_int count;      /* columns shared of the supernode at hand */
+    sl_int column;     /* the first of them, and */
+    sl_int in_a, in_b; /* its places in the two vectors */
+} sli_meeting;
+
+SLI_INLINE sli_meeting sli_meeting_of(const sli_reach *a, const sli_reach *b) {
+    sli_meeting m;
+    memset(&m, 0, sizeof m);
+    m.a = a->steps;
+    m.a_end = a->steps + a->count;
+    m.b = b->steps;
+    m.b_end = b->steps + b->count;
+    return m;
+}
+
+SLI_INLINE int sli_meet(sli_meeting *m) {
+    while (m->a < m->a_end && m->b < m->b_end) {
+        if (m->a->panel == m->b->panel) { /* a panel belongs to one supernode */
+            m->column = sli_max(m->a->column, m->b->column);
+            m->count = m->a->column + sli_step_columns(m->a) - m->column;
+            m->in_a = m->a->base + m->column - m->a->column;
+            m->in_b = m->b->base + m->column - m->b->column;
+            m->a++;
+            m->b++;
+            return 1;
+        }
+        if (m->a->panel < m->b->panel) {
+            m->a++;
+        } else {
+            m->b++;
+        }
+    }
+    return 0;
 }
 
 #endif

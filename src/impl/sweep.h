@@ -152,23 +152,11 @@ static void sli_unpack(const sli_query *q, double *X, sli_dense at, const double
 /* y carried over to the columns that both reaches have; the rest of the backward vector starts from
  * 0. */
 static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lanes) {
-    const sli_step *f = q->forward.steps, *b = q->backward.steps;
-    const sli_step *f_end = f + q->forward.count, *b_end = b + q->backward.count;
+    sli_meeting m = sli_meeting_of(&q->forward, &q->backward);
     memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
-    while (f < f_end && b < b_end) {
-        if (f->panel == b->panel) { /* a panel belongs to one supernode */
-            const sl_int column = sli_max(f->column, b->column);
-            const sl_int count = f->column + sli_step_columns(f) - column;
-            memcpy(x + (ptrdiff_t)(b->base + column - b->column) * lanes,
-                   y + (ptrdiff_t)(f->base + column - f->column) * lanes,
-                   (size_t)count * (size_t)lanes * sizeof(double));
-            f++;
-            b++;
-        } else if (f->panel < b->panel) {
-            f++;
-        } else {
-            b++;
-        }
+    while (sli_meet(&m)) {
+        memcpy(x + (ptrdiff_t)m.in_b * lanes, y + (ptrdiff_t)m.in_a * lanes,
+               (size_t)m.count * (size_t)lanes * sizeof(double));
     }
 }
 

@@ -161,7 +161,7 @@ typedef struct sl_stats {
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
-    /* sl_plan_create, sl_local_solve */
+    /* sl_plan_create, sl_local_solve; sl_inverse_*, which have no backward sweep */
     sl_int b_supernodes; /* visited by the forward sweep */
     sl_int b_columns;
     sl_off b_entries;    /* doubles of L that the forward sweep reads */

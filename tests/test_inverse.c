@@ -1,0 +1,515 @@
+/* test_inverse.c: entries, blocks and bilinear forms of the inverse against dense inverses and full solves */
+#include "problem.h"
+
+/* An entry passes with |z - Z(i,j)| <= c n eps times a norm of the inverse around it: sqrt(|Z(i,i) Z(j,j)|), which
+ * bounds the terms y(k) z(k) / d(k) where the matrix is definite, or the largest entry where it is not. c is
+ * 100: PASS_C as for a solve, and 10 for the conditions of the generated matrices, their rows scaled. */
+static double allowed(sl_int n, const double *Z, sl_int i, sl_int j, int is_definite) {
+    double largest = 0;
+    for (sl_int k = 0; !is_definite && k < n * n; k++) {
+        largest = fabs(Z[k]) > largest ? fabs(Z[k]) : largest;
+    }
+    return 10 * pass_figure(n) * (is_definite ? sqrt(fabs(AT(Z, i, i)) * fabs(AT(Z, j, j))) : largest);
+}
+
+#define IS_NEAR(n, Z, i, j, is_definite, value)                                                                        \
+    do {                                                                                                               \
+        double error_ = fabs((value) - AT(Z, i, j)), allowed_ = allowed((n), (Z), (i), (j), (is_definite));            \
+        if (!(error_ <= allowed_)) {                                                                                   \
+            print_error("(%ld, %ld): %.17g, should be %.17g; error %.3g, allowed %.3g\n", (long)(i), (long)(j),        \
+                        (value), AT(Z, i, j), error_, allowed_);                                                       \
+            fail();                                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+/* The dense inverse, its rows and columns scaled by powers of 2 for a diagonal near 1 while it is computed: what the
+ * scaled kind loses otherwise is the reference's. */
+static double *scaled_inverse(sl_int n, double *M) {
+    int *power = (int *)test_array((size_t)n, sizeof(int));
+    for (sl_int k = 0; k < n; k++) {
+        (void)frexp(AT(M, k, k), &power[k]);
+        power[k] = -power[k] / 2;
+    }
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int i = 0; i < n; i++) {
+            AT(M, i, j) = ldexp(AT(M, i, j), power[i] + power[j]);
+        }
+    }
+    double *Z = ref_inverse(n, M);
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int i = 0; i < n; i++) {
+            AT(Z, i, j) = ldexp(AT(Z, i, j), power[i] + power[j]);
+        }
+    }
+    free(power);
+    return Z;
+}
+
+static void random_rows(sl_int *rows, sl_int count, sl_int n, uint64_t *seed) {
+    for (sl_int k = 0; k < count; k++) {
+        rows[k] = gen_below(seed, n);
+    }
+}
+
+/* Every call on random rows, unsorted and repeated, in numbers 0 .. 20 and more than one group of a block holds. */
+static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int count, uint64_t *seed,
+                      sl_work *W) {
+    sl_int *rows = test_ints((size_t)count), *columns = test_ints((size_t)count), nc = count / 2 + 1;
+    size_t ldz = (size_t)count + 1;
+    double *out = test_reals((size_t)count + 1), *block = test_reals(ldz * (size_t)(count + 1));
+    random_rows(rows, count, n, seed);
+    random_rows(columns, count, n, seed);
+    for (size_t k = 0; k < ldz * (size_t)(count + 1); k++) {
+        block[k] = 4321.5;
+    }
+    out[count] = 4321.5;
+    SL_CHECK(sl_inverse_diagonal(F, out, rows, count, W, NULL));
+    for (sl_int k = 0; k < count; k++) {
+        IS_NEAR(n, Z, rows[k], rows[k], definite, out[k]);
+    }
+    SL_CHECK(sl_inverse_pairs(F, out, rows, columns, count, W, NULL));
+    for (sl_int k = 0; k < count; k++) {
+        IS_NEAR(n, Z, rows[k], columns[k], definite, out[k]);
+    }
+    SL_CHECK(sl_inverse_pairs(F, out, columns, rows, count, W, NULL)); /* swapped */
+    for (sl_int k = 0; k < count; k++) {
+        IS_NEAR(n, Z, rows[k], columns[k], definite, out[k]);
+    }
+    assert_true(out[count] == 4321.5);
+    /* tall, wide and symmetric blocks of overlapping sets */
+    for (int shape = 0; shape < 3 && nc <= count; shape++) {
+        const sl_int *r = rows, *c = shape == 2 ? rows : columns;
+        sl_int nr = shape == 1 ? nc : count, nb = shape == 0 ? nc : count;
+        if (shape < 2) {
+            columns[0] = rows[0];
+        }
+        SL_CHECK(sl_inverse_block(F, block, ldz, r, nr, c, nb, W, NULL));
+        for (sl_int j = 0; j < nb; j++) {
+            for (sl_int i = 0; i < nr; i++) {
+                double z = block[(size_t)i + ldz * (size_t)j];
+                IS_NEAR(n, Z, r[i], c[j], definite, z);
+                if (shape == 2) {
+                    assert_true(z == block[(size_t)j + ldz * (size_t)i]);
+                }
+            }
+            assert_true(block[(size_t)count + ldz * (size_t)j] == 4321.5);
+        }
+        assert_true(block[ldz * (size_t)count] == 4321.5);
+    }
+    free(rows);
+    free(columns);
+    free(out);
+    free(block);
+}
+
+/* c' A^-1 b for random sparse values, a row now and then twice; NULL sets: all rows. */
+static void forms(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int nc, sl_int nb, uint64_t *seed,
+                  sl_work *W) {
+    sl_int mc = nc < 0 ? n : nc, mb = nb < 0 ? n : nb;
+    sl_int *cset = nc < 0 ? NULL : test_ints((size_t)nc), *bset = nb < 0 ? NULL : test_ints((size_t)nb);
+    double *c = test_reals((size_t)mc), *b = test_reals((size_t)mb), out = 4321.5, sum = 0, bound = 0, square = 0;
+    if (cset) {
+        random_rows(cset, nc, n, seed);
+    }
+    if (bset) {
+        random_rows(bset, nb, n, seed);
+    }
+    gen_reals(c, (size_t)mc, gen_bits(seed));
+    gen_reals(b, (size_t)mb, gen_bits(seed));
+    for (sl_int i = 0; i < mc; i++) {
+        for (sl_int j = 0; j < mb; j++) {
+            sl_int row = cset ? cset[i] : i, column = bset ? bset[j] : j;
+            sum += c[i] * AT(Z, row, column) * b[j];
+            bound += fabs(c[i] * b[j]) * allowed(n, Z, row, column, definite);
+        }
+    }
+    SL_CHECK(sl_inverse_bilinear(F, &out, cset, c, nc, bset, b, nb, W, NULL));
+    assert_true(fabs(out - sum) <= bound);
+    SL_CHECK(sl_inverse_bilinear(F, &out, bset, b, nb, cset, c, nc, W, NULL));
+    assert_true(fabs(out - sum) <= bound);
+    sum = bound = 0; /* of one vector with itself */
+    for (sl_int i = 0; i < mb; i++) {
+        for (sl_int j = 0; j < mb; j++) {
+            sl_int row = bset ? bset[i] : i, column = bset ? bset[j] : j;
+            sum += b[i] * AT(Z, row, column) * b[j];
+            bound += fabs(b[i] * b[j]) * allowed(n, Z, row, column, definite);
+        }
+    }
+    SL_CHECK(sl_inverse_bilinear(F, &square, bset, b, nb, bset, b, nb, W, NULL));
+    assert_true(fabs(square - sum) <= bound);
+    free(cset);
+    free(bset);
+    free(c);
+    free(b);
+}
+
+static void every_kind_on_every_instruction_set(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    uint64_t seed = 5;
+    for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
+        for (int which = 0; which < isas.count; which++) {
+            for (int round = 0; round < 2; round++) {
+                sl_options opt = options_none();
+                sl_work *W = NULL;
+                opt.isa = isas.isa[which];
+                opt.ordering = round ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
+                problem_t y = problem_make((gen_kind_t)kind, 60, round ? -1 : 1, 0, &opt);
+                sl_int n = y.M.view.n_cols;
+                int definite = kind != GEN_KKT;
+                double *M = ref_dense(&y.M.view), *Z = scaled_inverse(n, M), *all = test_reals((size_t)n);
+                SL_CHECK(sl_work_create(&W, NULL));
+                for (sl_int count = 0; count <= 20; count++) {
+                    all_calls(y.F, n, Z, definite, count, &seed, count % 3 ? W : NULL);
+                }
+                all_calls(y.F, n, Z, definite, 150, &seed, W);
+                SL_CHECK(sl_inverse_diagonal(y.F, all, NULL, -7, W, NULL)); /* all rows; count is not read */
+                for (sl_int k = 0; k < n; k++) {
+                    IS_NEAR(n, Z, k, k, definite, all[k]);
+                }
+                for (sl_int count = -1; count <= 12; count++) {
+                    forms(y.F, n, Z, definite, count, 1 + count / 2, &seed, count % 3 ? W : NULL);
+                    forms(y.F, n, Z, definite, count, -1, &seed, W);
+                }
+                sl_work_free(W);
+                problem_free(&y);
+                free(M);
+                free(Z);
+                free(all);
+            }
+        }
+    }
+}
+
+/* Against full solves where paths have many supernodes; blocks of more groups than are kept at once. */
+static void a_larger_grid_equals_full_solves(void **state) {
+    (void)state;
+    enum { COUNT = 300 };
+    problem_t y = problem_make(GEN_GRID2, 10000, 1, 0, NULL);
+    sl_int n = y.M.view.n_cols, rows[COUNT], columns[COUNT];
+    double *X = test_reals((size_t)n * 12), *Z = test_reals(COUNT * COUNT), *S = test_reals(COUNT * COUNT);
+    double *pairs = test_reals(COUNT), *swapped = test_reals(COUNT), *diagonal = test_reals(COUNT);
+    double largest = 0;
+    uint64_t seed = 3;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    random_rows(rows, COUNT, n, &seed);
+    random_rows(columns, COUNT, n, &seed);
+    for (int k = 0; k < 12; k++) {
+        X[(size_t)k * (size_t)n + (size_t)columns[25 * k]] = 1;
+    }
+    SL_CHECK(sl_factor_solve(y.F, X, (size_t)n, X, (size_t)n, 12, NULL));
+    for (int k = 0; k < 12; k++) {
+        rows[25 * k + 1] = columns[25 * k]; /* what is largest */
+    }
+    SL_CHECK(sl_inverse_block(y.F, Z, COUNT, rows, COUNT, columns, COUNT, NULL, &stats));
+    assert_true(stats.b_entries > 0 && stats.b_columns > 0 && stats.x_entries == 0);
+    SL_CHECK(sl_inverse_block(y.F, S, COUNT, rows, COUNT, rows, COUNT, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(y.F, pairs, rows, columns, COUNT, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(y.F, swapped, columns, rows, COUNT, NULL, NULL));
+    SL_CHECK(sl_inverse_diagonal(y.F, diagonal, rows, COUNT, NULL, NULL));
+    for (size_t k = 0; k < 12 * (size_t)n; k++) {
+        largest = fabs(X[k]) > largest ? fabs(X[k]) : largest;
+    }
+    const double bound = 1000 * DBL_EPSILON * largest; /* tree height times a small factor */
+    for (int k = 0; k < 12; k++) {
+        for (int i = 0; i < COUNT; i++) {
+            assert_true(fabs(Z[i + COUNT * 25 * k] - X[(size_t)k * (size_t)n + (size_t)rows[i]]) <= bound);
+        }
+        assert_true(fabs(pairs[25 * k] - X[(size_t)k * (size_t)n + (size_t)rows[25 * k]]) <= bound);
+    }
+    for (int k = 0; k < COUNT; k++) {
+        assert_true(fabs(pairs[k] - Z[k + COUNT * k]) <= bound);
+        assert_true(fabs(pairs[k] - swapped[k]) <= bound);
+        assert_true(fabs(diagonal[k] - S[k + COUNT * k]) <= bound);
+        for (int i = 0; i < COUNT; i++) {
+            assert_true(S[i + COUNT * k] == S[k + COUNT * i]);
+        }
+    }
+    free(X);
+    free(Z);
+    free(S);
+    free(pairs);
+    free(swapped);
+    free(diagonal);
+    problem_free(&y);
+}
+
+/* ---- memory ---- */
+
+typedef struct call_t {
+    const sl_factor *F;
+    sl_int rows[40], columns[40];
+    double values[40], out[40 * 40];
+} call_t;
+
+enum { CALLS = 5 };
+
+static sl_status run_call(call_t *q, int which, sl_int count, sl_work *W) {
+    switch (which) {
+    case 0: return sl_inverse_diagonal(q->F, q->out, q->rows, count, W, NULL);
+    case 1: return sl_inverse_pairs(q->F, q->out, q->rows, q->columns, count, W, NULL);
+    case 2: return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->columns, count, W, NULL);
+    case 3: return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
+    default:
+        return sl_inverse_bilinear(q->F, q->out, q->rows, q->values, count, q->columns, q->values, count, W, NULL);
+    }
+}
+
+static call_t *call_make(const sl_factor *F, sl_int n) {
+    call_t *q = (call_t *)test_array(1, sizeof *q);
+    uint64_t seed = 8;
+    q->F = F;
+    random_rows(q->rows, 40, n, &seed);
+    random_rows(q->columns, 40, n, &seed);
+    gen_reals(q->values, 40, 9);
+    return q;
+}
+
+static void nothing_is_allocated_once_grown(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 2500, 1, 0, NULL);
+    call_t *q = call_make(y.F, 2500);
+    for (int which = 0; which < CALLS; which++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, &opt));
+        SL_CHECK(run_call(q, which, 40, W));
+        const size_t calls = counter.calls, bytes = sl_work_bytes(W);
+        for (int round = 0; round < 5; round++) {
+            SL_CHECK(run_call(q, which, 40, W));
+        }
+        assert_int_equal(counter.calls, calls);
+        assert_int_equal(sl_work_bytes(W), bytes);
+        sl_work_free(W);
+        COUNTER_CLEAN(&counter);
+    }
+    free(q);
+    problem_free(&y);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    for (int own = 0; own < 2; own++) {
+        for (int which = 0; which < CALLS; which++) {
+            counter_t counter = counter_make();
+            sl_options opt = options_counted(&counter);
+            problem_t y = problem_make(GEN_GRID2, 400, 1, 0, &opt);
+            call_t *q = call_make(y.F, 400);
+            sl_status status = SL_ERR_MEMORY;
+            int failures = 0;
+            for (int64_t k = 0; status != SL_OK; k++) {
+                sl_work *W = NULL;
+                if (!own) {
+                    SL_CHECK(sl_work_create(&W, &opt));
+                }
+                for (int i = 0; i < 40 * 40; i++) {
+                    q->out[i] = 4321.5;
+                }
+                counter.fail_at = (int64_t)counter.calls + k;
+                status = run_call(q, which, 40, W);
+                counter.fail_at = -1;
+                assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+                failures += status != SL_OK;
+                for (int i = 0; i < 40 * 40 && status != SL_OK; i++) {
+                    assert_true(q->out[i] == 4321.5); /* untouched */
+                }
+                if (status != SL_OK && W) {
+                    SL_CHECK(run_call(q, which, 40, W)); /* usable as before */
+                }
+                sl_work_free(W);
+            }
+            assert_in_range(failures, 1, 4);
+            free(q);
+            problem_free(&y);
+            COUNTER_CLEAN(&counter);
+        }
+    }
+}
+
+/* Bytes for a fixed patch near a corner, over the columns of its reach, which grow like sqrt n on grids. */
+static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
+    sl_int n = side * side, count = 0, *perm = test_ints((size_t)n);
+    gen_list_t t = gen_list(n);
+    uint64_t seed = 1;
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    gen_edges_grid(&t, side, side, 1, &seed);
+    gen_dominate(&t, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    opt.ordering = SL_ORDERING_GIVEN;
+    opt.perm = perm;
+    assert_int_equal(gen_dissect(perm, 0, side, 0, side, 0, side), n);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    call_t *q = call_make(F, n);
+    for (sl_int k = 0; k < 40; k++) {
+        q->rows[k] = 10 + k % 7 + side * (10 + k / 7);
+        q->columns[count++] = 12 + k % 8 + side * (10 + k / 8);
+    }
+    SL_CHECK(sl_inverse_bilinear(F, q->out, q->rows, q->values, 40, q->columns, q->values, 40, NULL, &stats));
+    *reach = stats.b_columns;
+    for (int which = 0; which < CALLS; which++) {
+        counter_t counter = counter_make();
+        sl_work *W = NULL;
+        opt = options_counted(&counter);
+        SL_CHECK(sl_work_create(&W, &opt));
+        SL_CHECK(run_call(q, which, 40, W));
+        bytes[which] = (double)counter.total_bytes / (double)stats.b_columns;
+        sl_work_free(W);
+        COUNTER_CLEAN(&counter);
+    }
+    free(q);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(perm);
+}
+
+static void nothing_grows_with_n(void **state) {
+    (void)state;
+    double first[CALLS], now[CALLS];
+    sl_int reach_first, reach;
+    bytes_of_a_patch(100, first, &reach_first);
+    for (sl_int side = 200; side <= 400; side *= 2) {
+        bytes_of_a_patch(side, now, &reach);
+        assert_true(reach < reach_first * (side == 200 ? 3 : 6));
+        for (int which = 0; which < CALLS; which++) {
+            print_message("n = %ld, call %d: %.0f bytes a column of the reach, %.0f at 1e4\n", (long)(side * side), which,
+                          now[which], first[which]);
+            /* anything of n bytes would be 4 times as much a column; twice, where the best group has more lanes */
+            assert_true(now[which] <= 2.0 * first[which]);
+        }
+    }
+}
+
+/* ---- wrong use ---- */
+
+static void wrong_use_is_refused(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
+    const sl_int good[3] = {3, 24, 0}, low[3] = {3, -1, 0}, high[3] = {3, 0, 25};
+    double out[9], one[3] = {1, 1, 1};
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    for (int k = 0; k < 9; k++) {
+        out[k] = 4321.5;
+    }
+#define REFUSED(call) SL_EXPECT(SL_ERR_ARGUMENT, call)
+    REFUSED(sl_inverse_diagonal(NULL, out, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, NULL, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, out, good, -1, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, out, low, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, -1);
+    REFUSED(sl_inverse_diagonal(y.F, out, high, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, 25);
+    REFUSED(sl_inverse_pairs(NULL, out, good, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, NULL, good, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, NULL, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, good, NULL, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, good, good, -1, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, high, good, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, 25);
+    assert_int_equal(stats.error_column, -1);
+    REFUSED(sl_inverse_pairs(y.F, out, good, high, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, -1);
+    assert_int_equal(stats.error_column, 25);
+    REFUSED(sl_inverse_block(NULL, out, 3, good, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, NULL, 3, good, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 2, good, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, NULL, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, 3, NULL, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, -3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, 3, good, -3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, low, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, 3, high, 3, NULL, &stats));
+    assert_int_equal(stats.error_column, 25);
+    REFUSED(sl_inverse_bilinear(NULL, out, good, one, 3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, NULL, good, one, 3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, NULL, 3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, NULL, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, -3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, one, -3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, high, one, 3, good, one, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, 25);
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, high, one, 3, NULL, &stats));
+    assert_int_equal(stats.error_column, 25);
+    /* so many that they cannot be numbered: seen before anything is read */
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_inverse_bilinear(y.F, out, good, one, INT32_MAX, good, one, 1, NULL, NULL));
+    for (int k = 0; k < 9; k++) {
+        assert_true(out[k] == 4321.5);
+    }
+    /* nothing asked for */
+    SL_CHECK(sl_inverse_diagonal(y.F, NULL, good, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, good, 3, NULL, NULL));
+    SL_CHECK(sl_inverse_block(y.F, NULL, 0, good, 3, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_bilinear(y.F, out, good, NULL, 0, good, one, 3, NULL, &stats));
+    assert_true(out[0] == 0 && stats.b_entries == 0);
+    /* a failed factor */
+    y.M.x[0] = NAN;
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
+    out[0] = 4321.5;
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(y.F, out, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_pairs(y.F, out, good, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_block(y.F, out, 3, good, 3, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_bilinear(y.F, out, good, one, 3, good, one, 3, NULL, NULL));
+    assert_true(out[0] == 4321.5);
+#undef REFUSED
+    problem_free(&y);
+}
+
+static void n_may_be_0(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_NONE, 0, 1, 0, NULL);
+    const sl_int row = 0;
+    double out = 4321.5, one = 1;
+    SL_CHECK(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_diagonal(y.F, &out, &row, 1, NULL, NULL));
+    assert_true(out == 4321.5);
+    SL_CHECK(sl_inverse_bilinear(y.F, &out, NULL, &one, 5, NULL, &one, 5, NULL, NULL));
+    assert_true(out == 0);
+    problem_free(&y);
+}
+
+/* Pivots whose reciprocal is out of range. */
+static void pivots_of_any_size(void **state) {
+    (void)state;
+    static const double sizes[4] = {1e-310, 1e308, 3e-308, 1e300};
+    const sl_int p[5] = {0, 1, 2, 3, 4}, i[4] = {0, 1, 2, 3}, rows[4] = {0, 1, 2, 3};
+    const sl_csc A = {4, 4, p, i, sizes};
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    for (int k = 0; k < 4; k++) {
+        const double c[2] = {sqrt(sizes[k]), -sqrt(sizes[k])};
+        double form = 0;
+        SL_CHECK(sl_inverse_bilinear(F, &form, rows + k, &c[0], 1, rows + k, &c[1], 1, NULL, NULL));
+        assert_true(fabs(form + 1) <= 8 * DBL_EPSILON);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_on_every_instruction_set),
+        cmocka_unit_test(a_larger_grid_equals_full_solves),
+        cmocka_unit_test(nothing_is_allocated_once_grown),
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(nothing_grows_with_n),
+        cmocka_unit_test(wrong_use_is_refused),
+        cmocka_unit_test(n_may_be_0),
+        cmocka_unit_test(pivots_of_any_size),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
