@@ -1,74 +1,77 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 5be10aa563301431
+ * FNV-1a of all that follows this comment, license aside: 8d2d8b4b2f8cb6dc
  *
  * Contents
  *         (what a user reads)
- *     76  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    125  public/config.h            what a user may set before including the header, the version, and the integer types
- *    174  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    347  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    467  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    529  public/factor.h            the numbers: P A P' = L D L'
- *    622  public/solve.h             full solves, and the workspace that every solve writes to
- *    691  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    777  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *     79  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    130  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    179  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    360  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    480  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    542  public/factor.h            the numbers: P A P' = L D L'
+ *    635  public/solve.h             full solves, and the workspace that every solve writes to
+ *    704  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    790  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    826  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *    823  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *    914  impl/status.h              status codes in words, and the error fields of stats
- *    970  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1095  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1170  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1207  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    920  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1011  impl/status.h              status codes in words, and the error fields of stats
+ *   1067  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1192  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1267  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1304  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1241  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1439  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1579  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1609  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2723  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2768  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   2905  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3108  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3270  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3529  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3577  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   3712  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4486  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   5471  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   7299  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *   9196  impl/select.h              the kernel table for an instruction set
+ *   1338  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1569  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1709  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1739  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2853  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2898  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3035  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3238  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3476  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3638  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3899  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3947  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4082  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4856  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6081  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8149  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10286  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *   9229  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *   9657  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *   9730  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10319  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  10747  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  10820  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  10084  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  10123  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  10270  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  10384  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  10528  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  10613  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  10686  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  10852  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  10928  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  10969  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  11162  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  11448  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11174  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11213  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11360  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  11474  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  11618  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  11703  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  11776  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  11942  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12018  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12059  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12252  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  12538  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  11611  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  11731  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  11812  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  12070  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  12157  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  12449  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  12544  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  12604  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  12853  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  12895  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  12701  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  12821  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  12902  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13160  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  13247  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  13539  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  13634  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  13694  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  13943  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  13985  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  13197  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  14287  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  14441  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  13352  impl/leave.h               takes every internal macro away again
+ *  14827  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -116,6 +119,8 @@
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
  *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations, 1983.
  *  [Liu92]   Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
+ *  [ET75]    Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix, 1975.
+ *  [SelInv]  Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric matrix, 2011.
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
  *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
  */
@@ -334,6 +339,13 @@ typedef struct sl_stats {
     sl_int x_columns;
     sl_off x_entries;
     size_t bytes_plan;
+
+    /* sl_selected_create */
+    sl_int z_supernodes; /* those whose part of the inverse was made */
+    sl_int z_columns;
+    sl_off z_entries;        /* doubles kept for them */
+    double seconds_selected; /* processor seconds, those of all threads summed up */
+    size_t bytes_selected;
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -341,6 +353,7 @@ typedef struct sl_symbolic sl_symbolic; /* analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* numbers over a symbolic: L and D */
 typedef struct sl_plan sl_plan;         /* reach of a b-set and of an x-set; immutable */
 typedef struct sl_work sl_work;         /* scratch of one thread */
+typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
 
 #endif
 /* end src/public/types.h */
@@ -810,6 +823,90 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
 
 #endif
 /* end src/public/batch.h */
+/* begin src/public/selected.h */
+/* selected.h: the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach */
+#ifndef SL_PUBLIC_SELECTED_H
+#define SL_PUBLIC_SELECTED_H
+
+/** Computes entries of A^-1 on the pattern of L: the whole diagonal among them, and every entry of A's pattern.
+ *
+ *  From the roots of the elimination tree to its leaves, supernode by supernode, with dense kernels. Z_kl of
+ *  Z = P A^-1 P' is there wherever a supernode's panel has a place for L_kl, relaxation included; for a set of rows
+ *  those supernodes alone are computed that lie on the way from the set to the roots. All numbers have the bits that
+ *  the whole gives.
+ *
+ *  out    [out]  the entries, or NULL on error; release with sl_selected_free. They stay what they are when F is
+ *                factored again or released.
+ *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
+ *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
+ *  opt    [in]   allocator; may be NULL. The instruction set is the factor's.
+ *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles kept. While it runs,
+ *           8 (height)^2 bytes for each supernode between the one at hand and its root that has children to come, where
+ *           height counts its columns and the rows below.
+ *  Threads  reads F; the object is immutable and may be shared.
+ *  Source   [ET75]; by supernodes [SelInv].
+ *  Example  tests/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_factor *F,
+                                                   const sl_int *set, sl_int count,
+                                                   const sl_options *opt, sl_stats *stats);
+
+/** Releases a selected inverse; NULL is fine. */
+SL_API void sl_selected_free(sl_selected *Z);
+
+/** Diagonal entries of A^-1.
+ *
+ *  Z      [in]
+ *  out    [out]  count entries in the order of rows. On error untouched.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
+ *  stats  [out]  error_row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or a row out of range (error_row); SL_ERR_PATTERN: a row that the object's set
+ *           does not reach (error_row).
+ *  Cost     O(count), with a logarithm for the object of a set.
+ *  Threads  any number at once.
+ *  Example  tests/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_diagonal(const sl_selected *Z, double *out,
+                                                     const sl_int *rows, sl_int count,
+                                                     sl_stats *stats);
+
+/** Entries (A^-1)_ij on the pattern.
+ *
+ *  Z        [in]
+ *  out      [out]  count entries: out[k] is row rows[k], column columns[k], or the other way round. On error untouched.
+ *  rows     [in]   count rows of A in 0..n-1.
+ *  columns  [in]   count columns of A in 0..n-1.
+ *  stats    [out]  error_row and error_column; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or out of range; SL_ERR_PATTERN: an entry that is not there, for the pattern
+ *           of L has no place for it or the object's set does not reach it. error_row and error_column name it.
+ *  Cost     O(count) binary searches.
+ *  Threads  any number at once.
+ *  Example  tests/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
+                                                    const sl_int *rows, const sl_int *columns,
+                                                    sl_int count, sl_stats *stats);
+
+/** A look inside: arrays that live as long as the object.
+ *
+ *  The panel of supernode supers[k] begins at Z[begin[k]] and is laid out as those of L, which sl_symbolic_view_t tells;
+ *  the diagonal stands in its place, what is above it in a tile means nothing, and padding is 0.
+ */
+typedef struct sl_selected_view_t {
+    const sl_symbolic *symbolic;
+    sl_int count;         /* supernodes */
+    const sl_int *supers; /* count, ascending */
+    const sl_off *begin;  /* count + 1, in doubles */
+    const double *Z;      /* begin[count] */
+} sl_selected_view_t;
+
+SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
+
+#endif
+/* end src/public/selected.h */
 #ifdef __cplusplus
 }
 #endif
@@ -1423,6 +1520,37 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
                                     const sl_int *places, sl_int columns, sl_int first,
                                     sl_int last);
 
+/* Fronts of the inverse Z of P A P'. That of a supernode holds Z of its columns and the rows below, h in
+ * all, both triangles: row tiles [tile][h][8], numbered as in the panel. */
+typedef struct sli_dual {
+    const double *panel; /* L and .. */
+    const double *D;     /* .. its pivots */
+    double *front;
+    sl_int width, below;
+} sli_dual;
+
+/* Where row tile t of a front of the inverse of h rows starts, in doubles. */
+SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
+    return (ptrdiff_t)SLI_TILE * h * t;
+}
+
+/* Doubles of a row tile of a group's L'^-1, and of scratch for supernodes of some height and width. */
+#define SLI_DUAL_ROW (SLI_GROUP * SLI_TILE * SLI_TILE)
+SLI_INLINE sl_off sli_dual_scratch(sl_int height, sl_int width) {
+    return 2 * SLI_GROUP * SLI_DUAL_ROW + (sl_off)SLI_TILE * SLI_TILE *
+                                              sli_min(sli_tiles(width), SLI_GROUP) *
+                                              sli_tiles(height);
+}
+
+/* Z of the rows below a supernode, out of the front of its parent of that height; places: their rows
+ * there, ascending. */
+typedef void (*sli_gather_kernel)(const sli_dual *f, const double *from, sl_int height,
+                                  const sl_int *places);
+
+/* The rest of the front, by Takahashi's equations. With W = L_SJ L_JJ^-1:
+ * Z_SJ = -Z_SS W, Z_JJ = (L_JJ D L_JJ')^-1 - W' Z_SJ. */
+typedef void (*sli_takahashi_kernel)(const sli_dual *f, double *scratch);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
@@ -1432,6 +1560,8 @@ typedef struct sli_kernels {
     sli_rows_kernel rows;
     sli_update_kernel update;
     sli_assemble_kernel assemble;
+    sli_gather_kernel gather;
+    sli_takahashi_kernel takahashi;
 } sli_kernels;
 
 #endif
@@ -3105,6 +3235,244 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/takahashi.inl.h */
+/* takahashi.inl.h: a front of the inverse: gathered from the parent's front, completed column group by column group */
+
+/* C(rows, k) -= A(rows, j) B(k, j), one row tile; A and B: [length][8], C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
+                                             double *C, sl_int columns) {
+    sl_int k;
+    for (k = 0; k < columns; k += SLV_COLUMNS) {
+        SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
+    }
+}
+
+#define SLI_OFFSET(k) offset[k]
+
+/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
+ * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
+                                          const sl_int *places) {
+    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+    sl_int t, i;
+    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+        double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
+        ptrdiff_t offset[SLI_TILE];
+        for (i = 0; i < SLI_TILE; i++) {
+            const sl_int place = places[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+            offset[i] = sli_square_offset(height, place / SLI_TILE) + place % SLI_TILE;
+        }
+        for (i = 0; i < u; i++) {
+            const double *x = from + SLI_TILE * (ptrdiff_t)places[i];
+            SLV_DECLARE(a)
+            SLV_GATHER(a, x, SLI_OFFSET)
+            SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
+        }
+    }
+}
+
+#undef SLI_OFFSET
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
+#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, unused)                                                                       \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+    }
+
+/* x(rows, k) -= x(rows, j) L(k, j) for j < k in the 8 x 8 unit triangle at l: x := x L'^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x, sl_int columns) {
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH8(SLI_LOAD, x)
+    SLI_EACH8(SLI_SOLVE, 0)
+    SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     double *N) {
+    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t, k;
+    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+        for (t = c; t < tiles; t++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
+            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
+                              SLI_TILE * (ptrdiff_t)j0;
+            double *x = N + tile_size * (ptrdiff_t)t;
+            memset(x, 0, (size_t)tile_size * sizeof(double));
+            for (k = 0; k < columns && t == c; k++) {
+                x[SLI_TILE * k + k] = -1.0;
+            }
+            if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
+                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
+                                SLI_TILE * (t - c), x, columns);
+            }
+            SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+        }
+    }
+}
+
+/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *N, double *W) {
+    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
+            memset(W, 0, (size_t)tile_size * sizeof(double));
+            SLV_NAME(block)(N + first,
+                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                first,
+                            m - SLI_TILE * c, W, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *W) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+    sl_int t, c, s;
+    for (t = first / SLI_TILE; t < tiles; t++) {
+        memset(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, 0,
+               SLI_TILE * (size_t)m * sizeof(double));
+    }
+    for (s = first; s < h; s += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, h - s);
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            double *row = f->front + sli_square_offset(h, t);
+            const double *A = row + SLI_TILE * (ptrdiff_t)s;
+            double *C = row + SLI_TILE * (ptrdiff_t)j0;
+#if SLV_TILES == 2
+            if (t + 1 < tiles) {
+                const ptrdiff_t next = sli_square_offset(h, 1);
+                for (c = 0; c < sli_tiles(m); c++) {
+                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
+                                     m - SLI_TILE * c);
+                }
+                t++;
+                continue;
+            }
+#endif
+            for (c = 0; c < sli_tiles(m); c++) {
+                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                                sli_min(SLI_TILE, m - SLI_TILE * c));
+            }
+        }
+    }
+}
+
+/* Some lanes of some columns of a tile to as many columns and lanes of another. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int lane, sl_int end,
+                                              double *to, sl_int columns) {
+    sl_int i, k;
+    for (i = lane; i < end; i++) {
+        for (k = 0; k < columns; k++) {
+            to[SLI_TILE * i + k] = from[SLI_TILE * k + i];
+        }
+    }
+}
+
+/* Z_JS = Z_SJ' */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int t, c;
+    for (c = 0; c < sli_tiles(m); c++) {
+        const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+        double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                 tile_size * (ptrdiff_t)c,
+                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+                             to + tile_size * (ptrdiff_t)t, columns);
+        }
+    }
+}
+
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
+                                                    const double *N, double *P, const double *W) {
+    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+    sl_int c, t, j, k;
+    for (c = 0; c < tiles; c++) {
+        for (j = SLI_TILE * c; j < m; j++) {
+            const double minus = -f->D[j0 + j];
+            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + at)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + at, a)
+        }
+    }
+    for (t = 0; t < tiles; t++) {
+        const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
+        double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c <= t; c++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+            double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+            memset(x, 0, sizeof x);
+            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
+                            m - SLI_TILE * t, x, columns);
+            if (first < h) {
+                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+            }
+            for (k = 0; k < columns; k++) { /* rows below may share the tile */
+                memcpy(row + tile_size * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)k, x + SLI_TILE * k,
+                       (size_t)rows * sizeof(double));
+            }
+            if (c < t) {
+                SLV_NAME(mirror)(x, 0, rows,
+                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                                 SLI_TILE);
+            }
+        }
+    }
+}
+
+/* From the last group of columns to the first, each with the columns after it among its rows below:
+ * what a group works upon stays in the caches, whatever the width. */
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
+    const sl_int w = f->width, h = w + f->below, most = SLI_GROUP * SLI_TILE;
+    double *N = scratch, *P = N + SLI_GROUP * SLI_DUAL_ROW, *W = P + SLI_GROUP * SLI_DUAL_ROW;
+    sl_int j0;
+    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
+        const sl_int m = sli_min(most, w - j0);
+        SLV_NAME(group_inverse)(f, j0, m, N);
+        if (j0 + m < h) {
+            SLV_NAME(group_weights)(f, j0, m, N, W);
+            SLV_NAME(group_product)(f, j0, m, W);
+            SLV_NAME(group_mirror)(f, j0, m);
+        }
+        SLV_NAME(group_square)(f, j0, m, N, P, W);
+    }
+}
+/* end src/impl/takahashi.inl.h */
+
 /* begin src/impl/narrow.inl.h */
 /* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
 
@@ -3523,7 +3891,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(gather),
+    SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -4997,6 +5367,244 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/takahashi.inl.h */
+/* takahashi.inl.h: a front of the inverse: gathered from the parent's front, completed column group by column group */
+
+/* C(rows, k) -= A(rows, j) B(k, j), one row tile; A and B: [length][8], C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
+                                             double *C, sl_int columns) {
+    sl_int k;
+    for (k = 0; k < columns; k += SLV_COLUMNS) {
+        SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
+    }
+}
+
+#define SLI_OFFSET(k) offset[k]
+
+/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
+ * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
+                                          const sl_int *places) {
+    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+    sl_int t, i;
+    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+        double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
+        ptrdiff_t offset[SLI_TILE];
+        for (i = 0; i < SLI_TILE; i++) {
+            const sl_int place = places[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+            offset[i] = sli_square_offset(height, place / SLI_TILE) + place % SLI_TILE;
+        }
+        for (i = 0; i < u; i++) {
+            const double *x = from + SLI_TILE * (ptrdiff_t)places[i];
+            SLV_DECLARE(a)
+            SLV_GATHER(a, x, SLI_OFFSET)
+            SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
+        }
+    }
+}
+
+#undef SLI_OFFSET
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
+#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, unused)                                                                       \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+    }
+
+/* x(rows, k) -= x(rows, j) L(k, j) for j < k in the 8 x 8 unit triangle at l: x := x L'^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x, sl_int columns) {
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH8(SLI_LOAD, x)
+    SLI_EACH8(SLI_SOLVE, 0)
+    SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     double *N) {
+    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t, k;
+    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+        for (t = c; t < tiles; t++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
+            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
+                              SLI_TILE * (ptrdiff_t)j0;
+            double *x = N + tile_size * (ptrdiff_t)t;
+            memset(x, 0, (size_t)tile_size * sizeof(double));
+            for (k = 0; k < columns && t == c; k++) {
+                x[SLI_TILE * k + k] = -1.0;
+            }
+            if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
+                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
+                                SLI_TILE * (t - c), x, columns);
+            }
+            SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+        }
+    }
+}
+
+/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *N, double *W) {
+    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
+            memset(W, 0, (size_t)tile_size * sizeof(double));
+            SLV_NAME(block)(N + first,
+                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                first,
+                            m - SLI_TILE * c, W, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *W) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+    sl_int t, c, s;
+    for (t = first / SLI_TILE; t < tiles; t++) {
+        memset(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, 0,
+               SLI_TILE * (size_t)m * sizeof(double));
+    }
+    for (s = first; s < h; s += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, h - s);
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            double *row = f->front + sli_square_offset(h, t);
+            const double *A = row + SLI_TILE * (ptrdiff_t)s;
+            double *C = row + SLI_TILE * (ptrdiff_t)j0;
+#if SLV_TILES == 2
+            if (t + 1 < tiles) {
+                const ptrdiff_t next = sli_square_offset(h, 1);
+                for (c = 0; c < sli_tiles(m); c++) {
+                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
+                                     m - SLI_TILE * c);
+                }
+                t++;
+                continue;
+            }
+#endif
+            for (c = 0; c < sli_tiles(m); c++) {
+                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                                sli_min(SLI_TILE, m - SLI_TILE * c));
+            }
+        }
+    }
+}
+
+/* Some lanes of some columns of a tile to as many columns and lanes of another. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int lane, sl_int end,
+                                              double *to, sl_int columns) {
+    sl_int i, k;
+    for (i = lane; i < end; i++) {
+        for (k = 0; k < columns; k++) {
+            to[SLI_TILE * i + k] = from[SLI_TILE * k + i];
+        }
+    }
+}
+
+/* Z_JS = Z_SJ' */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int t, c;
+    for (c = 0; c < sli_tiles(m); c++) {
+        const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+        double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                 tile_size * (ptrdiff_t)c,
+                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+                             to + tile_size * (ptrdiff_t)t, columns);
+        }
+    }
+}
+
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
+                                                    const double *N, double *P, const double *W) {
+    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+    sl_int c, t, j, k;
+    for (c = 0; c < tiles; c++) {
+        for (j = SLI_TILE * c; j < m; j++) {
+            const double minus = -f->D[j0 + j];
+            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + at)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + at, a)
+        }
+    }
+    for (t = 0; t < tiles; t++) {
+        const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
+        double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c <= t; c++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+            double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+            memset(x, 0, sizeof x);
+            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
+                            m - SLI_TILE * t, x, columns);
+            if (first < h) {
+                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+            }
+            for (k = 0; k < columns; k++) { /* rows below may share the tile */
+                memcpy(row + tile_size * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)k, x + SLI_TILE * k,
+                       (size_t)rows * sizeof(double));
+            }
+            if (c < t) {
+                SLV_NAME(mirror)(x, 0, rows,
+                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                                 SLI_TILE);
+            }
+        }
+    }
+}
+
+/* From the last group of columns to the first, each with the columns after it among its rows below:
+ * what a group works upon stays in the caches, whatever the width. */
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
+    const sl_int w = f->width, h = w + f->below, most = SLI_GROUP * SLI_TILE;
+    double *N = scratch, *P = N + SLI_GROUP * SLI_DUAL_ROW, *W = P + SLI_GROUP * SLI_DUAL_ROW;
+    sl_int j0;
+    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
+        const sl_int m = sli_min(most, w - j0);
+        SLV_NAME(group_inverse)(f, j0, m, N);
+        if (j0 + m < h) {
+            SLV_NAME(group_weights)(f, j0, m, N, W);
+            SLV_NAME(group_product)(f, j0, m, W);
+            SLV_NAME(group_mirror)(f, j0, m);
+        }
+        SLV_NAME(group_square)(f, j0, m, N, P, W);
+    }
+}
+/* end src/impl/takahashi.inl.h */
+
 /* begin src/impl/narrow.inl.h */
 /* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
 
@@ -5415,7 +6023,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(gather),
+    SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -6824,6 +7434,244 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/takahashi.inl.h */
+/* takahashi.inl.h: a front of the inverse: gathered from the parent's front, completed column group by column group */
+
+/* C(rows, k) -= A(rows, j) B(k, j), one row tile; A and B: [length][8], C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
+                                             double *C, sl_int columns) {
+    sl_int k;
+    for (k = 0; k < columns; k += SLV_COLUMNS) {
+        SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
+    }
+}
+
+#define SLI_OFFSET(k) offset[k]
+
+/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
+ * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
+                                          const sl_int *places) {
+    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+    sl_int t, i;
+    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+        double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
+        ptrdiff_t offset[SLI_TILE];
+        for (i = 0; i < SLI_TILE; i++) {
+            const sl_int place = places[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+            offset[i] = sli_square_offset(height, place / SLI_TILE) + place % SLI_TILE;
+        }
+        for (i = 0; i < u; i++) {
+            const double *x = from + SLI_TILE * (ptrdiff_t)places[i];
+            SLV_DECLARE(a)
+            SLV_GATHER(a, x, SLI_OFFSET)
+            SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
+        }
+    }
+}
+
+#undef SLI_OFFSET
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
+#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, unused)                                                                       \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+    }
+
+/* x(rows, k) -= x(rows, j) L(k, j) for j < k in the 8 x 8 unit triangle at l: x := x L'^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x, sl_int columns) {
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH8(SLI_LOAD, x)
+    SLI_EACH8(SLI_SOLVE, 0)
+    SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     double *N) {
+    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t, k;
+    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+        for (t = c; t < tiles; t++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
+            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
+                              SLI_TILE * (ptrdiff_t)j0;
+            double *x = N + tile_size * (ptrdiff_t)t;
+            memset(x, 0, (size_t)tile_size * sizeof(double));
+            for (k = 0; k < columns && t == c; k++) {
+                x[SLI_TILE * k + k] = -1.0;
+            }
+            if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
+                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
+                                SLI_TILE * (t - c), x, columns);
+            }
+            SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+        }
+    }
+}
+
+/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *N, double *W) {
+    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
+            memset(W, 0, (size_t)tile_size * sizeof(double));
+            SLV_NAME(block)(N + first,
+                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                first,
+                            m - SLI_TILE * c, W, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *W) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+    sl_int t, c, s;
+    for (t = first / SLI_TILE; t < tiles; t++) {
+        memset(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, 0,
+               SLI_TILE * (size_t)m * sizeof(double));
+    }
+    for (s = first; s < h; s += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, h - s);
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            double *row = f->front + sli_square_offset(h, t);
+            const double *A = row + SLI_TILE * (ptrdiff_t)s;
+            double *C = row + SLI_TILE * (ptrdiff_t)j0;
+#if SLV_TILES == 2
+            if (t + 1 < tiles) {
+                const ptrdiff_t next = sli_square_offset(h, 1);
+                for (c = 0; c < sli_tiles(m); c++) {
+                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
+                                     m - SLI_TILE * c);
+                }
+                t++;
+                continue;
+            }
+#endif
+            for (c = 0; c < sli_tiles(m); c++) {
+                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                                sli_min(SLI_TILE, m - SLI_TILE * c));
+            }
+        }
+    }
+}
+
+/* Some lanes of some columns of a tile to as many columns and lanes of another. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int lane, sl_int end,
+                                              double *to, sl_int columns) {
+    sl_int i, k;
+    for (i = lane; i < end; i++) {
+        for (k = 0; k < columns; k++) {
+            to[SLI_TILE * i + k] = from[SLI_TILE * k + i];
+        }
+    }
+}
+
+/* Z_JS = Z_SJ' */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int t, c;
+    for (c = 0; c < sli_tiles(m); c++) {
+        const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+        double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                 tile_size * (ptrdiff_t)c,
+                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+                             to + tile_size * (ptrdiff_t)t, columns);
+        }
+    }
+}
+
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
+                                                    const double *N, double *P, const double *W) {
+    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+    sl_int c, t, j, k;
+    for (c = 0; c < tiles; c++) {
+        for (j = SLI_TILE * c; j < m; j++) {
+            const double minus = -f->D[j0 + j];
+            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + at)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + at, a)
+        }
+    }
+    for (t = 0; t < tiles; t++) {
+        const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
+        double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c <= t; c++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+            double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+            memset(x, 0, sizeof x);
+            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
+                            m - SLI_TILE * t, x, columns);
+            if (first < h) {
+                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+            }
+            for (k = 0; k < columns; k++) { /* rows below may share the tile */
+                memcpy(row + tile_size * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)k, x + SLI_TILE * k,
+                       (size_t)rows * sizeof(double));
+            }
+            if (c < t) {
+                SLV_NAME(mirror)(x, 0, rows,
+                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                                 SLI_TILE);
+            }
+        }
+    }
+}
+
+/* From the last group of columns to the first, each with the columns after it among its rows below:
+ * what a group works upon stays in the caches, whatever the width. */
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
+    const sl_int w = f->width, h = w + f->below, most = SLI_GROUP * SLI_TILE;
+    double *N = scratch, *P = N + SLI_GROUP * SLI_DUAL_ROW, *W = P + SLI_GROUP * SLI_DUAL_ROW;
+    sl_int j0;
+    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
+        const sl_int m = sli_min(most, w - j0);
+        SLV_NAME(group_inverse)(f, j0, m, N);
+        if (j0 + m < h) {
+            SLV_NAME(group_weights)(f, j0, m, N, W);
+            SLV_NAME(group_product)(f, j0, m, W);
+            SLV_NAME(group_mirror)(f, j0, m);
+        }
+        SLV_NAME(group_square)(f, j0, m, N, P, W);
+    }
+}
+/* end src/impl/takahashi.inl.h */
+
 /* begin src/impl/narrow.inl.h */
 /* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
 
@@ -7242,7 +8090,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(gather),
+    SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -8722,6 +9572,244 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
 }
 /* end src/impl/front.inl.h */
 
+/* begin src/impl/takahashi.inl.h */
+/* takahashi.inl.h: a front of the inverse: gathered from the parent's front, completed column group by column group */
+
+/* C(rows, k) -= A(rows, j) B(k, j), one row tile; A and B: [length][8], C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
+                                             double *C, sl_int columns) {
+    sl_int k;
+    for (k = 0; k < columns; k += SLV_COLUMNS) {
+        SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
+    }
+}
+
+#define SLI_OFFSET(k) offset[k]
+
+/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
+ * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
+                                          const sl_int *places) {
+    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+    sl_int t, i;
+    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+        double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
+        ptrdiff_t offset[SLI_TILE];
+        for (i = 0; i < SLI_TILE; i++) {
+            const sl_int place = places[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+            offset[i] = sli_square_offset(height, place / SLI_TILE) + place % SLI_TILE;
+        }
+        for (i = 0; i < u; i++) {
+            const double *x = from + SLI_TILE * (ptrdiff_t)places[i];
+            SLV_DECLARE(a)
+            SLV_GATHER(a, x, SLI_OFFSET)
+            SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
+        }
+    }
+}
+
+#undef SLI_OFFSET
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
+#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, unused)                                                                       \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+    }
+
+/* x(rows, k) -= x(rows, j) L(k, j) for j < k in the 8 x 8 unit triangle at l: x := x L'^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x, sl_int columns) {
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH8(SLI_LOAD, x)
+    SLI_EACH8(SLI_SOLVE, 0)
+    SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     double *N) {
+    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t, k;
+    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+        for (t = c; t < tiles; t++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
+            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
+                              SLI_TILE * (ptrdiff_t)j0;
+            double *x = N + tile_size * (ptrdiff_t)t;
+            memset(x, 0, (size_t)tile_size * sizeof(double));
+            for (k = 0; k < columns && t == c; k++) {
+                x[SLI_TILE * k + k] = -1.0;
+            }
+            if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
+                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
+                                SLI_TILE * (t - c), x, columns);
+            }
+            SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+        }
+    }
+}
+
+/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *N, double *W) {
+    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
+            memset(W, 0, (size_t)tile_size * sizeof(double));
+            SLV_NAME(block)(N + first,
+                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                first,
+                            m - SLI_TILE * c, W, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *W) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+    sl_int t, c, s;
+    for (t = first / SLI_TILE; t < tiles; t++) {
+        memset(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, 0,
+               SLI_TILE * (size_t)m * sizeof(double));
+    }
+    for (s = first; s < h; s += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, h - s);
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            double *row = f->front + sli_square_offset(h, t);
+            const double *A = row + SLI_TILE * (ptrdiff_t)s;
+            double *C = row + SLI_TILE * (ptrdiff_t)j0;
+#if SLV_TILES == 2
+            if (t + 1 < tiles) {
+                const ptrdiff_t next = sli_square_offset(h, 1);
+                for (c = 0; c < sli_tiles(m); c++) {
+                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
+                                     m - SLI_TILE * c);
+                }
+                t++;
+                continue;
+            }
+#endif
+            for (c = 0; c < sli_tiles(m); c++) {
+                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                                sli_min(SLI_TILE, m - SLI_TILE * c));
+            }
+        }
+    }
+}
+
+/* Some lanes of some columns of a tile to as many columns and lanes of another. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int lane, sl_int end,
+                                              double *to, sl_int columns) {
+    sl_int i, k;
+    for (i = lane; i < end; i++) {
+        for (k = 0; k < columns; k++) {
+            to[SLI_TILE * i + k] = from[SLI_TILE * k + i];
+        }
+    }
+}
+
+/* Z_JS = Z_SJ' */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int t, c;
+    for (c = 0; c < sli_tiles(m); c++) {
+        const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+        double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                 tile_size * (ptrdiff_t)c,
+                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+                             to + tile_size * (ptrdiff_t)t, columns);
+        }
+    }
+}
+
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
+                                                    const double *N, double *P, const double *W) {
+    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+    sl_int c, t, j, k;
+    for (c = 0; c < tiles; c++) {
+        for (j = SLI_TILE * c; j < m; j++) {
+            const double minus = -f->D[j0 + j];
+            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + at)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + at, a)
+        }
+    }
+    for (t = 0; t < tiles; t++) {
+        const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
+        double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c <= t; c++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+            double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+            memset(x, 0, sizeof x);
+            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
+                            m - SLI_TILE * t, x, columns);
+            if (first < h) {
+                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+            }
+            for (k = 0; k < columns; k++) { /* rows below may share the tile */
+                memcpy(row + tile_size * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)k, x + SLI_TILE * k,
+                       (size_t)rows * sizeof(double));
+            }
+            if (c < t) {
+                SLV_NAME(mirror)(x, 0, rows,
+                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                                 SLI_TILE);
+            }
+        }
+    }
+}
+
+/* From the last group of columns to the first, each with the columns after it among its rows below:
+ * what a group works upon stays in the caches, whatever the width. */
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
+    const sl_int w = f->width, h = w + f->below, most = SLI_GROUP * SLI_TILE;
+    double *N = scratch, *P = N + SLI_GROUP * SLI_DUAL_ROW, *W = P + SLI_GROUP * SLI_DUAL_ROW;
+    sl_int j0;
+    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
+        const sl_int m = sli_min(most, w - j0);
+        SLV_NAME(group_inverse)(f, j0, m, N);
+        if (j0 + m < h) {
+            SLV_NAME(group_weights)(f, j0, m, N, W);
+            SLV_NAME(group_product)(f, j0, m, W);
+            SLV_NAME(group_mirror)(f, j0, m);
+        }
+        SLV_NAME(group_square)(f, j0, m, N, P, W);
+    }
+}
+/* end src/impl/takahashi.inl.h */
+
 /* begin src/impl/narrow.inl.h */
 /* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
 
@@ -9140,7 +10228,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(gather),
+    SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
 /* begin src/impl/words_end.inl.h */
@@ -13348,6 +14438,391 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 
 #endif
 /* end src/impl/batch.h */
+/* begin src/impl/selected.h */
+/* selected.h: the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's */
+#ifndef SLI_SELECTED_H
+#define SLI_SELECTED_H
+
+struct sl_selected {
+    sl_allocator allocator;
+    const sl_symbolic *S; /* borrowed */
+    sl_int count;         /* supernodes */
+    sl_int *supers;       /* count, ascending */
+    sl_off *begin;        /* count + 1: the panels, in doubles */
+    double *Z;
+};
+
+/* The sweep, planned: a front must stay until the last of its children has taken its part, and children come
+ * last to first. Fronts of even and of odd depth have a stack each, which grow towards each other: when
+ * a front is made, its parent's is the top of the other stack. */
+typedef struct sli_descent {
+    sl_int *up;    /* count: the parent, as a number in the list of supernodes, -1 at a root */
+    sl_int *last;  /* count: the child that comes last, -1 where there is none */
+    sl_int *side;  /* count: depth % 2 */
+    sl_off *front; /* count: where the front begins, in doubles */
+    sl_off fronts; /* doubles for all of them */
+    sl_off scratch;
+} sli_descent;
+
+/* The supernodes of the reach of seeds, columns of L in ascending order. */
+static void sli_selected_reach(sl_selected *Z, const uint64_t *seeds, sl_int count) {
+    const sl_symbolic *S = Z->S;
+    sl_int k = 0, at = 0, s, next;
+    while (k < count) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            Z->supers[at++] = s;
+        }
+    }
+    SLI_ASSERT(at == Z->count);
+}
+
+static void sli_selected_layout(sl_selected *Z, sli_block *b) {
+    (void)sli_take(b, 1, sizeof(sl_selected));
+    Z->supers = SLI_TAKE(b, sl_int, Z->count);
+    Z->begin = SLI_TAKE(b, sl_off, (uint64_t)Z->count + 1);
+}
+
+/* Rows of A as columns of L, ascending, for a reach. */
+static sl_status sli_selected_sort(const sl_symbolic *S, const sl_int *set, sl_int count,
+                                   uint64_t *seeds, uint64_t *scratch, sl_stats *stats) {
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        if (set[k] < 0 || set[k] >= S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, set[k], -1, 0.0);
+        }
+        seeds[k] = sli_keyed(S->iperm[set[k]], 0);
+    }
+    sli_sort(seeds, count, scratch);
+    return SL_OK;
+}
+
+/* The object, all but its numbers. */
+static sl_status sli_selected_list(sl_selected **out, const sl_symbolic *S, const sl_int *set,
+                                   sl_int count, const sl_allocator *a, sl_stats *stats) {
+    sli_block temporary = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    uint64_t *seeds = NULL, *scratch = NULL;
+    sl_selected draft;
+    sl_status status = SL_OK;
+    sl_int k;
+    int pass;
+    memset(&draft, 0, sizeof draft);
+    draft.allocator = *a;
+    draft.S = S;
+    draft.count = S->n_supers;
+    if (set != NULL) {
+        sli_reach R;
+        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+            seeds = SLI_TAKE(&temporary, uint64_t, count);
+            scratch = SLI_TAKE(&temporary, uint64_t, count);
+            status = pass == 0 ? sli_block_alloc(&temporary, a) : SL_OK;
+        }
+        if (status == SL_OK) {
+            status = sli_selected_sort(S, set, count, seeds, scratch, stats);
+        }
+        if (status == SL_OK) {
+            sli_reach_measure(S, seeds, count, &R);
+            draft.count = R.count;
+        }
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_selected_layout(&draft, &kept);
+        status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        for (k = 0; k < draft.count && set == NULL; k++) {
+            draft.supers[k] = k;
+        }
+        if (set != NULL) {
+            sli_selected_reach(&draft, seeds, count);
+        }
+        draft.begin[0] = 0;
+        for (k = 0; k < draft.count; k++) {
+            const sl_int s = draft.supers[k];
+            draft.begin[k + 1] = draft.begin[k] + (S->panel_begin[s + 1] - S->panel_begin[s]);
+        }
+        *out = (sl_selected *)(void *)kept.base;
+        **out = draft;
+    }
+    sli_free(a, temporary.base);
+    return status;
+}
+
+/* Doubles of a front: whole row tiles of all its columns. */
+SLI_INLINE sl_off sli_square_size(const sli_step *s) {
+    const sl_int h = s->width + s->below;
+    return (sl_off)SLI_TILE * sli_tiles(h) * h;
+}
+
+/* Parents, and the child that comes last. A supernode's parent is the next one of the chain of ancestors at hand
+ * that is not below it, as the list is in postorder and closed under the parent relation. */
+static void sli_descent_tree(sli_descent *d, const sl_selected *Z) {
+    const sl_symbolic *S = Z->S;
+    sl_int k, up = -1;
+    for (k = Z->count - 1; k >= 0; k--) {
+        const sl_int parent = S->super_parent[Z->supers[k]];
+        while (up != -1 && Z->supers[up] != parent) {
+            up = d->up[up];
+        }
+        d->up[k] = up;
+        d->last[k] = -1;
+        d->side[k] = 0;
+        if (up != -1) {
+            d->last[up] = k;
+            d->side[k] = 1 - d->side[up];
+        }
+        up = k;
+    }
+}
+
+static void sli_descent_plan(sli_descent *d, const sl_selected *Z) {
+    const sl_symbolic *S = Z->S;
+    sl_off top[2] = {0, 0};
+    sl_int k, tallest = 0, widest = 0;
+    sli_descent_tree(d, Z);
+    d->fronts = 0;
+    for (k = Z->count - 1; k >= 0; k--) {
+        const sli_step *step = &S->steps[Z->supers[k]];
+        const sl_off size = sli_square_size(step);
+        const sl_int side = d->side[k], up = d->up[k];
+        d->front[k] = side == 0 ? top[0] : -(top[1] + size);
+        top[side] += size;
+        d->fronts = top[0] + top[1] > d->fronts ? top[0] + top[1] : d->fronts;
+        if (up != -1 && d->last[up] == k) {
+            top[1 - side] -= sli_square_size(&S->steps[Z->supers[up]]);
+        }
+        if (d->last[k] == -1) {
+            top[side] -= size;
+        }
+        tallest = sli_max(tallest, step->width + step->below);
+        widest = sli_max(widest, step->width);
+    }
+    for (k = 0; k < Z->count; k++) { /* the second stack counts from the end, which is known now */
+        d->front[k] += d->side[k] == 0 ? 0 : d->fronts;
+    }
+    d->scratch = sli_dual_scratch(tallest, widest);
+}
+
+/* The columns of a front to the panel. */
+static void sli_selected_keep(const sli_dual *f, double *panel) {
+    const sl_int w = f->width, h = w + f->below, tiles = sli_tiles(h);
+    sl_int t, j;
+    for (t = 0; t < tiles; t++) {
+        double *to = panel + sli_tile_offset(w, t);
+        const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
+        memcpy(to, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *to);
+        for (j = 0; j < columns && rows < SLI_TILE; j++) { /* padding */
+            memset(to + SLI_TILE * (ptrdiff_t)j + rows, 0,
+                   (size_t)(SLI_TILE - rows) * sizeof *to);
+        }
+    }
+}
+
+/* All fronts, parents before children. */
+static void sli_selected_sweep(sl_selected *Z, const sl_factor *F, const sli_descent *d,
+                               double *fronts, double *scratch) {
+    const sl_symbolic *S = Z->S;
+    sl_int k;
+    for (k = Z->count - 1; k >= 0; k--) {
+        const sl_int s = Z->supers[k], up = d->up[k];
+        const sli_step *step = &S->steps[s];
+        sli_dual f;
+        f.panel = F->L + step->panel;
+        f.D = F->D + step->column;
+        f.front = fronts + d->front[k];
+        f.width = step->width;
+        f.below = step->below;
+        if (up != -1) {
+            const sli_step *parent = &S->steps[Z->supers[up]];
+            F->kernels->gather(&f, fronts + d->front[up], parent->width + parent->below,
+                               S->places + S->rows_begin[s]);
+        }
+        F->kernels->takahashi(&f, scratch);
+        sli_selected_keep(&f, Z->Z + Z->begin[k]);
+    }
+}
+
+/* Plans and makes the numbers. */
+static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F) {
+    const sl_allocator *a = &Z->allocator;
+    sli_block values = {NULL, 0, 0}, plan = {NULL, 0, 0}, room = {NULL, 0, 0};
+    double *fronts = NULL, *scratch = NULL;
+    sli_descent d;
+    sl_status status = SL_OK;
+    int pass;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        Z->Z = SLI_TAKE(&values, double, Z->begin[Z->count]);
+        status = pass == 0 ? sli_block_alloc(&values, a) : SL_OK;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        d.up = SLI_TAKE(&plan, sl_int, Z->count);
+        d.last = SLI_TAKE(&plan, sl_int, Z->count);
+        d.side = SLI_TAKE(&plan, sl_int, Z->count);
+        d.front = SLI_TAKE(&plan, sl_off, Z->count);
+        status = pass == 0 ? sli_block_alloc(&plan, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_descent_plan(&d, Z);
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        fronts = SLI_TAKE(&room, double, d.fronts);
+        scratch = SLI_TAKE(&room, double, d.scratch);
+        status = pass == 0 ? sli_block_alloc(&room, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_selected_sweep(Z, F, &d, fronts, scratch);
+    }
+    sli_free(a, room.base);
+    sli_free(a, plan.base);
+    return status;
+}
+
+static void sli_selected_stats(const sl_selected *Z, double started, sl_stats *stats) {
+    sl_int k;
+    if (stats != NULL) {
+        stats->z_supernodes = Z->count;
+        stats->z_columns = 0;
+        for (k = 0; k < Z->count; k++) {
+            stats->z_columns += Z->S->steps[Z->supers[k]].width;
+        }
+        stats->z_entries = Z->begin[Z->count];
+        stats->seconds_selected = sli_seconds() - started;
+        stats->bytes_selected =
+            sizeof *Z + (size_t)Z->count * sizeof(sl_int) +
+            ((size_t)Z->count + 1) * sizeof(sl_off) + (size_t)stats->z_entries * sizeof(double);
+    }
+}
+
+SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const sl_int *set,
+                                    sl_int count, const sl_options *opt, sl_stats *stats) {
+    const double started = sli_seconds();
+    const sl_allocator a = sli_allocator(opt);
+    sl_selected *Z = NULL;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (F == NULL || (set != NULL && count < 0) || !sli_allocator_is_whole(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_selected_list(&Z, F->S, set, count, &a, stats);
+    if (status == SL_OK) {
+        status = sli_selected_fill(Z, F);
+    }
+    if (status == SL_OK) {
+        sli_selected_stats(Z, started, stats);
+        *out = Z;
+    } else {
+        sl_selected_free(Z);
+    }
+    return status;
+}
+
+SL_API void sl_selected_free(sl_selected *Z) {
+    if (Z != NULL) {
+        const sl_allocator a = Z->allocator;
+        sli_free(&a, Z->Z);
+        sli_free(&a, Z);
+    }
+}
+
+/* The place of supernode s in the list, or -1. */
+SLI_INLINE sl_int sli_selected_find(const sl_selected *Z, sl_int s) {
+    sl_int at = s;
+    if (Z->count < Z->S->n_supers) {
+        at = sli_lower_bound(Z->supers, Z->count, s);
+    }
+    return at < Z->count && Z->supers[at] == s ? at : -1;
+}
+
+/* Where the entry of pivots k and l stands in Z, or -1. */
+static sl_off sli_selected_at(const sl_selected *Z, sl_int k, sl_int l) {
+    const sl_symbolic *S = Z->S;
+    const sl_int column = sli_min(k, l), row = sli_max(k, l), s = S->super_of[column];
+    const sl_int at = sli_selected_find(Z, s), first = S->super_first[s];
+    const sl_int width = S->steps[s].width, below = S->steps[s].below;
+    sl_int r = row - first;
+    if (at == -1) {
+        return -1;
+    }
+    if (r >= width) {
+        const sl_int *rows = S->rows + S->rows_begin[s];
+        const sl_int i = sli_lower_bound(rows, below, row);
+        if (i == below || rows[i] != row) {
+            return -1;
+        }
+        r = width + i;
+    }
+    return Z->begin[at] + sli_panel_at(width, r, column - first);
+}
+
+/* All entries asked for are looked up before the first is written: out stays untouched on error. */
+static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_int *rows,
+                                  const sl_int *columns, sl_int count, sl_stats *stats) {
+    const sl_symbolic *S = Z->S;
+    sl_int k;
+    int pass;
+    for (pass = 0; pass < 2; pass++) {
+        for (k = 0; k < count; k++) {
+            const sl_int i = rows == NULL ? k : rows[k], j = columns == NULL ? i : columns[k];
+            sl_off at;
+            if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0);
+            }
+            at = sli_selected_at(Z, S->iperm[i], S->iperm[j]);
+            if (at == -1) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, i, columns == NULL ? -1 : j, 0.0);
+            }
+            if (pass == 1) {
+                out[k] = Z->Z[at];
+            }
+        }
+    }
+    return SL_OK;
+}
+
+SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const sl_int *rows,
+                                      sl_int count, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (Z == NULL || (rows != NULL && count < 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    count = rows == NULL ? Z->S->n : count;
+    if (count > 0 && out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_selected_ask(Z, out, rows, NULL, count, stats);
+}
+
+SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
+                                     const sl_int *columns, sl_int count, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (Z == NULL || count < 0 || (count > 0 && (out == NULL || rows == NULL || columns == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_selected_ask(Z, out, rows, columns, count, stats);
+}
+
+SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
+    sl_selected_view_t v = {NULL, 0, NULL, NULL, NULL};
+    if (Z != NULL) {
+        v.symbolic = Z->S;
+        v.count = Z->count;
+        v.supers = Z->supers;
+        v.begin = Z->begin;
+        v.Z = Z->Z;
+    }
+    return v;
+}
+
+#endif
+/* end src/impl/selected.h */
 /* last: takes every internal macro away again */
 /* begin src/impl/leave.h */
 /* leave.h: takes every internal macro away again */
@@ -13383,6 +14858,7 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 #undef SLI_GROUP
 #undef SLI_CHUNK
 #undef SLI_FRONT_INVERSE
+#undef SLI_DUAL_ROW
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS
 #undef SLI_ROWS_AHEAD

@@ -14,6 +14,7 @@ extern "C" {
 #include "public/solve.h"
 #include "public/plan.h"
 #include "public/batch.h"
+#include "public/selected.h"
 #ifdef __cplusplus
 }
 #endif
@@ -67,6 +68,7 @@ extern "C" {
 #include "impl/plan.h"
 /* L5 on a factor */
 #include "impl/batch.h"
+#include "impl/selected.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"
 #endif

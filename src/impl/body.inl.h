@@ -253,4 +253,6 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(pivots),
     SLV_NAME(rows),
     SLV_NAME(update),
-    SLV_NAME(assemble)};
+    SLV_NAME(assemble),
+    SLV_NAME(gather),
+    SLV_NAME(takahashi)};

@@ -164,6 +164,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 
 #include "front.inl.h"
 
+#include "takahashi.inl.h"
+
 #include "narrow.inl.h"
 
 #include "body.inl.h"

@@ -155,6 +155,8 @@
 
 #include "front.inl.h"
 
+#include "takahashi.inl.h"
+
 #include "narrow.inl.h"
 
 #include "body.inl.h"
