@@ -199,12 +199,14 @@ SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
     return (ptrdiff_t)SLI_TILE * h * t;
 }
 
-/* Doubles of a row tile of a group's L'^-1, and of scratch for supernodes of some height and width. */
-#define SLI_DUAL_ROW (SLI_GROUP * SLI_TILE * SLI_TILE)
+/* Column tiles that are completed together, doubles of a row tile of their L'^-1, and of scratch for
+ * supernodes of some height and width. */
+#define SLI_DUAL_GROUP 16
+#define SLI_DUAL_ROW (SLI_DUAL_GROUP * SLI_TILE * SLI_TILE)
 SLI_INLINE sl_off sli_dual_scratch(sl_int height, sl_int width) {
-    return 2 * SLI_GROUP * SLI_DUAL_ROW + (sl_off)SLI_TILE * SLI_TILE *
-                                              sli_min(sli_tiles(width), SLI_GROUP) *
-                                              sli_tiles(height);
+    return 2 * SLI_DUAL_GROUP * SLI_DUAL_ROW + (sl_off)SLI_TILE * SLI_TILE *
+                                                   sli_min(sli_tiles(width), SLI_DUAL_GROUP) *
+                                                   sli_tiles(height);
 }
 
 /* Z of the rows below a supernode, out of the front of its parent of that height; places: their rows

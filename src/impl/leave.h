@@ -31,6 +31,7 @@
 #undef SLI_GROUP
 #undef SLI_CHUNK
 #undef SLI_FRONT_INVERSE
+#undef SLI_DUAL_GROUP
 #undef SLI_DUAL_ROW
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS

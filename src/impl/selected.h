@@ -350,6 +350,18 @@ static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_in
     return SL_OK;
 }
 
+/* The diagonal in the order of the panels: looked up row by row it took a twelfth of the whole time. */
+static void sli_selected_all(const sl_selected *Z, double *out) {
+    const sl_symbolic *S = Z->S;
+    sl_int s, j;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int width = S->steps[s].width, *row = S->perm + S->super_first[s];
+        for (j = 0; j < width; j++) {
+            out[row[j]] = Z->Z[Z->begin[s] + sli_panel_at(width, j, j)];
+        }
+    }
+}
+
 SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const sl_int *rows,
                                       sl_int count, sl_stats *stats) {
     sli_stats_clear_error(stats);
@@ -359,6 +371,10 @@ SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const s
     count = rows == NULL ? Z->S->n : count;
     if (count > 0 && out == NULL) {
         return SL_ERR_ARGUMENT;
+    }
+    if (rows == NULL && Z->count == Z->S->n_supers) {
+        sli_selected_all(Z, out);
+        return SL_OK;
     }
     return sli_selected_ask(Z, out, rows, NULL, count, stats);
 }

@@ -141,14 +141,31 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
     }
 }
 
-/* Some lanes of some columns of a tile to as many columns and lanes of another. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int lane, sl_int end,
+/* The first lanes of some columns of a tile at to become those at from: rows below share the others. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
+                                             sl_int first, sl_int last) {
+    sl_int k;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    for (k = first; k < last; k++) {
+        SLV_LOAD(a, from + SLI_TILE * k)
+        SLV_LOAD(b, to + SLI_TILE * k)
+        SLV_FIRST(a, lanes)
+        SLV_BELOW(b, lanes - 1)
+        SLV_ADD(a, b)
+        SLV_STORE(to + SLI_TILE * k, a)
+    }
+}
+
+/* Lanes first .. last-1 of the first columns of a tile to the columns and lanes of another. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
                                               double *to, sl_int columns) {
-    sl_int i, k;
-    for (i = lane; i < end; i++) {
-        for (k = 0; k < columns; k++) {
-            to[SLI_TILE * i + k] = from[SLI_TILE * k + i];
-        }
+    if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
+        SLV_TRANSPOSE(to, from)
+    } else {
+        SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+        SLV_TRANSPOSE(x, from)
+        SLV_NAME(merge)(to, x, columns, first, last);
     }
 }
 
@@ -176,7 +193,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, j, k;
+    sl_int c, t, j;
     for (c = 0; c < tiles; c++) {
         for (j = SLI_TILE * c; j < m; j++) {
             const double minus = -f->D[j0 + j];
@@ -203,10 +220,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
                 SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
                                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
-            for (k = 0; k < columns; k++) { /* rows below may share the tile */
-                memcpy(row + tile_size * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)k, x + SLI_TILE * k,
-                       (size_t)rows * sizeof(double));
-            }
+            SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
                 SLV_NAME(mirror)(x, 0, rows,
                                  column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
@@ -219,8 +233,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
 /* From the last group of columns to the first, each with the columns after it among its rows below:
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
-    const sl_int w = f->width, h = w + f->below, most = SLI_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_GROUP * SLI_DUAL_ROW, *W = P + SLI_GROUP * SLI_DUAL_ROW;
+    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
     for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
         const sl_int m = sli_min(most, w - j0);
