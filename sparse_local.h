@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 130de0a4dfae3cf4
+ * FNV-1a of all that follows this comment, license aside: 7e5871f29becd859
  *
  * Contents
  *         (what a user reads)
@@ -15,63 +15,63 @@
  *    826  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *    920  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1011  impl/status.h              status codes in words, and the error fields of stats
- *   1067  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1192  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1267  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1304  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *    933  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1024  impl/status.h              status codes in words, and the error fields of stats
+ *   1080  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1205  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1280  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1317  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1338  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1571  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1720  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1750  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   2864  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   2909  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3046  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3249  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3501  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3663  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   3924  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   3976  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4127  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   4901  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6144  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8249  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10416  impl/select.h              the kernel table for an instruction set
+ *   1351  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1584  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1733  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1763  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   2877  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   2922  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3059  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3262  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3514  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3676  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   3937  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   3989  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4140  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   4914  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6157  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8262  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10429  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10449  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  10877  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  10950  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10462  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  10890  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  10963  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11304  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11343  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11490  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  11604  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  11748  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  11833  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  11906  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12072  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12148  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12189  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12382  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  12668  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11317  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11356  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11503  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  11617  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  11761  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  11846  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  11919  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12085  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12161  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12202  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12395  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  12681  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  12831  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  12951  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13032  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13290  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13377  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  13669  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  13764  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  13824  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14073  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14115  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  12844  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  12964  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13045  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13303  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  13390  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  13682  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  13777  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  13837  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14086  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14128  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  14417  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  14571  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  14430  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  14584  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  14973  impl/leave.h               takes every internal macro away again
+ *  15013  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -836,16 +836,16 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *  the whole gives.
  *
  *  out    [out]  the entries, or NULL on error; release with sl_selected_free. They stay what they are when F is
- *                factored again or released.
+ *                factored again or released, until sl_selected_refill.
  *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
  *  opt    [in]   allocator; may be NULL. The instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles kept. While it runs,
- *           8 (height)^2 bytes for each supernode between the one at hand and its root that has children to come, where
- *           height counts its columns and the rows below.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
+ *           bytes a supernode kept. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
+ *           has children to come, where height counts its columns and the rows below.
  *  Threads  reads F; the object is immutable and may be shared.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
@@ -853,6 +853,19 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
 SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_factor *F,
                                                    const sl_int *set, sl_int count,
                                                    const sl_options *opt, sl_stats *stats);
+
+/** Computes the same entries again, of what F holds now, in the same memory.
+ *
+ *  Z      [in,out]  on error as before.
+ *  F      [in]      a factor over the analysis that Z was made for.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     as sl_selected_create; no allocation once W has grown. Where fresh memory is slow, twice as fast.
+ *  Threads  nobody else may use Z meanwhile.
+ *  Example  tests/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W);
 
 /** Releases a selected inverse; NULL is fine. */
 SL_API void sl_selected_free(sl_selected *Z);
@@ -14573,15 +14586,6 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 #ifndef SLI_SELECTED_H
 #define SLI_SELECTED_H
 
-struct sl_selected {
-    sl_allocator allocator;
-    const sl_symbolic *S; /* borrowed */
-    sl_int count;         /* supernodes */
-    sl_int *supers;       /* count, ascending */
-    sl_off *begin;        /* count + 1: the panels, in doubles */
-    double *Z;
-};
-
 /* The sweep, planned: a front must stay until the last of its children has taken its part, and children come
  * last to first. Fronts of even and of odd depth have a stack each, which grow towards each other: when
  * a front is made, its parent's is the top of the other stack. */
@@ -14591,8 +14595,19 @@ typedef struct sli_descent {
     sl_int *side;  /* count: depth % 2 */
     sl_off *front; /* count: where the front begins, in doubles */
     sl_off fronts; /* doubles for all of them */
-    sl_off scratch;
+    sl_off scratch; /* doubles for the kernels */
 } sli_descent;
+
+struct sl_selected {
+    sl_allocator allocator;
+    const sl_symbolic *S; /* borrowed */
+    sl_int count;         /* supernodes */
+    sl_int *supers;       /* count, ascending */
+    sl_off *begin;        /* count + 1: the panels, in doubles */
+    double *Z;
+    sli_descent descent;
+    size_t bytes;
+};
 
 /* The supernodes of the reach of seeds, columns of L in ascending order. */
 static void sli_selected_reach(sl_selected *Z, const uint64_t *seeds, sl_int count) {
@@ -14612,6 +14627,11 @@ static void sli_selected_layout(sl_selected *Z, sli_block *b) {
     (void)sli_take(b, 1, sizeof(sl_selected));
     Z->supers = SLI_TAKE(b, sl_int, Z->count);
     Z->begin = SLI_TAKE(b, sl_off, (uint64_t)Z->count + 1);
+    Z->descent.up = SLI_TAKE(b, sl_int, Z->count);
+    Z->descent.last = SLI_TAKE(b, sl_int, Z->count);
+    Z->descent.side = SLI_TAKE(b, sl_int, Z->count);
+    Z->descent.front = SLI_TAKE(b, sl_off, Z->count);
+    Z->bytes = b->used;
 }
 
 /* Rows of A as columns of L, ascending, for a reach. */
@@ -14773,38 +14793,49 @@ static void sli_selected_sweep(sl_selected *Z, const sl_factor *F, const sli_des
     }
 }
 
-/* Plans and makes the numbers. */
-static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F) {
-    const sl_allocator *a = &Z->allocator;
-    sli_block values = {NULL, 0, 0}, plan = {NULL, 0, 0}, room = {NULL, 0, 0};
+/* The numbers, in a workspace. F fits. */
+static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    sli_block b = {NULL, 0, 0};
     double *fronts = NULL, *scratch = NULL;
-    sli_descent d;
     sl_status status = SL_OK;
     int pass;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        Z->Z = SLI_TAKE(&values, double, Z->begin[Z->count]);
-        status = pass == 0 ? sli_block_alloc(&values, a) : SL_OK;
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        d.up = SLI_TAKE(&plan, sl_int, Z->count);
-        d.last = SLI_TAKE(&plan, sl_int, Z->count);
-        d.side = SLI_TAKE(&plan, sl_int, Z->count);
-        d.front = SLI_TAKE(&plan, sl_off, Z->count);
-        status = pass == 0 ? sli_block_alloc(&plan, a) : SL_OK;
+        fronts = SLI_TAKE(&b, double, Z->descent.fronts);
+        scratch = SLI_TAKE(&b, double, Z->descent.scratch);
+        if (pass == 0) {
+            status = b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b.used);
+            b.base = (unsigned char *)W->block;
+            b.used = 0;
+        }
     }
     if (status == SL_OK) {
-        sli_descent_plan(&d, Z);
+        sli_selected_sweep(Z, F, &Z->descent, fronts, scratch);
     }
+    return status;
+}
+
+/* The same in the caller's workspace, or in one for this call. */
+static sl_status sli_selected_fill_in(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    sl_work own;
+    sl_status status;
+    own.allocator = Z->allocator;
+    own.block = NULL;
+    own.size = 0;
+    status = sli_selected_fill(Z, F, W == NULL ? &own : W);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+/* Room for the numbers. */
+static sl_status sli_selected_room(sl_selected *Z) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        fronts = SLI_TAKE(&room, double, d.fronts);
-        scratch = SLI_TAKE(&room, double, d.scratch);
-        status = pass == 0 ? sli_block_alloc(&room, a) : SL_OK;
+        Z->Z = SLI_TAKE(&b, double, Z->begin[Z->count]);
+        Z->bytes += pass == 0 ? b.used : 0;
+        status = pass == 0 ? sli_block_alloc(&b, &Z->allocator) : SL_OK;
     }
-    if (status == SL_OK) {
-        sli_selected_sweep(Z, F, &d, fronts, scratch);
-    }
-    sli_free(a, room.base);
-    sli_free(a, plan.base);
     return status;
 }
 
@@ -14818,9 +14849,7 @@ static void sli_selected_stats(const sl_selected *Z, double started, sl_stats *s
         }
         stats->z_entries = Z->begin[Z->count];
         stats->seconds_selected = sli_seconds() - started;
-        stats->bytes_selected =
-            sizeof *Z + (size_t)Z->count * sizeof(sl_int) +
-            ((size_t)Z->count + 1) * sizeof(sl_off) + (size_t)stats->z_entries * sizeof(double);
+        stats->bytes_selected = Z->bytes;
     }
 }
 
@@ -14843,7 +14872,11 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     }
     status = sli_selected_list(&Z, F->S, set, count, &a, stats);
     if (status == SL_OK) {
-        status = sli_selected_fill(Z, F);
+        sli_descent_plan(&Z->descent, Z);
+        status = sli_selected_room(Z);
+    }
+    if (status == SL_OK) {
+        status = sli_selected_fill_in(Z, F, NULL);
     }
     if (status == SL_OK) {
         sli_selected_stats(Z, started, stats);
@@ -14852,6 +14885,13 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
         sl_selected_free(Z);
     }
     return status;
+}
+
+SL_API sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    if (Z == NULL || F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    return F->is_good && F->S == Z->S ? sli_selected_fill_in(Z, F, W) : SL_ERR_STATE;
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {

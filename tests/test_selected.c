@@ -307,9 +307,12 @@ static void outlives_a_refactorization(void **state) {
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_CHECK(sl_selected_diagonal(Z, after, NULL, 0, NULL));
     SAME_VALUES(before, after, 225);
+    SL_CHECK(sl_selected_refill(Z, y.F, NULL));
+    SL_CHECK(sl_selected_diagonal(Z, again, NULL, 0, NULL));
     sl_selected_free(Z);
     SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_selected_diagonal(Z, again, NULL, 0, NULL));
+    SL_CHECK(sl_selected_diagonal(Z, after, NULL, 0, NULL));
+    SAME_VALUES(again, after, 225);
     for (int k = 0; k < 225; k++) { /* a power of 2 is exact */
         assert_true(again[k] == before[k] / 4.0);
     }
@@ -317,6 +320,7 @@ static void outlives_a_refactorization(void **state) {
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_selected_create(&none, y.F, NULL, 0, NULL, NULL));
     assert_null(none);
+    SL_EXPECT(SL_ERR_STATE, sl_selected_refill(Z, y.F, NULL));
     sl_factor_free(y.F);
     y.F = NULL;
     SL_CHECK(sl_selected_diagonal(Z, after, NULL, 0, NULL));
@@ -354,7 +358,7 @@ static void nothing_to_do(void **state) {
 
 static void wrong_use(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_PATH, 20, 1, 0, NULL);
+    problem_t y = problem_make(GEN_PATH, 20, 1, 0, NULL), other = problem_make(GEN_PATH, 20, 1, 0, NULL);
     const sl_int below[3] = {7, -1, 4}, above[3] = {7, 8, 20}, fine[3] = {7, 8, 7}, far[3] = {7, 8, 19};
     sl_options half = options_none();
     double out[20];
@@ -400,6 +404,10 @@ static void wrong_use(void **state) {
     SL_CHECK(sl_selected_entries(Z, out, fine, fine, 3, &stats));
     assert_int_equal(stats.error_row, -1);
     assert_null(sl_selected_view(NULL).Z);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_refill(NULL, y.F, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_refill(Z, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_selected_refill(Z, other.F, NULL)); /* another analysis, though of the same pattern */
+    problem_free(&other);
     sl_selected_free(Z);
     sl_selected_free(NULL);
     problem_free(&y);
@@ -420,6 +428,19 @@ static void every_allocation_may_fail(void **state) {
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
             assert_true((Z != NULL) == (status == SL_OK));
+            if (Z) {
+                sl_work *W = NULL;
+                counter.fail_at = (int64_t)counter.calls;
+                SL_EXPECT(SL_ERR_MEMORY, sl_selected_refill(Z, y.F, NULL)); /* Z is as it was: see below */
+                SL_CHECK(sl_work_create(&W, &opt));
+                counter.fail_at = (int64_t)counter.calls;
+                SL_EXPECT(SL_ERR_MEMORY, sl_selected_refill(Z, y.F, W));
+                SL_CHECK(sl_selected_refill(Z, y.F, W));
+                size_t grown = counter.calls;
+                SL_CHECK(sl_selected_refill(Z, y.F, W));
+                assert_int_equal(counter.calls, grown);
+                sl_work_free(W);
+            }
             if (Z) { /* memory that was never written shows as NaN */
                 double d[3];
                 size_t calls = counter.calls;

@@ -5,15 +5,7 @@
 #include "../public/selected.h"
 #include "factor.h"
 #include "reach.h"
-
-struct sl_selected {
-    sl_allocator allocator;
-    const sl_symbolic *S; /* borrowed */
-    sl_int count;         /* supernodes */
-    sl_int *supers;       /* count, ascending */
-    sl_off *begin;        /* count + 1: the panels, in doubles */
-    double *Z;
-};
+#include "work.h"
 
 /* The sweep, planned: a front must stay until the last of its children has taken its part, and children come
  * last to first. Fronts of even and of odd depth have a stack each, which grow towards each other: when
@@ -24,8 +16,19 @@ typedef struct sli_descent {
     sl_int *side;  /* count: depth % 2 */
     sl_off *front; /* count: where the front begins, in doubles */
     sl_off fronts; /* doubles for all of them */
-    sl_off scratch;
+    sl_off scratch; /* doubles for the kernels */
 } sli_descent;
+
+struct sl_selected {
+    sl_allocator allocator;
+    const sl_symbolic *S; /* borrowed */
+    sl_int count;         /* supernodes */
+    sl_int *supers;       /* count, ascending */
+    sl_off *begin;        /* count + 1: the panels, in doubles */
+    double *Z;
+    sli_descent descent;
+    size_t bytes;
+};
 
 /* The supernodes of the reach of seeds, columns of L in ascending order. */
 static void sli_selected_reach(sl_selected *Z, const uint64_t *seeds, sl_int count) {
@@ -45,6 +48,11 @@ static void sli_selected_layout(sl_selected *Z, sli_block *b) {
     (void)sli_take(b, 1, sizeof(sl_selected));
     Z->supers = SLI_TAKE(b, sl_int, Z->count);
     Z->begin = SLI_TAKE(b, sl_off, (uint64_t)Z->count + 1);
+    Z->descent.up = SLI_TAKE(b, sl_int, Z->count);
+    Z->descent.last = SLI_TAKE(b, sl_int, Z->count);
+    Z->descent.side = SLI_TAKE(b, sl_int, Z->count);
+    Z->descent.front = SLI_TAKE(b, sl_off, Z->count);
+    Z->bytes = b->used;
 }
 
 /* Rows of A as columns of L, ascending, for a reach. */
@@ -206,38 +214,49 @@ static void sli_selected_sweep(sl_selected *Z, const sl_factor *F, const sli_des
     }
 }
 
-/* Plans and makes the numbers. */
-static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F) {
-    const sl_allocator *a = &Z->allocator;
-    sli_block values = {NULL, 0, 0}, plan = {NULL, 0, 0}, room = {NULL, 0, 0};
+/* The numbers, in a workspace. F fits. */
+static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    sli_block b = {NULL, 0, 0};
     double *fronts = NULL, *scratch = NULL;
-    sli_descent d;
     sl_status status = SL_OK;
     int pass;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        Z->Z = SLI_TAKE(&values, double, Z->begin[Z->count]);
-        status = pass == 0 ? sli_block_alloc(&values, a) : SL_OK;
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        d.up = SLI_TAKE(&plan, sl_int, Z->count);
-        d.last = SLI_TAKE(&plan, sl_int, Z->count);
-        d.side = SLI_TAKE(&plan, sl_int, Z->count);
-        d.front = SLI_TAKE(&plan, sl_off, Z->count);
-        status = pass == 0 ? sli_block_alloc(&plan, a) : SL_OK;
+        fronts = SLI_TAKE(&b, double, Z->descent.fronts);
+        scratch = SLI_TAKE(&b, double, Z->descent.scratch);
+        if (pass == 0) {
+            status = b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b.used);
+            b.base = (unsigned char *)W->block;
+            b.used = 0;
+        }
     }
     if (status == SL_OK) {
-        sli_descent_plan(&d, Z);
+        sli_selected_sweep(Z, F, &Z->descent, fronts, scratch);
     }
+    return status;
+}
+
+/* The same in the caller's workspace, or in one for this call. */
+static sl_status sli_selected_fill_in(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    sl_work own;
+    sl_status status;
+    own.allocator = Z->allocator;
+    own.block = NULL;
+    own.size = 0;
+    status = sli_selected_fill(Z, F, W == NULL ? &own : W);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+/* Room for the numbers. */
+static sl_status sli_selected_room(sl_selected *Z) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        fronts = SLI_TAKE(&room, double, d.fronts);
-        scratch = SLI_TAKE(&room, double, d.scratch);
-        status = pass == 0 ? sli_block_alloc(&room, a) : SL_OK;
+        Z->Z = SLI_TAKE(&b, double, Z->begin[Z->count]);
+        Z->bytes += pass == 0 ? b.used : 0;
+        status = pass == 0 ? sli_block_alloc(&b, &Z->allocator) : SL_OK;
     }
-    if (status == SL_OK) {
-        sli_selected_sweep(Z, F, &d, fronts, scratch);
-    }
-    sli_free(a, room.base);
-    sli_free(a, plan.base);
     return status;
 }
 
@@ -251,9 +270,7 @@ static void sli_selected_stats(const sl_selected *Z, double started, sl_stats *s
         }
         stats->z_entries = Z->begin[Z->count];
         stats->seconds_selected = sli_seconds() - started;
-        stats->bytes_selected =
-            sizeof *Z + (size_t)Z->count * sizeof(sl_int) +
-            ((size_t)Z->count + 1) * sizeof(sl_off) + (size_t)stats->z_entries * sizeof(double);
+        stats->bytes_selected = Z->bytes;
     }
 }
 
@@ -276,7 +293,11 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     }
     status = sli_selected_list(&Z, F->S, set, count, &a, stats);
     if (status == SL_OK) {
-        status = sli_selected_fill(Z, F);
+        sli_descent_plan(&Z->descent, Z);
+        status = sli_selected_room(Z);
+    }
+    if (status == SL_OK) {
+        status = sli_selected_fill_in(Z, F, NULL);
     }
     if (status == SL_OK) {
         sli_selected_stats(Z, started, stats);
@@ -285,6 +306,13 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
         sl_selected_free(Z);
     }
     return status;
+}
+
+SL_API sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    if (Z == NULL || F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    return F->is_good && F->S == Z->S ? sli_selected_fill_in(Z, F, W) : SL_ERR_STATE;
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {

@@ -12,16 +12,16 @@
  *  the whole gives.
  *
  *  out    [out]  the entries, or NULL on error; release with sl_selected_free. They stay what they are when F is
- *                factored again or released.
+ *                factored again or released, until sl_selected_refill.
  *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
  *  opt    [in]   allocator; may be NULL. The instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles kept. While it runs,
- *           8 (height)^2 bytes for each supernode between the one at hand and its root that has children to come, where
- *           height counts its columns and the rows below.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
+ *           bytes a supernode kept. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
+ *           has children to come, where height counts its columns and the rows below.
  *  Threads  reads F; the object is immutable and may be shared.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
@@ -29,6 +29,19 @@
 SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_factor *F,
                                                    const sl_int *set, sl_int count,
                                                    const sl_options *opt, sl_stats *stats);
+
+/** Computes the same entries again, of what F holds now, in the same memory.
+ *
+ *  Z      [in,out]  on error as before.
+ *  F      [in]      a factor over the analysis that Z was made for.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     as sl_selected_create; no allocation once W has grown. Where fresh memory is slow, twice as fast.
+ *  Threads  nobody else may use Z meanwhile.
+ *  Example  tests/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W);
 
 /** Releases a selected inverse; NULL is fine. */
 SL_API void sl_selected_free(sl_selected *Z);
