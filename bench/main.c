@@ -28,6 +28,8 @@ static const question questions[] = {
     {"pairs", "vertex to itself, random pairs with one tree or two (section 5, histogram)",
      bench_pairs},
     {"locality", "the same local question on meshes of growing size", bench_locality},
+    {"selected", "the whole diagonal of the inverse beside a refactorization and single entries",
+     bench_selected},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},
