@@ -9,6 +9,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
+/* count columns of a tile := 0. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
+    sl_int k;
+    SLV_DECLARE(a)
+    SLV_ZERO(a)
+    for (k = 0; k < count; k++) {
+        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
+    }
+}
+
 #define SLI_OFFSET(k) offset[k]
 
 /* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
@@ -74,7 +84,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
             const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
                               SLI_TILE * (ptrdiff_t)j0;
             double *x = N + tile_size * (ptrdiff_t)t;
-            memset(x, 0, (size_t)tile_size * sizeof(double));
+            SLV_NAME(clear)(x, SLI_TILE);
             for (k = 0; k < columns && t == c; k++) {
                 x[SLI_TILE * k + k] = -1.0;
             }
@@ -95,7 +105,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
     for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
-            memset(W, 0, (size_t)tile_size * sizeof(double));
+            SLV_NAME(clear)(W, SLI_TILE);
             SLV_NAME(block)(N + first,
                             f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
                                 first,
@@ -111,8 +121,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
     const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
     sl_int t, c, s;
     for (t = first / SLI_TILE; t < tiles; t++) {
-        memset(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, 0,
-               SLI_TILE * (size_t)m * sizeof(double));
+        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
     }
     for (s = first; s < h; s += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, h - s);
@@ -212,7 +221,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
         for (c = 0; c <= t; c++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-            memset(x, 0, sizeof x);
+            SLV_NAME(clear)(x, columns);
             SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
                             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
                             m - SLI_TILE * t, x, columns);
