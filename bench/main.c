@@ -30,6 +30,8 @@ static const question questions[] = {
     {"inverse", "entries and blocks of the inverse by forward sweeps against local solves",
      bench_inverse},
     {"locality", "the same local question on meshes of growing size", bench_locality},
+    {"selected", "the whole diagonal of the inverse beside a refactorization and single entries",
+     bench_selected},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},

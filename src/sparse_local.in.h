@@ -15,6 +15,7 @@ extern "C" {
 #include "public/plan.h"
 #include "public/inverse.h"
 #include "public/batch.h"
+#include "public/selected.h"
 #ifdef __cplusplus
 }
 #endif
@@ -71,6 +72,7 @@ extern "C" {
 #include "impl/inverse.h"
 #include "impl/inverse_block.h"
 #include "impl/batch.h"
+#include "impl/selected.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"
 #endif

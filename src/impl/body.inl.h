@@ -263,4 +263,6 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(rows),
     SLV_NAME(update),
     SLV_NAME(assemble),
-    SLV_NAME(products8)};
+    SLV_NAME(products8),
+    SLV_NAME(gather),
+    SLV_NAME(takahashi)};

@@ -99,6 +99,22 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
                   _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
 #define SLV_SUMS(r, a)                                                                             \
     r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
+#define SLV_TRANSPOSE_4(to, from)                                                                  \
+    {                                                                                              \
+        const __m256d a_ = _mm256_load_pd(from), b_ = _mm256_load_pd((from) + 8);                  \
+        const __m256d c_ = _mm256_load_pd((from) + 16), d_ = _mm256_load_pd((from) + 24);          \
+        const __m256d e_ = _mm256_unpacklo_pd(a_, b_), f_ = _mm256_unpackhi_pd(a_, b_);            \
+        const __m256d g_ = _mm256_unpacklo_pd(c_, d_), h_ = _mm256_unpackhi_pd(c_, d_);            \
+        _mm256_store_pd((to), _mm256_permute2f128_pd(e_, g_, 0x20));                               \
+        _mm256_store_pd((to) + 8, _mm256_permute2f128_pd(f_, h_, 0x20));                           \
+        _mm256_store_pd((to) + 16, _mm256_permute2f128_pd(e_, g_, 0x31));                          \
+        _mm256_store_pd((to) + 24, _mm256_permute2f128_pd(f_, h_, 0x31));                          \
+    }
+#define SLV_TRANSPOSE(to, from)                                                                    \
+    SLV_TRANSPOSE_4(to, from)                                                                      \
+    SLV_TRANSPOSE_4((to) + 4, (from) + 32)                                                         \
+    SLV_TRANSPOSE_4((to) + 32, (from) + 4)                                                         \
+    SLV_TRANSPOSE_4((to) + 36, (from) + 36)
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -163,6 +179,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "takahashi.inl.h"
 
 #include "narrow.inl.h"
 

@@ -46,6 +46,25 @@
 #define SLV_SUMS(r, a)                                                                             \
     r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)),                         \
                   SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
+#define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
+#define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
+/* rows i, i + 2, i + 4, i + 6 from the pairs of columns: even rows are unpacked low, odd ones high */
+#define SLV_TRANSPOSE_4(to, from, unpack)                                                          \
+    {                                                                                              \
+        const __m512d a_ = unpack(0xff, _mm512_load_pd(from), _mm512_load_pd((from) + 8));         \
+        const __m512d b_ = unpack(0xff, _mm512_load_pd((from) + 16), _mm512_load_pd((from) + 24)); \
+        const __m512d c_ = unpack(0xff, _mm512_load_pd((from) + 32), _mm512_load_pd((from) + 40)); \
+        const __m512d d_ = unpack(0xff, _mm512_load_pd((from) + 48), _mm512_load_pd((from) + 56)); \
+        const __m512d e_ = SLV_BLOCKS_EVEN(a_, b_), f_ = SLV_BLOCKS_EVEN(c_, d_);                  \
+        const __m512d g_ = SLV_BLOCKS_ODD(a_, b_), h_ = SLV_BLOCKS_ODD(c_, d_);                    \
+        _mm512_store_pd((to), SLV_BLOCKS_EVEN(e_, f_));                                            \
+        _mm512_store_pd((to) + 16, SLV_BLOCKS_EVEN(g_, h_));                                       \
+        _mm512_store_pd((to) + 32, SLV_BLOCKS_ODD(e_, f_));                                        \
+        _mm512_store_pd((to) + 48, SLV_BLOCKS_ODD(g_, h_));                                        \
+    }
+#define SLV_TRANSPOSE(to, from)                                                                    \
+    SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd)                                            \
+    SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
 #define SLV_TILES 2
 #define SLV_COLUMNS 8
 #define SLV_EACH_COLUMN SLI_EACH8
@@ -97,6 +116,8 @@
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "takahashi.inl.h"
 
 #include "narrow.inl.h"
 

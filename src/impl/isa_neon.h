@@ -81,6 +81,18 @@
 #define SLV_SUMS(r, a)                                                                             \
     r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3),                                \
     r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
+#define SLV_TRANSPOSE(to, from)                                                                    \
+    {                                                                                              \
+        int i_, k_;                                                                                \
+        for (i_ = 0; i_ < SLI_TILE; i_ += 2) {                                                     \
+            for (k_ = 0; k_ < SLI_TILE; k_ += 2) {                                                 \
+                const float64x2_t low_ = vld1q_f64((from) + SLI_TILE * k_ + i_);                   \
+                const float64x2_t high_ = vld1q_f64((from) + SLI_TILE * (k_ + 1) + i_);            \
+                vst1q_f64((to) + SLI_TILE * i_ + k_, vtrn1q_f64(low_, high_));                     \
+                vst1q_f64((to) + SLI_TILE * (i_ + 1) + k_, vtrn2q_f64(low_, high_));               \
+            }                                                                                      \
+        }                                                                                          \
+    }
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -179,6 +191,8 @@
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "takahashi.inl.h"
 
 #include "narrow.inl.h"
 

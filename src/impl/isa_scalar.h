@@ -85,6 +85,15 @@
 #define SLV_SUMS(r, a)                                                                             \
     r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3;                                            \
     r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
+#define SLV_TRANSPOSE(to, from)                                                                    \
+    {                                                                                              \
+        int i_, k_;                                                                                \
+        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
+            for (k_ = 0; k_ < SLI_TILE; k_++) {                                                    \
+                (to)[SLI_TILE * i_ + k_] = (from)[SLI_TILE * k_ + i_];                             \
+            }                                                                                      \
+        }                                                                                          \
+    }
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -154,6 +163,8 @@
 #include "product.inl.h"
 
 #include "front.inl.h"
+
+#include "takahashi.inl.h"
 
 #include "narrow.inl.h"
 

@@ -201,6 +201,38 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
 /* sums(i, j) -= y(k, i) z(k, j) over `count` rows of 8 lanes each; sums is 8 x 8 by rows. All 64-byte
  * aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+/* Fronts of the inverse Z of P A P'. That of a supernode holds Z of its columns and the rows below, h in
+ * all, both triangles: row tiles [tile][h][8], numbered as in the panel. */
+typedef struct sli_dual {
+    const double *panel; /* L and .. */
+    const double *D;     /* .. its pivots */
+    double *front;
+    sl_int width, below;
+} sli_dual;
+
+/* Where row tile t of a front of the inverse of h rows starts, in doubles. */
+SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
+    return (ptrdiff_t)SLI_TILE * h * t;
+}
+
+/* Column tiles that are completed together, doubles of a row tile of their L'^-1, and of scratch for
+ * supernodes of some height and width. */
+#define SLI_DUAL_GROUP 16
+#define SLI_DUAL_ROW (SLI_DUAL_GROUP * SLI_TILE * SLI_TILE)
+SLI_INLINE sl_off sli_dual_scratch(sl_int height, sl_int width) {
+    return 2 * SLI_DUAL_GROUP * SLI_DUAL_ROW + (sl_off)SLI_TILE * SLI_TILE *
+                                                   sli_min(sli_tiles(width), SLI_DUAL_GROUP) *
+                                                   sli_tiles(height);
+}
+
+/* Z of the rows below a supernode, out of the front of its parent of that height; places: their rows
+ * there, ascending. */
+typedef void (*sli_gather_kernel)(const sli_dual *f, const double *from, sl_int height,
+                                  const sl_int *places);
+
+/* The rest of the front, by Takahashi's equations. With W = L_SJ L_JJ^-1:
+ * Z_SJ = -Z_SS W, Z_JJ = (L_JJ D L_JJ')^-1 - W' Z_SJ. */
+typedef void (*sli_takahashi_kernel)(const sli_dual *f, double *scratch);
 
 typedef struct sli_kernels {
     sl_isa isa;
@@ -212,6 +244,8 @@ typedef struct sli_kernels {
     sli_update_kernel update;
     sli_assemble_kernel assemble;
     sli_products_kernel products;
+    sli_gather_kernel gather;
+    sli_takahashi_kernel takahashi;
 } sli_kernels;
 
 #endif

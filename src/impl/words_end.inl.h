@@ -32,6 +32,10 @@
 #undef SLV_FIRST
 #undef SLV_LANE
 #undef SLV_GATHER
+#undef SLV_TRANSPOSE
+#undef SLV_TRANSPOSE_4
+#undef SLV_BLOCKS_EVEN
+#undef SLV_BLOCKS_ODD
 #undef SLV_GATHER_2
 #undef SLV_SUM_DECLARE
 #undef SLV_SUM_ZERO

@@ -169,6 +169,13 @@ typedef struct sl_stats {
     sl_int x_columns;
     sl_off x_entries;
     size_t bytes_plan;
+
+    /* sl_selected_create */
+    sl_int z_supernodes; /* those whose part of the inverse was made */
+    sl_int z_columns;
+    sl_off z_entries;        /* doubles kept for them */
+    double seconds_selected; /* processor seconds, those of all threads summed up */
+    size_t bytes_selected;
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -176,5 +183,6 @@ typedef struct sl_symbolic sl_symbolic; /* analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* numbers over a symbolic: L and D */
 typedef struct sl_plan sl_plan;         /* reach of a b-set and of an x-set; immutable */
 typedef struct sl_work sl_work;         /* scratch of one thread */
+typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
 
 #endif

@@ -1,0 +1,258 @@
+/* takahashi.inl.h: a front of the inverse: gathered from the parent's front, completed column group by column group */
+
+/* C(rows, k) -= A(rows, j) B(k, j), one row tile; A and B: [length][8], C: [columns][8]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
+                                             double *C, sl_int columns) {
+    sl_int k;
+    for (k = 0; k < columns; k += SLV_COLUMNS) {
+        SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
+    }
+}
+
+/* count columns of a tile := 0. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
+    sl_int k;
+    SLV_DECLARE(a)
+    SLV_ZERO(a)
+    for (k = 0; k < count; k++) {
+        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
+    }
+}
+
+#define SLI_OFFSET(k) offset[k]
+
+/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
+ * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
+                                          const sl_int *places) {
+    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+    sl_int t, i;
+    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+        double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
+        ptrdiff_t offset[SLI_TILE];
+        for (i = 0; i < SLI_TILE; i++) {
+            const sl_int place = places[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+            offset[i] = sli_square_offset(height, place / SLI_TILE) + place % SLI_TILE;
+        }
+        for (i = 0; i < u; i++) {
+            const double *x = from + SLI_TILE * (ptrdiff_t)places[i];
+            SLV_DECLARE(a)
+            SLV_GATHER(a, x, SLI_OFFSET)
+            SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
+        }
+    }
+}
+
+#undef SLI_OFFSET
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
+#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
+#define SLI_BEFORE(j, k)                                                                           \
+    if ((j) < (k)) {                                                                               \
+        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k))                                                 \
+        SLV_FNMA(a##k, a##j, b)                                                                    \
+    }
+#define SLI_SOLVE(k, unused)                                                                       \
+    if ((k) < columns) {                                                                           \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+    }
+
+/* x(rows, k) -= x(rows, j) L(k, j) for j < k in the 8 x 8 unit triangle at l: x := x L'^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x, sl_int columns) {
+    SLV_DECLARE(b)
+    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH8(SLI_LOAD, x)
+    SLI_EACH8(SLI_SOLVE, 0)
+    SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     double *N) {
+    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t, k;
+    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+        for (t = c; t < tiles; t++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
+            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
+                              SLI_TILE * (ptrdiff_t)j0;
+            double *x = N + tile_size * (ptrdiff_t)t;
+            SLV_NAME(clear)(x, SLI_TILE);
+            for (k = 0; k < columns && t == c; k++) {
+                x[SLI_TILE * k + k] = -1.0;
+            }
+            if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
+                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
+                                SLI_TILE * (t - c), x, columns);
+            }
+            SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+        }
+    }
+}
+
+/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *N, double *W) {
+    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
+            SLV_NAME(clear)(W, SLI_TILE);
+            SLV_NAME(block)(N + first,
+                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                first,
+                            m - SLI_TILE * c, W, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
+                                                     const double *W) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+    sl_int t, c, s;
+    for (t = first / SLI_TILE; t < tiles; t++) {
+        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
+    }
+    for (s = first; s < h; s += SLI_CHUNK) {
+        const sl_int length = sli_min(SLI_CHUNK, h - s);
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            double *row = f->front + sli_square_offset(h, t);
+            const double *A = row + SLI_TILE * (ptrdiff_t)s;
+            double *C = row + SLI_TILE * (ptrdiff_t)j0;
+#if SLV_TILES == 2
+            if (t + 1 < tiles) {
+                const ptrdiff_t next = sli_square_offset(h, 1);
+                for (c = 0; c < sli_tiles(m); c++) {
+                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
+                                     m - SLI_TILE * c);
+                }
+                t++;
+                continue;
+            }
+#endif
+            for (c = 0; c < sli_tiles(m); c++) {
+                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                                sli_min(SLI_TILE, m - SLI_TILE * c));
+            }
+        }
+    }
+}
+
+/* The first lanes of some columns of a tile at to become those at from: rows below share the others. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
+                                             sl_int first, sl_int last) {
+    sl_int k;
+    SLV_DECLARE(a)
+    SLV_DECLARE(b)
+    for (k = first; k < last; k++) {
+        SLV_LOAD(a, from + SLI_TILE * k)
+        SLV_LOAD(b, to + SLI_TILE * k)
+        SLV_FIRST(a, lanes)
+        SLV_BELOW(b, lanes - 1)
+        SLV_ADD(a, b)
+        SLV_STORE(to + SLI_TILE * k, a)
+    }
+}
+
+/* Lanes first .. last-1 of the first columns of a tile to the columns and lanes of another. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
+                                              double *to, sl_int columns) {
+    if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
+        SLV_TRANSPOSE(to, from)
+    } else {
+        SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+        SLV_TRANSPOSE(x, from)
+        SLV_NAME(merge)(to, x, columns, first, last);
+    }
+}
+
+/* Z_JS = Z_SJ' */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
+    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    sl_int t, c;
+    for (c = 0; c < sli_tiles(m); c++) {
+        const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+        double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+        for (t = first / SLI_TILE; t < tiles; t++) {
+            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                                 tile_size * (ptrdiff_t)c,
+                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+                             to + tile_size * (ptrdiff_t)t, columns);
+        }
+    }
+}
+
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
+                                                    const double *N, double *P, const double *W) {
+    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+    const sl_int tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+    sl_int c, t, j;
+    for (c = 0; c < tiles; c++) {
+        for (j = SLI_TILE * c; j < m; j++) {
+            const double minus = -f->D[j0 + j];
+            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + at)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + at, a)
+        }
+    }
+    for (t = 0; t < tiles; t++) {
+        const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
+        double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c <= t; c++) {
+            const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+            double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+            SLV_NAME(clear)(x, columns);
+            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
+                            m - SLI_TILE * t, x, columns);
+            if (first < h) {
+                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+            }
+            SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
+            if (c < t) {
+                SLV_NAME(mirror)(x, 0, rows,
+                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                                 SLI_TILE);
+            }
+        }
+    }
+}
+
+/* From the last group of columns to the first, each with the columns after it among its rows below:
+ * what a group works upon stays in the caches, whatever the width. */
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
+    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+    sl_int j0;
+    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
+        const sl_int m = sli_min(most, w - j0);
+        SLV_NAME(group_inverse)(f, j0, m, N);
+        if (j0 + m < h) {
+            SLV_NAME(group_weights)(f, j0, m, N, W);
+            SLV_NAME(group_product)(f, j0, m, W);
+            SLV_NAME(group_mirror)(f, j0, m);
+        }
+        SLV_NAME(group_square)(f, j0, m, N, P, W);
+    }
+}
