@@ -184,6 +184,45 @@ static void local_and_threads_as_ever(void **state) {
     gen_matrix_free(&M);
 }
 
+/* Entries of the inverse are those of the one that solves apply: x = 0 in the null rows. */
+static void entries_of_the_inverse(void **state) {
+    (void)state;
+    sl_int components = 0;
+    gen_matrix_t M = laplacian(GEN_COMPONENTS, 120, 0, &components);
+    size_t n = (size_t)M.view.n_cols;
+    way_list_t ways = ways_present();
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        sl_factor *F = NULL;
+        sl_selected *Z = NULL;
+        double *X = test_reals(n * n), *diagonal = test_reals(n), *selected = test_reals(n), most = 0.0;
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        for (size_t i = 0; i < n; i++) {
+            X[i + n * i] = 1.0;
+        }
+        SL_CHECK(sl_factor_solve(F, X, n, X, n, (sl_int)n, NULL));
+        for (size_t i = 0; i < n; i++) {
+            most = fmax(most, fabs(X[i + n * i]));
+        }
+        SL_CHECK(sl_inverse_diagonal(F, diagonal, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &opt, NULL));
+        SL_CHECK(sl_selected_diagonal(Z, selected, NULL, 0, NULL));
+        for (size_t i = 0; i < n; i++) {
+            assert_true(fabs(diagonal[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);
+            assert_true(fabs(selected[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);
+        }
+        sl_selected_free(Z);
+        sl_factor_free(F);
+        free(X);
+        free(diagonal);
+        free(selected);
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 /* A definite matrix has the same bits with the wish and without, and a NaN stays an error. */
 static void definite_matrices_and_failures(void **state) {
     (void)state;
@@ -217,6 +256,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_null_pivot_for_each_component),
         cmocka_unit_test(local_and_threads_as_ever),
+        cmocka_unit_test(entries_of_the_inverse),
         cmocka_unit_test(definite_matrices_and_failures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
