@@ -9,10 +9,12 @@ OPT ?= -O2
 DATA ?= ../shared/data
 ## BENCH    size of the bench: quick, full (to 4e6 unknowns) or nothing
 BENCH ?=
-## ASK      questions of the bench by name (build/bench --list); nothing asks all
+## ASK      questions of the bench by name (build/timed/bench --list); nothing asks all
 ASK ?=
 ## MESH     mesh file that the bench uses instead of its grids
 MESH ?=
+## OPENMP   flag of the compiler for the bench's threads; nothing: a pool of its own
+OPENMP ?= -fopenmp
 ## FUZZ_SECONDS  how long each fuzzer runs
 FUZZ_SECONDS ?= 20
 ## B        folder of objects, test programs and the bench; what is the same for all of them stays in build
@@ -55,7 +57,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	format tidy clean always build-tests run-tests run-fuzz races test-openmp
+	format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -247,19 +249,21 @@ run-fuzz: $(FUZZERS:tests/fuzz_%.c=$(B)/run/%)
 
 $(B)/bench: $(call object,$(QUESTIONS:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
 	$(call say,LINK)
-	$(Q)$(LINK) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
+	$(Q)$(LINK) $(OPENMP) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 
-bench: deps ## times full and local solves on this machine; CSV and plots under build/bench-out
-	@$(MAKE) --no-print-directory $(B)/bench
+run-bench: $(B)/bench
 	@mkdir -p build/bench-out
 	$(BENCH_ENV) $(B)/bench $(or $(ASK),$(ASK_FIRST))
+
+bench: deps sparse_local.h ## times factorization, full and local solves on this machine; CSV and plots under build/bench-out
+	@$(MAKE) --no-print-directory run-bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
 
 # Peers in their best setting: OpenBLAS chooses its kernels by itself, whatever core the environment forces on it.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen picks its vector instructions when it is compiled: its best setting is -march=native, for its own file alone.
 bench-peers: deps deps-peers sparse_local.h ## the questions peers and peers_harmonic: beside CHOLMOD and Eigen
-	@$(MAKE) --no-print-directory bench B=build/peers ASK_FIRST="peers peers_harmonic" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
-	CFLAGS='-DSL_BENCH_PEERS $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
+	@$(MAKE) --no-print-directory run-bench B=build/peers ASK_FIRST="peers peers_harmonic" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
 

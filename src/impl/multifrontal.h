@@ -13,8 +13,8 @@ typedef struct sli_job {
     sli_front front;
 } sli_job;
 
-/* A front of this many flops takes some 15 us, and is shared out at 1 or 2 us a step. */
-#define SLI_SHARED_FLOPS 1e6
+/* A front of this many flops takes some 50 us, and is shared out at 1 or 2 us a step by OpenMP, at more by others. */
+#define SLI_SHARED_FLOPS 4e6
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
