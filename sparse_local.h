@@ -1,81 +1,81 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: ef4bafec5d3e7ceb
+ * FNV-1a of all that follows this comment, license aside: ae4d8c5d81476d77
  *
  * Contents
  *         (what a user reads)
  *     83  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    134  public/config.h            what a user may set before including the header, the version, and the integer types
  *    183  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    371  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    491  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    553  public/factor.h            the numbers: P A P' = L D L'
- *    659  public/solve.h             full solves, and the workspace that every solve writes to
- *    728  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    814  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    893  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    929  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    372  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    492  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    554  public/factor.h            the numbers: P A P' = L D L'
+ *    660  public/solve.h             full solves, and the workspace that every solve writes to
+ *    729  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    815  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    894  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    931  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1036  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1127  impl/status.h              status codes in words, and the error fields of stats
- *   1183  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1308  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1383  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1420  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1038  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1129  impl/status.h              status codes in words, and the error fields of stats
+ *   1185  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1310  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1385  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1422  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1454  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1704  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1853  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1883  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3054  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3099  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3236  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3449  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3710  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3872  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4143  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4195  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4346  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5158  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6430  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8602  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10836  impl/select.h              the kernel table for an instruction set
+ *   1456  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1706  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1855  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1885  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3056  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3102  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3239  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3454  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3720  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3882  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4154  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4206  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4359  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5172  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6452  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8633  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10875  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10869  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11297  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11370  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10908  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11336  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11409  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11724  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11763  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11910  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12024  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12168  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12253  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12326  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12492  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12568  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12609  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12802  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13088  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11763  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11802  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11949  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12063  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12207  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12292  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12365  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12531  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12607  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12648  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12841  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13127  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13321  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13453  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13539  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13799  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13886  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14180  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14296  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14356  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14593  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14635  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13360  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13492  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13578  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13838  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  13925  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14219  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14334  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14394  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14631  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14673  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  14933  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15174  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15493  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  15720  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  15874  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  14971  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15211  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15530  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  15757  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  15911  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  16319  impl/leave.h               takes every internal macro away again
+ *  16355  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -255,9 +255,9 @@ typedef enum sl_isa {
 
 /** How to factor; both write the same L to rounding. */
 typedef enum sl_method {
-    SL_METHOD_AUTO = 0,    /* the faster one, by the flops per supernode */
-    SL_METHOD_UP_LOOKING,  /* row by row, little memory beyond L: nearly diagonal patterns, stars */
-    SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: everything else; threads */
+    SL_METHOD_AUTO = 0,   /* the faster one, by the flops per supernode */
+    SL_METHOD_UP_LOOKING, /* row by row, little memory beyond L: nearly diagonal patterns, stars */
+    SL_METHOD_SUPERNODAL  /* dense fronts, children before parents: everything else; threads */
 } sl_method;
 
 /** What a null pivot means. */
@@ -272,9 +272,10 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 
 /** Threads, opt-in: all zero = none. What a call computes does not depend on how many there are. */
 typedef struct sl_threads {
-    sl_int count;        /* 0 or 1: the calling thread alone */
-    sl_parallel_for run; /* the caller's pool; NULL: OpenMP where compiled with it, else one after the other */
-    void *context;       /* handed to run */
+    sl_int count; /* 0 or 1: the calling thread alone */
+    sl_parallel_for
+        run; /* the caller's pool; NULL: OpenMP where compiled with it, else one after the other */
+    void *context; /* handed to run */
 } sl_threads;
 
 /** Memory for the objects. Both functions NULL: malloc and free, on Linux in huge pages where a block has 4 MB or more;
@@ -333,12 +334,12 @@ typedef struct sl_stats {
     /* sl_factor_create, sl_factor_refactor */
     sl_isa isa;
     sl_method method; /* the one that was used */
-    sl_int positive; /* pivots by sign: the inertia of A */
+    sl_int positive;  /* pivots by sign: the inertia of A */
     sl_int negative;
     sl_int null;      /* null pivots: skipped (SL_SEMIDEFINITE), or the one that was refused */
     double pivot_min; /* smallest and largest |d| */
     double pivot_max;
-    double seconds_setup;  /* processor seconds in the schedule and the memory of sl_factor_create */
+    double seconds_setup; /* processor seconds in the schedule and the memory of sl_factor_create */
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
@@ -903,7 +904,8 @@ typedef struct sl_request {
     const double *B; /* nb x nrhs (n x nrhs), leading dimension ldb elements */
     size_t ldb;
     int is_interleaved; /* 0: X and B column-major; else row-major, as in the calls named interleaved */
-    sl_int nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
+    sl_int
+        nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
 } sl_request;
 
 /** Answers requests with one factor: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
@@ -1198,7 +1200,7 @@ SLI_INLINE void sli_ask_huge_pages(void *block, size_t bytes) {
         const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
         const int keep = errno;
         (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
-                      SLI_HUGE_PAGES);
+                          SLI_HUGE_PAGES);
         errno = keep; /* a refusal changes nothing */
     }
 #else
@@ -1800,39 +1802,39 @@ typedef struct sli_kernels {
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
 #define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_FNMA(a, b, c) \
+#define SLV_FNMA(a, b, c)                                                                          \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] -= b[i_] * c[i_]; \
+            a[i_] -= b[i_] * c[i_];                                                                \
         }                                                                                          \
     }
-#define SLV_BROADCAST(b, p) \
+#define SLV_BROADCAST(b, p)                                                                        \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            b[i_] = *(p); \
+            b[i_] = *(p);                                                                          \
         }                                                                                          \
     }
-#define SLV_MULTIPLY(a, b, c) \
+#define SLV_MULTIPLY(a, b, c)                                                                      \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = b[i_] * c[i_]; \
+            a[i_] = b[i_] * c[i_];                                                                 \
         }                                                                                          \
     }
-#define SLV_DIVIDE(a, b, c) \
+#define SLV_DIVIDE(a, b, c)                                                                        \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = b[i_] / c[i_]; \
+            a[i_] = b[i_] / c[i_];                                                                 \
         }                                                                                          \
     }
-#define SLV_BELOW(a, k) \
+#define SLV_BELOW(a, k)                                                                            \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = i_ > (k) ? a[i_] : 0.0; \
+            a[i_] = i_ > (k) ? a[i_] : 0.0;                                                        \
         }                                                                                          \
     }
 #define SLV_SPREAD(mask, lanes, count)                                                             \
@@ -3062,10 +3064,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_X(1, 0)
     SLI_X(2, 0)
-    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
-        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
-            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
-                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
+    SLI_X(3, 0)
+    SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1)
+        SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+            SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+                SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -3079,11 +3082,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_XT(6, 7)
     SLI_XT(5, 7)
-    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
-        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
-            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
-                    r0;
+    SLI_XT(4, 7)
+    SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6)
+        SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5)
+            SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4) SLI_XT(2, 3)
+                SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] = r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -3185,16 +3188,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                                            sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                                           sl_int j1,
-                                           double *target, sl_int target_width,
+                                           sl_int j1, double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
     for (j = j0; j < j1; j += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, j1 - j);
         for (c = c0; c < c1; c++) {
-            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            SLV_NAME(pack)
+            (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+             B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
         for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
@@ -3203,8 +3206,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-            double *C1 =
-                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+            double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
 #endif
             for (c = c0; c < c1 && c <= t; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
@@ -3224,8 +3226,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             t += is_pair;
             if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-                                 target_width - SLI_TILE * (c - target_first));
+                SLV_NAME(block1)
+                (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                 target_width - SLI_TILE * (c - target_first));
             }
 #endif
         }
@@ -3260,13 +3263,14 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_ZERO(a##k)                                                                             \
     }
 
-/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). Here by
+ * division, one step shorter than by the reciprocal: all wait for this chain. */
 #define SLI_AFTER(i, k)                                                                            \
     if ((i) > (k)) {                                                                               \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
+#define SLI_PIVOT(k, p)                                                                            \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
@@ -3429,15 +3433,16 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
                                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row;
-             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+        for (end = row; end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile;
+             end++) {
             lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
             for (i = 0; i < end && i < columns; i++) {
-                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                const int is_below =
+                    places[i] >= w; /* the panel or the update matrix, not a branch */
                 double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
                 SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
@@ -3530,16 +3535,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
     for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
-            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
-                              SLI_TILE * (ptrdiff_t)j0;
+            const double *l =
+                f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
             double *x = N + tile_size * (ptrdiff_t)t;
             SLV_NAME(clear)(x, SLI_TILE);
             for (k = 0; k < columns && t == c; k++) {
                 x[SLI_TILE * k + k] = -1.0;
             }
             if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
-                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
-                                SLI_TILE * (t - c), x, columns);
+                SLV_NAME(block)
+                (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
+                 columns);
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
@@ -3555,10 +3561,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
             SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)(N + first,
-                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                first,
-                            m - SLI_TILE * c, W, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, W, SLI_TILE);
         }
     }
 }
@@ -3584,16 +3589,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
                     const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
-                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
-                                     m - SLI_TILE * c);
+                    SLV_NAME(block2)
+                    (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
                 t++;
                 continue;
             }
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
-                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                                sli_min(SLI_TILE, m - SLI_TILE * c));
+                SLV_NAME(block)
+                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                 sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -3636,10 +3642,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
         for (t = first / SLI_TILE; t < tiles; t++) {
-            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                 tile_size * (ptrdiff_t)c,
-                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-                             to + tile_size * (ptrdiff_t)t, columns);
+            SLV_NAME(mirror)
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                 tile_size * (ptrdiff_t)c,
+             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * (ptrdiff_t)t, columns);
         }
     }
 }
@@ -3671,18 +3678,20 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
             SLV_NAME(clear)(x, columns);
-            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
-                            m - SLI_TILE * t, x, columns);
+            SLV_NAME(block)
+            (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+             columns);
             if (first < h) {
-                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                SLV_NAME(block)
+                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
-                SLV_NAME(mirror)(x, 0, rows,
-                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
-                                 SLI_TILE);
+                SLV_NAME(mirror)
+                (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                 SLI_TILE);
             }
         }
     }
@@ -3692,7 +3701,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
     for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
         const sl_int m = sli_min(most, w - j0);
@@ -4066,9 +4076,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 }
             }
             if (inner > 0) {
-                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
-                                   buf + SLI_TILE);
+                SLV_NAME(diagonal)
+                (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+                 xs + row, buf + SLI_TILE);
             }
             if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
@@ -4083,8 +4093,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 SLV_NAME(dots2)(above, tile, buf, first, w, sums);
             } else {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(diagonal)
+                (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
+                 d + row, xs + row, buf);
                 SLV_NAME(dots2)(above, tile, buf, first, row, sums);
             }
             tile = above;
@@ -4245,8 +4256,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_keep(__m256i spread) {
 }
 
 SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d keep) {
-    return _mm256_and_pd(
-        _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), spread)), keep);
+    return _mm256_and_pd(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), spread)),
+                         keep);
 }
 
 #define SLV_DECLARE(a) __m256d a##_0, a##_1;
@@ -4316,8 +4327,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
     a##_1 = _mm256_load_pd((p) + 4);                                                               \
     __asm__("" : "+x"(a##_0), "+x"(a##_1)); /* used 4 times: not to be loaded 4 times */
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
-#define SLV_MULTIPLY(a, b, c) a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
+#define SLV_MULTIPLY(a, b, c)                                                                      \
+    a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c)                                                                        \
+    a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
 #define SLV_BELOW(a, k)                                                                            \
     a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)),                                         \
     a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
@@ -4329,9 +4342,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #define SLV_SPREAD_ADD(to, from)                                                                   \
     _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to),                                        \
                                         sli_spread_4(_mm256_loadu_pd(from), low_, keep_low_)));    \
-    _mm256_store_pd(                                                                               \
-        (to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4),                                          \
-                                sli_spread_4(_mm256_loadu_pd((from) + second_), high_, keep_high_)));
+    _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4),                              \
+                                            sli_spread_4(_mm256_loadu_pd((from) + second_), high_, \
+                                                         keep_high_)));
 #define SLV_TWICE_AT(e, l)                                                                         \
     {                                                                                              \
         const __m256d l_ = _mm256_load_pd(l);                                                      \
@@ -5121,10 +5134,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_X(1, 0)
     SLI_X(2, 0)
-    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
-        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
-            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
-                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
+    SLI_X(3, 0)
+    SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1)
+        SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+            SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+                SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -5138,11 +5152,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_XT(6, 7)
     SLI_XT(5, 7)
-    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
-        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
-            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
-                    r0;
+    SLI_XT(4, 7)
+    SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6)
+        SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5)
+            SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4) SLI_XT(2, 3)
+                SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] = r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -5418,16 +5432,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                                            sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                                           sl_int j1,
-                                           double *target, sl_int target_width,
+                                           sl_int j1, double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
     for (j = j0; j < j1; j += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, j1 - j);
         for (c = c0; c < c1; c++) {
-            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            SLV_NAME(pack)
+            (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+             B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
         for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
@@ -5436,8 +5450,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-            double *C1 =
-                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+            double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
 #endif
             for (c = c0; c < c1 && c <= t; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
@@ -5457,8 +5470,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             t += is_pair;
             if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-                                 target_width - SLI_TILE * (c - target_first));
+                SLV_NAME(block1)
+                (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                 target_width - SLI_TILE * (c - target_first));
             }
 #endif
         }
@@ -5493,13 +5507,14 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_ZERO(a##k)                                                                             \
     }
 
-/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). Here by
+ * division, one step shorter than by the reciprocal: all wait for this chain. */
 #define SLI_AFTER(i, k)                                                                            \
     if ((i) > (k)) {                                                                               \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
+#define SLI_PIVOT(k, p)                                                                            \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
@@ -5662,15 +5677,16 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
                                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row;
-             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+        for (end = row; end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile;
+             end++) {
             lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
             for (i = 0; i < end && i < columns; i++) {
-                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                const int is_below =
+                    places[i] >= w; /* the panel or the update matrix, not a branch */
                 double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
                 SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
@@ -5763,16 +5779,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
     for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
-            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
-                              SLI_TILE * (ptrdiff_t)j0;
+            const double *l =
+                f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
             double *x = N + tile_size * (ptrdiff_t)t;
             SLV_NAME(clear)(x, SLI_TILE);
             for (k = 0; k < columns && t == c; k++) {
                 x[SLI_TILE * k + k] = -1.0;
             }
             if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
-                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
-                                SLI_TILE * (t - c), x, columns);
+                SLV_NAME(block)
+                (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
+                 columns);
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
@@ -5788,10 +5805,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
             SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)(N + first,
-                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                first,
-                            m - SLI_TILE * c, W, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, W, SLI_TILE);
         }
     }
 }
@@ -5817,16 +5833,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
                     const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
-                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
-                                     m - SLI_TILE * c);
+                    SLV_NAME(block2)
+                    (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
                 t++;
                 continue;
             }
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
-                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                                sli_min(SLI_TILE, m - SLI_TILE * c));
+                SLV_NAME(block)
+                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                 sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -5869,10 +5886,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
         for (t = first / SLI_TILE; t < tiles; t++) {
-            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                 tile_size * (ptrdiff_t)c,
-                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-                             to + tile_size * (ptrdiff_t)t, columns);
+            SLV_NAME(mirror)
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                 tile_size * (ptrdiff_t)c,
+             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * (ptrdiff_t)t, columns);
         }
     }
 }
@@ -5904,18 +5922,20 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
             SLV_NAME(clear)(x, columns);
-            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
-                            m - SLI_TILE * t, x, columns);
+            SLV_NAME(block)
+            (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+             columns);
             if (first < h) {
-                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                SLV_NAME(block)
+                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
-                SLV_NAME(mirror)(x, 0, rows,
-                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
-                                 SLI_TILE);
+                SLV_NAME(mirror)
+                (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                 SLI_TILE);
             }
         }
     }
@@ -5925,7 +5945,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
     for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
         const sl_int m = sli_min(most, w - j0);
@@ -6299,9 +6320,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 }
             }
             if (inner > 0) {
-                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
-                                   buf + SLI_TILE);
+                SLV_NAME(diagonal)
+                (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+                 xs + row, buf + SLI_TILE);
             }
             if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
@@ -6316,8 +6337,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 SLV_NAME(dots2)(above, tile, buf, first, w, sums);
             } else {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(diagonal)
+                (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
+                 d + row, xs + row, buf);
                 SLV_NAME(dots2)(above, tile, buf, first, row, sums);
             }
             tile = above;
@@ -7292,10 +7314,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_X(1, 0)
     SLI_X(2, 0)
-    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
-        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
-            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
-                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
+    SLI_X(3, 0)
+    SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1)
+        SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+            SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+                SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -7309,11 +7332,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_XT(6, 7)
     SLI_XT(5, 7)
-    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
-        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
-            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
-                    r0;
+    SLI_XT(4, 7)
+    SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6)
+        SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5)
+            SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4) SLI_XT(2, 3)
+                SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] = r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -7589,16 +7612,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                                            sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                                           sl_int j1,
-                                           double *target, sl_int target_width,
+                                           sl_int j1, double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
     for (j = j0; j < j1; j += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, j1 - j);
         for (c = c0; c < c1; c++) {
-            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            SLV_NAME(pack)
+            (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+             B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
         for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
@@ -7607,8 +7630,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-            double *C1 =
-                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+            double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
 #endif
             for (c = c0; c < c1 && c <= t; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
@@ -7628,8 +7650,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             t += is_pair;
             if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-                                 target_width - SLI_TILE * (c - target_first));
+                SLV_NAME(block1)
+                (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                 target_width - SLI_TILE * (c - target_first));
             }
 #endif
         }
@@ -7664,13 +7687,14 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_ZERO(a##k)                                                                             \
     }
 
-/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). Here by
+ * division, one step shorter than by the reciprocal: all wait for this chain. */
 #define SLI_AFTER(i, k)                                                                            \
     if ((i) > (k)) {                                                                               \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
+#define SLI_PIVOT(k, p)                                                                            \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
@@ -7833,15 +7857,16 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
                                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row;
-             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+        for (end = row; end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile;
+             end++) {
             lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
             for (i = 0; i < end && i < columns; i++) {
-                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                const int is_below =
+                    places[i] >= w; /* the panel or the update matrix, not a branch */
                 double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
                 SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
@@ -7934,16 +7959,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
     for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
-            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
-                              SLI_TILE * (ptrdiff_t)j0;
+            const double *l =
+                f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
             double *x = N + tile_size * (ptrdiff_t)t;
             SLV_NAME(clear)(x, SLI_TILE);
             for (k = 0; k < columns && t == c; k++) {
                 x[SLI_TILE * k + k] = -1.0;
             }
             if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
-                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
-                                SLI_TILE * (t - c), x, columns);
+                SLV_NAME(block)
+                (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
+                 columns);
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
@@ -7959,10 +7985,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
             SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)(N + first,
-                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                first,
-                            m - SLI_TILE * c, W, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, W, SLI_TILE);
         }
     }
 }
@@ -7988,16 +8013,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
                     const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
-                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
-                                     m - SLI_TILE * c);
+                    SLV_NAME(block2)
+                    (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
                 t++;
                 continue;
             }
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
-                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                                sli_min(SLI_TILE, m - SLI_TILE * c));
+                SLV_NAME(block)
+                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                 sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -8040,10 +8066,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
         for (t = first / SLI_TILE; t < tiles; t++) {
-            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                 tile_size * (ptrdiff_t)c,
-                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-                             to + tile_size * (ptrdiff_t)t, columns);
+            SLV_NAME(mirror)
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                 tile_size * (ptrdiff_t)c,
+             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * (ptrdiff_t)t, columns);
         }
     }
 }
@@ -8075,18 +8102,20 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
             SLV_NAME(clear)(x, columns);
-            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
-                            m - SLI_TILE * t, x, columns);
+            SLV_NAME(block)
+            (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+             columns);
             if (first < h) {
-                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                SLV_NAME(block)
+                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
-                SLV_NAME(mirror)(x, 0, rows,
-                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
-                                 SLI_TILE);
+                SLV_NAME(mirror)
+                (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                 SLI_TILE);
             }
         }
     }
@@ -8096,7 +8125,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
     for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
         const sl_int m = sli_min(most, w - j0);
@@ -8470,9 +8500,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 }
             }
             if (inner > 0) {
-                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
-                                   buf + SLI_TILE);
+                SLV_NAME(diagonal)
+                (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+                 xs + row, buf + SLI_TILE);
             }
             if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
@@ -8487,8 +8517,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 SLV_NAME(dots2)(above, tile, buf, first, w, sums);
             } else {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(diagonal)
+                (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
+                 d + row, xs + row, buf);
                 SLV_NAME(dots2)(above, tile, buf, first, row, sums);
             }
             tile = above;
@@ -8659,12 +8690,11 @@ static const sli_kernels SLV_NAME(kernels) = {
         SLV_LOAD(a, part_)                                                                         \
     }
 #define SLV_LANE(b, a, k)                                                                          \
-    b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(                                                   \
-        vgetq_lane_f64((k) < 2   ? a##_0                                                           \
-                       : (k) < 4 ? a##_1                                                           \
-                       : (k) < 6 ? a##_2                                                           \
-                                 : a##_3,                                                          \
-                       (k) % 2));
+    b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0                   \
+                                                               : (k) < 4 ? a##_1                   \
+                                                               : (k) < 6 ? a##_2                   \
+                                                                         : a##_3,                  \
+                                                               (k) % 2));
 #define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
 #define SLV_GATHER(a, x, at)                                                                       \
     a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)),                  \
@@ -8705,12 +8735,12 @@ static const sli_kernels SLV_NAME(kernels) = {
     a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1),                              \
     a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
 #define SLV_BELOW_2(a, k)                                                                          \
-    a = vreinterpretq_f64_u64(vandq_u64(                                                           \
-        vreinterpretq_u64_f64(a),                                                                  \
-        vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+    a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a),                                  \
+                                        vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0),      \
+                                                     vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
 #define SLV_BELOW(a, k)                                                                            \
-    SLV_BELOW_2(a##_0, k) SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4)                      \
-    SLV_BELOW_2(a##_3, (k)-6)
+    SLV_BELOW_2(a##_0, k)                                                                          \
+    SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
 #define SLV_SPREAD(mask, lanes, count)                                                             \
     const sl_int *lanes_ = (lanes), count_ = (count);                                              \
     (void)(mask);
@@ -9527,10 +9557,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_X(1, 0)
     SLI_X(2, 0)
-    SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1)
-        SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2)
-            SLI_X(7, 2) SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4)
-                SLI_X(7, 4) SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
+    SLI_X(3, 0)
+    SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0) SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1)
+        SLI_X(6, 1) SLI_X(7, 1) SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
+            SLI_X(4, 3) SLI_X(5, 3) SLI_X(6, 3) SLI_X(7, 3) SLI_X(5, 4) SLI_X(6, 4) SLI_X(7, 4)
+                SLI_X(6, 5) SLI_X(7, 5) SLI_X(7, 6) r[1] = r1;
     r[2] = r2;
     r[3] = r3;
     r[4] = r4;
@@ -9544,11 +9575,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
     SLI_XT(6, 7)
     SLI_XT(5, 7)
-    SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6)
-        SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5)
-            SLI_XT(1, 5) SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4)
-                SLI_XT(2, 3) SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] =
-                    r0;
+    SLI_XT(4, 7)
+    SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7) SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6)
+        SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6) SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5)
+            SLI_XT(0, 5) SLI_XT(3, 4) SLI_XT(2, 4) SLI_XT(1, 4) SLI_XT(0, 4) SLI_XT(2, 3)
+                SLI_XT(1, 3) SLI_XT(0, 3) SLI_XT(1, 2) SLI_XT(0, 2) SLI_XT(0, 1) r[0] = r0;
     r[1] = r1;
     r[2] = r2;
     r[3] = r3;
@@ -9824,16 +9855,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                                            sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                                           sl_int j1,
-                                           double *target, sl_int target_width,
+                                           sl_int j1, double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
     for (j = j0; j < j1; j += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, j1 - j);
         for (c = c0; c < c1; c++) {
-            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            SLV_NAME(pack)
+            (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+             B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
         for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
@@ -9842,8 +9873,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-            double *C1 =
-                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+            double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
 #endif
             for (c = c0; c < c1 && c <= t; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
@@ -9863,8 +9893,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             t += is_pair;
             if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-                                 target_width - SLI_TILE * (c - target_first));
+                SLV_NAME(block1)
+                (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                 target_width - SLI_TILE * (c - target_first));
             }
 #endif
         }
@@ -9899,13 +9930,14 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_ZERO(a##k)                                                                             \
     }
 
-/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). Here by
+ * division, one step shorter than by the reciprocal: all wait for this chain. */
 #define SLI_AFTER(i, k)                                                                            \
     if ((i) > (k)) {                                                                               \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
+#define SLI_PIVOT(k, p)                                                                            \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
@@ -10068,15 +10100,16 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
                                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row;
-             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+        for (end = row; end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile;
+             end++) {
             lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
             for (i = 0; i < end && i < columns; i++) {
-                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                const int is_below =
+                    places[i] >= w; /* the panel or the update matrix, not a branch */
                 double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
                 SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
@@ -10169,16 +10202,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
     for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
-            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
-                              SLI_TILE * (ptrdiff_t)j0;
+            const double *l =
+                f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
             double *x = N + tile_size * (ptrdiff_t)t;
             SLV_NAME(clear)(x, SLI_TILE);
             for (k = 0; k < columns && t == c; k++) {
                 x[SLI_TILE * k + k] = -1.0;
             }
             if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
-                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
-                                SLI_TILE * (t - c), x, columns);
+                SLV_NAME(block)
+                (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
+                 columns);
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
@@ -10194,10 +10228,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
             SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)(N + first,
-                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                first,
-                            m - SLI_TILE * c, W, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, W, SLI_TILE);
         }
     }
 }
@@ -10223,16 +10256,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
                     const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
-                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
-                                     m - SLI_TILE * c);
+                    SLV_NAME(block2)
+                    (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
                 t++;
                 continue;
             }
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
-                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                                sli_min(SLI_TILE, m - SLI_TILE * c));
+                SLV_NAME(block)
+                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                 sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -10275,10 +10309,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
         for (t = first / SLI_TILE; t < tiles; t++) {
-            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                 tile_size * (ptrdiff_t)c,
-                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-                             to + tile_size * (ptrdiff_t)t, columns);
+            SLV_NAME(mirror)
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                 tile_size * (ptrdiff_t)c,
+             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * (ptrdiff_t)t, columns);
         }
     }
 }
@@ -10310,18 +10345,20 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
             SLV_NAME(clear)(x, columns);
-            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
-                            m - SLI_TILE * t, x, columns);
+            SLV_NAME(block)
+            (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+             columns);
             if (first < h) {
-                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                SLV_NAME(block)
+                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
-                SLV_NAME(mirror)(x, 0, rows,
-                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
-                                 SLI_TILE);
+                SLV_NAME(mirror)
+                (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                 SLI_TILE);
             }
         }
     }
@@ -10331,7 +10368,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
     for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
         const sl_int m = sli_min(most, w - j0);
@@ -10705,9 +10743,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 }
             }
             if (inner > 0) {
-                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
-                                   buf + SLI_TILE);
+                SLV_NAME(diagonal)
+                (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+                 xs + row, buf + SLI_TILE);
             }
             if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
@@ -10722,8 +10760,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 SLV_NAME(dots2)(above, tile, buf, first, w, sums);
             } else {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(diagonal)
+                (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
+                 d + row, xs + row, buf);
                 SLV_NAME(dots2)(above, tile, buf, first, row, sums);
             }
             tile = above;
@@ -11745,10 +11784,10 @@ struct sl_symbolic {
     sl_off *panel_begin;    /* n_supers + 1, in doubles */
     sli_step *steps;        /* n_supers: the reach of everything */
     sl_int *descendant;     /* n_supers: the first supernode of each one's subtree */
-    sl_int *places;         /* rows_begin[n_supers]: the local row of every row in the parent's front */
-    sl_off *map_begin;      /* n_supers + 1 */
-    sl_int *map_from;       /* map_begin[n_supers]: positions in A, grouped by supernode */
-    sl_off *map_to;         /* the same: positions in L; several may share one (duplicates) */
+    sl_int *places;    /* rows_begin[n_supers]: the local row of every row in the parent's front */
+    sl_off *map_begin; /* n_supers + 1 */
+    sl_int *map_from;  /* map_begin[n_supers]: positions in A, grouped by supernode */
+    sl_off *map_to;    /* the same: positions in L; several may share one (duplicates) */
 };
 
 /* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */
@@ -14090,9 +14129,9 @@ static double sli_null_tolerance(sl_int n) {
 
 /* Are the method, the definiteness and the number of threads such as exist? */
 static int sli_way_is_known(const sl_options *opt) {
-    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
-                           opt->threads.count >= 0);
+    return opt == NULL ||
+           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+            (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE && opt->threads.count >= 0);
 }
 
 /* A front costs some 50 ns whatever is in it: below this many flops each, as in diagonal matrices and
@@ -14206,8 +14245,7 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
-                                     sl_int *count) {
+SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
     sl_int k;
     if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
         return SL_ERR_ARGUMENT;
@@ -15046,9 +15084,8 @@ static void sli_requests_sort(sli_requests *r) {
         const sl_int i = sli_request_row(r, k), j = sli_request_column(r, k);
         const uint32_t high = (uint32_t)(sli_max(i, j) >> shift);
         const uint32_t low = (uint32_t)(sli_min(i, j) >> shift);
-        const sl_int key = r->rows == r->columns
-                               ? i
-                               : (sl_int)(sli_widen_bits(high) << 1 | sli_widen_bits(low));
+        const sl_int key =
+            r->rows == r->columns ? i : (sl_int)(sli_widen_bits(high) << 1 | sli_widen_bits(low));
         r->order[k] = sli_keyed(key, k);
     }
     sli_sort(r->order, r->count, r->taken);
@@ -15337,9 +15374,9 @@ static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
                                      sl_int count, sl_work *W, sl_stats *stats) {
     sli_stats_clear_error(stats);
-    return F == NULL ? SL_ERR_ARGUMENT
-                     : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W,
-                                         stats);
+    return F == NULL
+               ? SL_ERR_ARGUMENT
+               : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
@@ -15571,8 +15608,8 @@ static void sli_block_layout_sweeps(sli_inverse_block *q, sli_block *b, const sl
     sl_int k;
     both.rows = passing->rows > both.rows ? passing->rows : both.rows;
     both.scratch = passing->scratch > both.scratch ? passing->scratch : both.scratch;
-    q->weighed = SLI_TAKE(b, double,
-                          passing->values > kept->values ? passing->values : kept->values);
+    q->weighed =
+        SLI_TAKE(b, double, passing->values > kept->values ? passing->values : kept->values);
     sli_forward_layout(&q->pass.forward, b, passing);
     sli_forward_layout_run(&q->pass.forward, b, &both);
     for (k = 0; k < count; k++) {
@@ -15765,12 +15802,12 @@ static void sli_batch_share(void *data, sl_int k) {
         const sli_query q = sli_request_query(b->F, r);
         const double weight = sli_query_weight(&q);
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
-        const sl_int last = k + 1 == b->workers
-                                ? r->nrhs
-                                : sli_blocks_before(to, before, weight, r->nrhs);
+        const sl_int last =
+            k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
         if (first < last && q.nx > 0) {
             const sli_layout layout = sli_request_layout(r);
-            const sli_dense x_at = sli_dense_of(layout, r->ldx), b_at = sli_dense_of(layout, r->ldb);
+            const sli_dense x_at = sli_dense_of(layout, r->ldx),
+                            b_at = sli_dense_of(layout, r->ldb);
             sli_sweep(b->F, &q, r->X + (size_t)first * x_at.column, x_at,
                       q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
                       memory);
@@ -15785,8 +15822,8 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
         const sl_request *r = &b->requests[*at];
         const sli_query q = sli_request_query(b->F, r);
         size_t bytes;
-        const sl_status status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb,
-                                                 sli_request_layout(r), r->nrhs);
+        const sl_status status =
+            sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, sli_request_layout(r), r->nrhs);
         if (status != SL_OK) {
             return status;
         }
@@ -15880,11 +15917,11 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
  * last to first. Fronts of even and of odd depth have a stack each, which grow towards each other: when
  * a front is made, its parent's is the top of the other stack. */
 typedef struct sli_descent {
-    sl_int *up;    /* count: the parent, as a number in the list of supernodes, -1 at a root */
-    sl_int *last;  /* count: the child that comes last, -1 where there is none */
-    sl_int *side;  /* count: depth % 2 */
-    sl_off *front; /* count: where the front begins, in doubles */
-    sl_off fronts; /* doubles for all of them */
+    sl_int *up;     /* count: the parent, as a number in the list of supernodes, -1 at a root */
+    sl_int *last;   /* count: the child that comes last, -1 where there is none */
+    sl_int *side;   /* count: depth % 2 */
+    sl_off *front;  /* count: where the front begins, in doubles */
+    sl_off fronts;  /* doubles for all of them */
     sl_off scratch; /* doubles for the kernels */
 } sli_descent;
 
@@ -16053,8 +16090,7 @@ static void sli_selected_keep(const sli_dual *f, double *panel) {
         const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
         memcpy(to, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *to);
         for (j = 0; j < columns && rows < SLI_TILE; j++) { /* padding */
-            memset(to + SLI_TILE * (ptrdiff_t)j + rows, 0,
-                   (size_t)(SLI_TILE - rows) * sizeof *to);
+            memset(to + SLI_TILE * (ptrdiff_t)j + rows, 0, (size_t)(SLI_TILE - rows) * sizeof *to);
         }
     }
 }

@@ -30,8 +30,9 @@ static void one_tree(void *state) {
     for (int k = 0; k < e->count; k++) {
         const sl_int set[2] = {e->rows[k], e->columns[k]};
         const sl_int size = set[0] == set[1] ? 1 : 2;
-        bench_must(sl_local_solve(e->system->F, x, 2, set, size, b, 2, set, size, 1, e->W, &e->stats),
-                   "one tree");
+        bench_must(
+            sl_local_solve(e->system->F, x, 2, set, size, b, 2, set, size, 1, e->W, &e->stats),
+            "one tree");
         e->out[k] = x[size - 1];
         e->read += (double)e->stats.b_entries + (double)e->stats.x_entries;
     }
@@ -73,8 +74,9 @@ static void forward_apart(void *state) {
 
 static void forward_together(void *state) {
     entries *e = state;
-    bench_must(sl_inverse_pairs(e->system->F, e->out, e->rows, e->columns, e->count, e->W, &e->stats),
-               "pairs");
+    bench_must(
+        sl_inverse_pairs(e->system->F, e->out, e->rows, e->columns, e->count, e->W, &e->stats),
+        "pairs");
     e->read = (double)e->stats.b_entries;
 }
 

@@ -111,11 +111,12 @@ static void analyse_steps(bench_run *run, bench_report *report, match *m) {
     bench_report_note(report, "%-14s   our first analysis: METIS %.3f s, all else %.3f s", "",
                       m->system->stats.seconds_order, m->system->stats.seconds_analyse);
     const bench_memory memory = bench_memory_of(m->system, m->given);
-    bench_report_note(report,
-                      "%-14s   peak memory of analyse + factor: ours %.1f MB (%.2f of A and the panels), "
-                      "CHOLMOD %.1f MB",
-                      "", 1e-6 * memory.peak, memory.peak / (memory.matrix + memory.panels),
-                      1e-6 * peer_cholmod_peak(m->cholmod));
+    bench_report_note(
+        report,
+        "%-14s   peak memory of analyse + factor: ours %.1f MB (%.2f of A and the panels), "
+        "CHOLMOD %.1f MB",
+        "", 1e-6 * memory.peak, memory.peak / (memory.matrix + memory.panels),
+        1e-6 * peer_cholmod_peak(m->cholmod));
 }
 
 /* Simplicial ones: raced where they are quick, else one time. */

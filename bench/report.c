@@ -118,7 +118,8 @@ void bench_report_row(bench_report *report, const bench_system *system, const be
     }
     print_row(row, isa, seconds, limit);
     fprintf(report->csv,
-            "%s,\"%s\",%d,%lld,%lld,%s,%d,\"%s\",\"%s\",%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%.9g,%.4g,%."
+            "%s,\"%s\",%d,%lld,%lld,%s,%d,\"%s\",\"%s\",%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%"
+            ".9g,%.4g,%."
             "4g,%.4g,%.4g,%.4g\n",
             report->name, system->name, (int)system->n, (long long)system->stats.nnz_l,
             (long long)system->stats.nnz_panels, row->foreign ? "own" : bench_isa_name(isa),

@@ -52,7 +52,8 @@ static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
         if (v->super_parent[s] != (begin < end ? v->super_of[v->rows[begin]] : -1)) {
             return "super_parent is not the supernode of the first row";
         }
-        if (v->panel_begin[s + 1] - v->panel_begin[s] != ref_panel_size(ref_width(v, s), ref_height(v, s))) {
+        if (v->panel_begin[s + 1] - v->panel_begin[s] !=
+            ref_panel_size(ref_width(v, s), ref_height(v, s))) {
             return "panel size";
         }
         if (begin < end) { /* the rows beyond the parent's columns must be rows of the parent */
@@ -80,7 +81,8 @@ static inline const char *check_postorder(sl_int n, const sl_int *parent) {
     for (sl_int k = 0; k < n; k++) {
         first[k] = k;
     }
-    for (sl_int k = 0; k < n && !wrong; k++) { /* children before parents: first[k] is final when k is met */
+    for (sl_int k = 0; k < n && !wrong;
+         k++) { /* children before parents: first[k] is final when k is met */
         size[k]++;
         if (k - first[k] + 1 != size[k]) {
             wrong = "not a postorder";
@@ -163,7 +165,8 @@ static inline double *check_expand(const sl_factor *F, const char **wrong) {
 
 /* NULL, or that |P A P' - L D L'| exceeds c n eps |L| |D| |L'| somewhere, the entrywise bound of elimination without
  * growth hidden in it: c = 4 for products, sums and the division. */
-static inline const char *check_product(sl_int n, const double *C, const double *L, const double *D) {
+static inline const char *check_product(sl_int n, const double *C, const double *L,
+                                        const double *D) {
     for (sl_int j = 0; j < n; j++) {
         for (sl_int i = j; i < n; i++) {
             double sum = 0.0, size = 0.0;
@@ -195,13 +198,13 @@ static inline const char *check_factor(const sl_factor *F, const sl_csc *A) {
 }
 
 /* Print the reason and fail. */
-#define NOTHING_WRONG(check)                                                                                           \
-    do {                                                                                                               \
-        const char *wrong_ = (check);                                                                                  \
-        if (wrong_) {                                                                                                  \
-            print_error("%s: %s\n", #check, wrong_);                                                                   \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define NOTHING_WRONG(check)                                                                       \
+    do {                                                                                           \
+        const char *wrong_ = (check);                                                              \
+        if (wrong_) {                                                                              \
+            print_error("%s: %s\n", #check, wrong_);                                               \
+            fail();                                                                                \
+        }                                                                                          \
     } while (0)
 
 #endif

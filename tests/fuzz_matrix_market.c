@@ -37,7 +37,8 @@ static void solve(const sl_csc *A) {
         PROMISE(sl_factor_solve(F, X, MOST, B, MOST, 1, NULL) == SL_OK);
         PROMISE(sl_factor_solve(F, Y, MOST, Y, MOST, 1, NULL) == SL_OK);
         if (last >= 0) {
-            PROMISE(sl_local_solve(F, X, 1, &last, 1, B + last, 1, &last, 1, 1, NULL, NULL) == SL_OK);
+            PROMISE(sl_local_solve(F, X, 1, &last, 1, B + last, 1, &last, 1, 1, NULL, NULL) ==
+                    SL_OK);
             PROMISE(X[0] == Y[last] || (X[0] != X[0] && Y[last] != Y[last]));
         }
     }

@@ -49,7 +49,8 @@ static void take_matrix(case_t *c, input_t *in) {
     c->p[0] = form >= 250 ? -1 : 0;
     for (sl_int j = 0; j < n; j++) {
         const sl_int count = take(in) % 8;
-        if (form & 4 && stored < ENTRIES) { /* a strong diagonal, so that factorizations often succeed */
+        if (form & 4 &&
+            stored < ENTRIES) { /* a strong diagonal, so that factorizations often succeed */
             c->i[stored] = j;
             c->x[stored++] = (take(in) % 2 ? 1 : -1) * (40.0 + j);
         }
@@ -63,7 +64,8 @@ static void take_matrix(case_t *c, input_t *in) {
         }
         c->p[j + 1] = (sl_int)stored;
     }
-    if (form >= 240 && n > 1) { /* positions out of order; the last one stays true, arrays end there */
+    if (form >= 240 &&
+        n > 1) { /* positions out of order; the last one stays true, arrays end there */
         c->p[1 + take(in) % (n - 1)] = take(in) * 8 - 64;
     }
     c->A.p = c->p;
@@ -72,7 +74,8 @@ static void take_matrix(case_t *c, input_t *in) {
 }
 
 /* Workers one after the other, the last first. */
-static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
+static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                          void *data) {
     (void)context;
     for (sl_int k = count - 1; k >= 0; k--) {
         body(data, k);
@@ -149,7 +152,8 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
     const sl_status planned = sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, NULL, NULL);
     PROMISE((P != NULL) == (planned == SL_OK));
     PROMISE(planned == SL_OK || planned == SL_ERR_ARGUMENT);
-    const sl_status shot = sl_local_solve(F, c->X, MOST, c->xset, c->nx, c->B, MOST, c->bset, c->nb, c->nrhs, W, NULL);
+    const sl_status shot =
+        sl_local_solve(F, c->X, MOST, c->xset, c->nx, c->B, MOST, c->bset, c->nb, c->nrhs, W, NULL);
     PROMISE(planned == shot);
     if (P) {
         solve_full(c, F);
@@ -197,7 +201,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     PROMISE((S != NULL) == (status == SL_OK));
     if (S) {
         PROMISE(good == SL_OK && c->A.n_rows == c->A.n_cols);
-        sl_factor_create(&F, S, &c->A, &c->opt, NULL) == SL_OK ? solve_all(c, S, F) : PROMISE(F == NULL);
+        sl_factor_create(&F, S, &c->A, &c->opt, NULL) == SL_OK ? solve_all(c, S, F)
+                                                               : PROMISE(F == NULL);
         if (F) { /* other values: the same pattern, perhaps no factor */
             for (sl_int q = 0; q < c->p[c->A.n_cols]; q++) {
                 c->x[q] = take_value(&in);

@@ -7,30 +7,30 @@
 /* ---- the zoo ---- */
 
 typedef enum gen_kind_t {
-    GEN_NONE,       /* n = 0 */
-    GEN_ONE,        /* 1 x 1 */
-    GEN_DIAGONAL,   /* no edges */
-    GEN_PATH,       /* tridiagonal */
-    GEN_STAR,       /* the first row meets all: in natural order L is dense */
-    GEN_ARROW,      /* the last row meets all: no fill */
-    GEN_GRID2,      /* 5-point */
-    GEN_GRID3,      /* 7-point */
-    GEN_FOREST,     /* several trees */
-    GEN_DENSE,      /* all entries */
-    GEN_RANDOM,     /* each entry with probability 5/n */
-    GEN_COMPONENTS, /* grids, a path and lone rows side by side */
-    GEN_KKT,        /* quasi-definite [H B'; B -C] */
-    GEN_SCALED,     /* a grid whose rows are scaled by 2^-20 .. 2^20 */
-    GEN_REGULAR,    /* how many kinds come before: these all factor */
+    GEN_NONE,                   /* n = 0 */
+    GEN_ONE,                    /* 1 x 1 */
+    GEN_DIAGONAL,               /* no edges */
+    GEN_PATH,                   /* tridiagonal */
+    GEN_STAR,                   /* the first row meets all: in natural order L is dense */
+    GEN_ARROW,                  /* the last row meets all: no fill */
+    GEN_GRID2,                  /* 5-point */
+    GEN_GRID3,                  /* 7-point */
+    GEN_FOREST,                 /* several trees */
+    GEN_DENSE,                  /* all entries */
+    GEN_RANDOM,                 /* each entry with probability 5/n */
+    GEN_COMPONENTS,             /* grids, a path and lone rows side by side */
+    GEN_KKT,                    /* quasi-definite [H B'; B -C] */
+    GEN_SCALED,                 /* a grid whose rows are scaled by 2^-20 .. 2^20 */
+    GEN_REGULAR,                /* how many kinds come before: these all factor */
     GEN_SINGULAR = GEN_REGULAR, /* Laplacian of a grid: the last pivot is null */
-    GEN_EMPTY_ROW,  /* one row without any entry */
+    GEN_EMPTY_ROW,              /* one row without any entry */
     GEN_KINDS
 } gen_kind_t;
 
 static inline const char *gen_name(gen_kind_t kind) {
-    static const char *const names[] = {"n = 0", "1 x 1",  "diagonal", "path",       "star", "arrow",
-                                        "grid2", "grid3",  "forest",   "dense",      "random", "components",
-                                        "KKT",   "scaled", "singular", "empty row"};
+    static const char *const names[] = {
+        "n = 0",  "1 x 1", "diagonal", "path",       "star", "arrow",  "grid2",    "grid3",
+        "forest", "dense", "random",   "components", "KKT",  "scaled", "singular", "empty row"};
     return names[kind];
 }
 
@@ -87,27 +87,48 @@ static inline gen_list_t gen_make(gen_kind_t kind, sl_int size, int sign, uint64
     while ((cube + 1) * (cube + 1) * (cube + 1) <= size) {
         cube++;
     }
-    sl_int n = kind == GEN_NONE                                                            ? 0
-               : kind == GEN_ONE                                                           ? 1
-               : kind == GEN_GRID3                                                         ? cube * cube * cube
+    sl_int n = kind == GEN_NONE    ? 0
+               : kind == GEN_ONE   ? 1
+               : kind == GEN_GRID3 ? cube * cube * cube
                : kind == GEN_GRID2 || kind == GEN_SCALED || kind == GEN_SINGULAR ? square * square
-                                                                                           : size;
+                                                                                 : size;
     gen_list_t t = gen_list(n);
     switch (kind) {
-    case GEN_PATH: gen_edges_path(&t, &state); break;
-    case GEN_STAR: gen_edges_star(&t, 0, &state); break;
-    case GEN_ARROW: gen_edges_star(&t, n - 1, &state); break;
+    case GEN_PATH:
+        gen_edges_path(&t, &state);
+        break;
+    case GEN_STAR:
+        gen_edges_star(&t, 0, &state);
+        break;
+    case GEN_ARROW:
+        gen_edges_star(&t, n - 1, &state);
+        break;
     case GEN_GRID2:
     case GEN_SCALED:
-    case GEN_SINGULAR: gen_edges_grid(&t, square, square, 1, &state); break;
-    case GEN_GRID3: gen_edges_grid(&t, cube, cube, cube, &state); break;
-    case GEN_FOREST: gen_edges_forest(&t, &state); break;
-    case GEN_DENSE: gen_edges_random(&t, 1000, &state); break;
+    case GEN_SINGULAR:
+        gen_edges_grid(&t, square, square, 1, &state);
+        break;
+    case GEN_GRID3:
+        gen_edges_grid(&t, cube, cube, cube, &state);
+        break;
+    case GEN_FOREST:
+        gen_edges_forest(&t, &state);
+        break;
+    case GEN_DENSE:
+        gen_edges_random(&t, 1000, &state);
+        break;
     case GEN_RANDOM:
-    case GEN_EMPTY_ROW: gen_edges_random(&t, n > 5 ? 5000 / n : 1000, &state); break;
-    case GEN_COMPONENTS: gen_components(&t, &state); break;
-    case GEN_KKT: gen_kkt(&t, &state); break;
-    default: break;
+    case GEN_EMPTY_ROW:
+        gen_edges_random(&t, n > 5 ? 5000 / n : 1000, &state);
+        break;
+    case GEN_COMPONENTS:
+        gen_components(&t, &state);
+        break;
+    case GEN_KKT:
+        gen_kkt(&t, &state);
+        break;
+    default:
+        break;
     }
     if (kind == GEN_SINGULAR) {
         gen_laplacian(&t);
@@ -141,7 +162,8 @@ typedef struct gen_style_t {
 enum { GEN_STYLES = 12 };
 
 static inline gen_style_t gen_style(int which) {
-    static const sl_triangle triangles[3] = {SL_TRIANGLE_LOWER, SL_TRIANGLE_UPPER, SL_TRIANGLE_BOTH};
+    static const sl_triangle triangles[3] = {SL_TRIANGLE_LOWER, SL_TRIANGLE_UPPER,
+                                             SL_TRIANGLE_BOTH};
     gen_style_t style = {triangles[which % 3], which / 3 % 2, which / 6 % 2};
     return style;
 }
@@ -159,7 +181,8 @@ static inline void gen_matrix_free(gen_matrix_t *M) {
 }
 
 /* The places that a triplet (i, j) fills: none, one or two of (row, col). */
-static inline int gen_places(sl_triangle triangle, sl_int i, sl_int j, sl_int row[2], sl_int col[2]) {
+static inline int gen_places(sl_triangle triangle, sl_int i, sl_int j, sl_int row[2],
+                             sl_int col[2]) {
     int upper_first = triangle == SL_TRIANGLE_UPPER;
     row[0] = upper_first ? j : i;
     col[0] = upper_first ? i : j;
@@ -173,7 +196,8 @@ static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uin
     unsigned char *parts = (unsigned char *)test_array(t->count, 1);
     sl_int row[2], col[2], *next = test_ints(n + 1);
     for (size_t k = 0; k < t->count; k++) {
-        parts[k] = (unsigned char)(style.duplicated && gen_bits(&seed) & 1u ? 2 + gen_below(&seed, 2) : 1);
+        parts[k] =
+            (unsigned char)(style.duplicated && gen_bits(&seed) & 1u ? 2 + gen_below(&seed, 2) : 1);
     }
     gen_matrix_t M = {test_ints(n + 1), NULL, NULL, {0, 0, NULL, NULL, NULL}};
     for (size_t k = 0; k < t->count; k++) {
@@ -191,7 +215,8 @@ static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uin
     for (size_t k = 0; k < t->count; k++) {
         for (int side = gen_places(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
             double left = t->x[k];
-            for (int part = parts[k]; part-- > 0;) { /* x/2, x/4, x/4: every order of summing is exact */
+            for (int part = parts[k];
+                 part-- > 0;) { /* x/2, x/4, x/4: every order of summing is exact */
                 sl_int p = next[col[side]]++;
                 M.i[p] = row[side];
                 M.x[p] = part ? left / 2 : left;

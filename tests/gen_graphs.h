@@ -179,7 +179,8 @@ static inline void gen_laplacian(gen_list_t *t) {
 
 /* ---- a nested dissection of the nx x ny grid, without METIS: a line of vertices splits the longer side ---- */
 
-static inline sl_int gen_dissect(sl_int *perm, sl_int at, sl_int nx, sl_int x0, sl_int x1, sl_int y0, sl_int y1) {
+static inline sl_int gen_dissect(sl_int *perm, sl_int at, sl_int nx, sl_int x0, sl_int x1,
+                                 sl_int y0, sl_int y1) {
     if (x0 >= x1 || y0 >= y1) {
         return at;
     }

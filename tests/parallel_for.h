@@ -18,7 +18,8 @@ static inline void *share_run(void *share) {
 }
 
 /* A thread for each. context: an int that counts the calls. */
-static inline void run_threads(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
+static inline void run_threads(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                               void *data) {
     pthread_t *thread = (pthread_t *)test_array((size_t)count, sizeof *thread);
     share_t *share = (share_t *)test_array((size_t)count, sizeof *share);
     ++*(int *)context;
@@ -36,7 +37,8 @@ static inline void run_threads(void *context, sl_int count, void (*body)(void *d
 }
 
 /* One after the other, the last first: what one leaves for another would show. */
-static inline void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
+static inline void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                                 void *data) {
     ++*(int *)context;
     for (sl_int k = count - 1; k >= 0; k--) {
         body(data, k);

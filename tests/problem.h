@@ -10,7 +10,8 @@ typedef struct problem_t {
     sl_factor *F;
 } problem_t;
 
-static inline problem_t problem_make(gen_kind_t kind, sl_int size, int sign, int style, const sl_options *opt) {
+static inline problem_t problem_make(gen_kind_t kind, sl_int size, int sign, int style,
+                                     const sl_options *opt) {
     gen_list_t t = gen_make(kind, size, sign, 42);
     problem_t y = {gen_store(&t, gen_style(style), 1), NULL, NULL};
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, opt, NULL));

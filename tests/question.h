@@ -72,7 +72,8 @@ static inline void forget(question_t *q) {
 }
 
 /* Both ways of asking give the same bits as the full solve, write nothing else, and say the same of their reach. */
-static inline void answer(const sl_symbolic *S, const sl_factor *F, const question_t *q, sl_work *W) {
+static inline void answer(const sl_symbolic *S, const sl_factor *F, const question_t *q,
+                          sl_work *W) {
     size_t ldx = (size_t)q->nx + 3, ldb = (size_t)q->nb + 2, total = ldx * (size_t)(q->nrhs + 1);
     double *X = test_reals(total);
     sl_plan *P = NULL;
@@ -87,7 +88,8 @@ static inline void answer(const sl_symbolic *S, const sl_factor *F, const questi
         if (way == 0) {
             SL_CHECK(sl_plan_solve(P, F, X, ldx, q->B, ldb, q->nrhs, W));
         } else {
-            SL_CHECK(sl_local_solve(F, X, ldx, q->xset, q->nx, q->B, ldb, q->bset, q->nb, q->nrhs, W, &shot));
+            SL_CHECK(sl_local_solve(F, X, ldx, q->xset, q->nx, q->B, ldb, q->bset, q->nb, q->nrhs,
+                                    W, &shot));
         }
         for (size_t r = 0; r < (size_t)q->nrhs; r++) {
             SAME_VALUES(X + r * ldx, q->wanted + r * (size_t)q->nx, (size_t)q->nx);

@@ -19,9 +19,11 @@
 
 /* ---- statuses ---- */
 
-static inline void test_status(sl_status got, sl_status wanted, const char *call, const char *file, int line) {
+static inline void test_status(sl_status got, sl_status wanted, const char *call, const char *file,
+                               int line) {
     if (got != wanted) {
-        print_error("%s\n    gave \"%s\" instead of \"%s\"\n", call, sl_status_string(got), sl_status_string(wanted));
+        print_error("%s\n    gave \"%s\" instead of \"%s\"\n", call, sl_status_string(got),
+                    sl_status_string(wanted));
         _fail(file, line);
     }
 }
@@ -102,18 +104,19 @@ static inline sl_options options_counted(counter_t *c) {
     return opt;
 }
 
-#define COUNTER_CLEAN(c)                                                                                               \
-    do {                                                                                                               \
-        assert_int_equal((c)->live_blocks, 0);                                                                         \
-        assert_int_equal((c)->live_bytes, 0);                                                                          \
-        assert_int_equal((c)->damaged, 0);                                                                             \
+#define COUNTER_CLEAN(c)                                                                           \
+    do {                                                                                           \
+        assert_int_equal((c)->live_blocks, 0);                                                     \
+        assert_int_equal((c)->live_bytes, 0);                                                      \
+        assert_int_equal((c)->damaged, 0);                                                         \
     } while (0)
 
 /* Memory of the tests themselves: no test goes on without it. */
 static inline void *test_array(size_t count, size_t size) {
     void *block = calloc(count ? count : 1, size);
     if (!block) {
-        print_error("the test itself is out of memory: %lu x %lu bytes\n", (unsigned long)count, (unsigned long)size);
+        print_error("the test itself is out of memory: %lu x %lu bytes\n", (unsigned long)count,
+                    (unsigned long)size);
         abort();
     }
     return block;
@@ -208,8 +211,8 @@ static inline double pass_figure(sl_int n) {
 }
 
 /* Largest backward error of nrhs columns; NaN if one is. */
-static inline double worst_backward(const sl_csc *A, const double *X, size_t ldx, const double *B, size_t ldb,
-                                    sl_int nrhs) {
+static inline double worst_backward(const sl_csc *A, const double *X, size_t ldx, const double *B,
+                                    size_t ldb, sl_int nrhs) {
     size_t n = (size_t)A->n_rows;
     double *R = test_reals(n * (size_t)nrhs), *eta = test_reals((size_t)nrhs), worst = 0.0;
     SL_CHECK(sl_csc_residual(A, R, n ? n : 1, eta, X, ldx, B, ldb, nrhs));
@@ -224,13 +227,13 @@ static inline double worst_backward(const sl_csc *A, const double *X, size_t ldx
     return worst;
 }
 
-#define BACKWARD_PASSES(A, X, ldx, B, ldb, nrhs)                                                                       \
-    do {                                                                                                               \
-        double worst_ = worst_backward((A), (X), (ldx), (B), (ldb), (nrhs));                                           \
-        if (!(worst_ <= pass_figure((A)->n_rows))) {                                                                   \
-            print_error("backward error %.3g, allowed %.3g\n", worst_, pass_figure((A)->n_rows));                      \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define BACKWARD_PASSES(A, X, ldx, B, ldb, nrhs)                                                   \
+    do {                                                                                           \
+        double worst_ = worst_backward((A), (X), (ldx), (B), (ldb), (nrhs));                       \
+        if (!(worst_ <= pass_figure((A)->n_rows))) {                                               \
+            print_error("backward error %.3g, allowed %.3g\n", worst_, pass_figure((A)->n_rows));  \
+            fail();                                                                                \
+        }                                                                                          \
     } while (0)
 
 /* Same bits, the sign of a zero aside; NaN is never equal. */
@@ -248,13 +251,13 @@ static inline int64_t first_difference(const double *a, const double *b, size_t 
     return -1;
 }
 
-#define SAME_VALUES(a, b, count)                                                                                       \
-    do {                                                                                                               \
-        int64_t at_ = first_difference((a), (b), (count));                                                             \
-        if (at_ >= 0) {                                                                                                \
-            print_error("differ at %ld: %.17g and %.17g\n", (long)at_, (a)[at_], (b)[at_]);                            \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define SAME_VALUES(a, b, count)                                                                   \
+    do {                                                                                           \
+        int64_t at_ = first_difference((a), (b), (count));                                         \
+        if (at_ >= 0) {                                                                            \
+            print_error("differ at %ld: %.17g and %.17g\n", (long)at_, (a)[at_], (b)[at_]);        \
+            fail();                                                                                \
+        }                                                                                          \
     } while (0)
 
 #endif

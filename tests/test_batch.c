@@ -36,7 +36,8 @@ static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa) {
     sl_int n = t.y.M.view.n_cols;
     for (int k = 0; k < REQUESTS; k++) {
         int is_full = k == REQUESTS - 1;
-        sl_int nb = is_full ? n : gen_below(&seed, n + 1), nx = is_full ? n : gen_below(&seed, n + 1);
+        sl_int nb = is_full ? n : gen_below(&seed, n + 1),
+               nx = is_full ? n : gen_below(&seed, n + 1);
         sl_int *bset = test_ints((size_t)n), *xset = test_ints((size_t)n);
         gen_set(bset, nb, n, gen_bits(&seed));
         gen_set(xset, nx, n, gen_bits(&seed));
@@ -141,7 +142,8 @@ static void the_work_is_shared(void **state) {
 
 static void wrong_requests_touch_nothing(void **state) {
     (void)state;
-    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO), other = batch_make(GEN_PATH, 100, SL_ISA_AUTO);
+    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO),
+            other = batch_make(GEN_PATH, 100, SL_ISA_AUTO);
     sl_request keep = t.request[5]; /* column-major, 17 right-hand sides */
     sl_int failed = 7;
     int calls = 0;
@@ -155,21 +157,35 @@ static void wrong_requests_touch_nothing(void **state) {
     for (int wrong = 0; wrong < 5; wrong++) {
         sl_request *r = &t.request[5];
         switch (wrong) {
-        case 0: r->X = NULL; break;
-        case 1: r->ldx -= 2; break;
-        case 2: r->nrhs = -1; break;
-        case 3: r->X = (double *)(uintptr_t)r->B; break; /* in place with two strides */
-        case 4: r->plan = other.plan[0]; r->ldx = r->ldb = 1000; r->nrhs = 1; break;
+        case 0:
+            r->X = NULL;
+            break;
+        case 1:
+            r->ldx -= 2;
+            break;
+        case 2:
+            r->nrhs = -1;
+            break;
+        case 3:
+            r->X = (double *)(uintptr_t)r->B;
+            break; /* in place with two strides */
+        case 4:
+            r->plan = other.plan[0];
+            r->ldx = r->ldb = 1000;
+            r->nrhs = 1;
+            break;
         }
         SL_EXPECT(wrong == 4 ? SL_ERR_STATE : SL_ERR_ARGUMENT,
                   sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, &failed));
         assert_int_equal(failed, 5);
         *r = keep;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));
     SL_CHECK(sl_work_create(&works[0], NULL));
     works[1] = works[0];
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));
     sl_work_free(works[0]);
     threads.count = INT32_MAX; /* no more workers than blocks of right-hand sides */
     SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, NULL));

@@ -77,10 +77,12 @@ static void equals_a_whole_factorization(void **state) {
                     double grown = kind == GEN_SCALED || kind == GEN_KKT ? 1e6 : 1.0;
                     assert_true(distance(F, G) <= 64.0 * grown * (double)(n + 1) * DBL_EPSILON);
                     assert_int_equal(stats.positive + stats.negative, n);
-                    for (sl_int s = 0; s < v.n_supers && stats.method == SL_METHOD_SUPERNODAL; s++) {
+                    for (sl_int s = 0; s < v.n_supers && stats.method == SL_METHOD_SUPERNODAL;
+                         s++) {
                         size_t at = (size_t)v.panel_begin[s], end = (size_t)v.panel_begin[s + 1];
                         if (!mark[s]) { /* not computed again, not even to the same bits */
-                            assert_memory_equal(before + at, sl_factor_view(F).L + at, (end - at) * sizeof(double));
+                            assert_memory_equal(before + at, sl_factor_view(F).L + at,
+                                                (end - at) * sizeof(double));
                         }
                     }
                     sl_factor_free(G);
@@ -108,7 +110,8 @@ static void reads_only_what_is_reached(void **state) {
     sl_symbolic_view_t v = sl_symbolic_view(y.S);
     mark = reached(y.S, &y.M.view, &column, 1);
     for (sl_int j = 0; j < n; j++) {
-        if (y.M.p[j] < y.M.p[j + 1] && !mark[v.super_of[v.iperm[j]]] && !mark[v.super_of[v.iperm[y.M.i[y.M.p[j]]]]]) {
+        if (y.M.p[j] < y.M.p[j + 1] && !mark[v.super_of[v.iperm[j]]] &&
+            !mark[v.super_of[v.iperm[y.M.i[y.M.p[j]]]]]) {
             other = j;
         }
     }

@@ -29,7 +29,8 @@ static void check_names_what_is_malformed(void **state) {
     bad.n_cols = -1;
     assert_int_not_equal(sl_csc_check(&bad, &stats), SL_OK);
 
-    const sl_int starts_late[4] = {1, 2, 3, 4}, descends[4] = {0, 3, 2, 4}, negative[4] = {0, -1, 3, 4};
+    const sl_int starts_late[4] = {1, 2, 3, 4}, descends[4] = {0, 3, 2, 4},
+                 negative[4] = {0, -1, 3, 4};
     const sl_int ends_negative[4] = {0, 0, 0, -4};
     bad = good;
     bad.p = starts_late;
@@ -231,7 +232,8 @@ static void permute_is_a_symmetric_permutation(void **state) {
 static void permute_wrong_arguments(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_PATH, 4, 1, 1);
-    const sl_int good[4] = {3, 1, 0, 2}, twice[4] = {3, 1, 1, 2}, big[4] = {0, 1, 2, 4}, low[4] = {0, -1, 2, 3};
+    const sl_int good[4] = {3, 1, 0, 2}, twice[4] = {3, 1, 1, 2}, big[4] = {0, 1, 2, 4},
+                 low[4] = {0, -1, 2, 3};
     sl_matrix *P = NULL;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, twice, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, big, NULL));

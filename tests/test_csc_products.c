@@ -8,16 +8,19 @@ static void multiply_reads_as_the_factorization_does(void **state) {
         for (int which = 0; which < GEN_STYLES; which++) {
             gen_matrix_t M = gen_store(&t, gen_style(which), 9);
             sl_int n = t.n;
-            if (gen_style(which).triangle == SL_TRIANGLE_BOTH) { /* values above the diagonal are not read */
+            if (gen_style(which).triangle ==
+                SL_TRIANGLE_BOTH) { /* values above the diagonal are not read */
                 for (sl_int j = 0; j < n; j++) {
                     for (sl_int p = M.p[j]; p < M.p[j + 1]; p++) {
                         M.x[p] = M.i[p] < j ? 1e30 : M.x[p];
                     }
                 }
             }
-            double *D = ref_dense(&M.view), *X = test_reals(3 * (size_t)(n + 2)), *Y = test_reals(3 * (size_t)(n + 1));
+            double *D = ref_dense(&M.view), *X = test_reals(3 * (size_t)(n + 2)),
+                   *Y = test_reals(3 * (size_t)(n + 1));
             gen_reals(X, 3 * (size_t)(n + 2), 17);
-            SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, Y, (size_t)n + 1, X, (size_t)n + 2, 3));
+            SL_CHECK(
+                sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, Y, (size_t)n + 1, X, (size_t)n + 2, 3));
             for (sl_int r = 0; r < 3; r++) {
                 for (sl_int i = 0; i < n; i++) {
                     double sum = 0, size = 0;
@@ -26,7 +29,8 @@ static void multiply_reads_as_the_factorization_does(void **state) {
                         sum += term;
                         size += fabs(term);
                     }
-                    assert_true(fabs(Y[i + r * (n + 1)] - sum) <= 4.0 * (double)(n + 2) * DBL_EPSILON * size);
+                    assert_true(fabs(Y[i + r * (n + 1)] - sum) <=
+                                4.0 * (double)(n + 2) * DBL_EPSILON * size);
                 }
             }
             free(D);
@@ -71,7 +75,7 @@ static void residual_and_backward_error(void **state) {
     const double wanted[6] = {0, 0, 0.5, 0, 0, 0};
     SAME_VALUES(R, wanted, 6);
     assert_true(eta[0] == 0.0 && eta[2] == 0.0);
-    assert_true(fabs(eta[1] - 0.5 / 8.0) < 1e-15); /* 0.5 / (4 * 1 + 4) */
+    assert_true(fabs(eta[1] - 0.5 / 8.0) < 1e-15);            /* 0.5 / (4 * 1 + 4) */
     SL_CHECK(sl_csc_residual(&A, B, 2, NULL, X, 2, B, 2, 3)); /* in place of B */
     SAME_VALUES(B, wanted, 6);
     /* one column upon another, the columns still to be read, or X, which every entry of A reads */
@@ -137,7 +141,8 @@ static void residual_is_the_same_for_every_style(void **state) {
         if (which == 0) {
             first = eta;
         } else {
-            assert_true(fabs(eta - first) <= 1e-13 * first); /* duplicates count in sum, not in magnitude */
+            assert_true(fabs(eta - first) <=
+                        1e-13 * first); /* duplicates count in sum, not in magnitude */
         }
         gen_matrix_free(&M);
     }

@@ -33,7 +33,8 @@ static void triplets_random(void **state) {
     (void)state;
     uint64_t seed = 7;
     for (int round = 0; round < 50; round++) {
-        sl_int rows = 1 + gen_below(&seed, 20), cols = 1 + gen_below(&seed, 20), count = gen_below(&seed, 80);
+        sl_int rows = 1 + gen_below(&seed, 20), cols = 1 + gen_below(&seed, 20),
+               count = gen_below(&seed, 80);
         sl_int *i = test_ints((size_t)count), *j = test_ints((size_t)count);
         double *x = test_reals((size_t)count), *dense = test_reals((size_t)rows * (size_t)cols);
         for (sl_int k = 0; k < count; k++) {
@@ -78,7 +79,8 @@ static void triplets_wrong_arguments(void **state) {
     assert_null(M);
     assert_int_equal(stats.error_row, 5);
     assert_int_equal(stats.error_column, 1);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, good, negative, x, NULL, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_matrix_from_triplets(&M, 2, 2, 2, good, negative, x, NULL, &stats));
     assert_int_equal(stats.error_column, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, -1, 2, 0, good, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, -2, 0, good, good, x, NULL, NULL));
@@ -86,9 +88,12 @@ static void triplets_wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, NULL, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, good, NULL, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(NULL, 2, 2, 2, good, good, x, NULL, NULL));
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_matrix_from_triplets(&M, 2, INT32_MAX, 2, good, good, x, &no_memory, NULL));
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_matrix_from_triplets(&M, INT32_MAX - 6, 2, 2, good, good, x, &no_memory, NULL));
-    SL_EXPECT(SL_ERR_MEMORY, sl_matrix_from_triplets(&M, INT32_MAX - 7, 2, 2, good, good, x, &no_memory, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE,
+              sl_matrix_from_triplets(&M, 2, INT32_MAX, 2, good, good, x, &no_memory, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE,
+              sl_matrix_from_triplets(&M, INT32_MAX - 6, 2, 2, good, good, x, &no_memory, NULL));
+    SL_EXPECT(SL_ERR_MEMORY,
+              sl_matrix_from_triplets(&M, INT32_MAX - 7, 2, 2, good, good, x, &no_memory, NULL));
     SL_EXPECT(SL_ERR_TOO_LARGE,
               sl_matrix_from_triplets(&M, 2, 2, (sl_off)INT32_MAX + 1, good, good, x, NULL, NULL));
     assert_null(M);

@@ -38,7 +38,8 @@ typedef struct tally_t {
 } tally_t;
 
 /* all pairs of sets for one factor */
-static void all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const double *Z, sl_work *W, tally_t *tally) {
+static void all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const double *Z,
+                     sl_work *W, tally_t *tally) {
     double values[MOST], largest = 0;
     gen_reals(values, MOST, 11);
     for (sl_int q = 0; q < n * n; q++) {
@@ -57,18 +58,21 @@ static void all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const d
         for (unsigned x = 0; x < 1u << n; x++) {
             sl_int xset[MOST], nx = members(x, n, xset);
             double X[MOST];
-            if ((b + x) % 8 == 0) { /* by plan now and then: it is the same code below the surface */
+            if ((b + x) % 8 ==
+                0) { /* by plan now and then: it is the same code below the surface */
                 sl_plan *P = NULL;
                 SL_CHECK(sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL));
                 SL_CHECK(sl_plan_solve(P, F, X, (size_t)n, B, (size_t)n, 1, W));
                 sl_plan_free(P);
             } else {
-                SL_CHECK(sl_local_solve(F, X, (size_t)n, xset, nx, B, (size_t)n, bset, nb, 1, W, NULL));
+                SL_CHECK(
+                    sl_local_solve(F, X, (size_t)n, xset, nx, B, (size_t)n, bset, nb, 1, W, NULL));
             }
             tally->solves++;
             for (sl_int k = 0; k < nx; k++) {
                 /* condition: rows dominate by 1, so |A^-1| <= 1, |A| <= 10: 10 n n eps */
-                double off = fabs(X[k] - exact[xset[k]]) / (10.0 * (double)(n * n) * DBL_EPSILON * largest);
+                double off =
+                    fabs(X[k] - exact[xset[k]]) / (10.0 * (double)(n * n) * DBL_EPSILON * largest);
                 tally->worst = off > tally->worst ? off : tally->worst;
                 tally->wrong += !same_value(X[k], full[xset[k]]) || !(off <= 1.0);
             }
@@ -91,7 +95,8 @@ static void every_pattern_and_every_set(void **state) {
                 sl_options opt = options_none();
                 sl_symbolic *S = NULL;
                 sl_factor *F = NULL;
-                opt.ordering = SL_ORDERING_NATURAL; /* every relabelling of a pattern is among the patterns */
+                opt.ordering =
+                    SL_ORDERING_NATURAL; /* every relabelling of a pattern is among the patterns */
                 opt.relaxation = which % 2 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
                 opt.isa = tried[which / 2];
                 SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
@@ -104,7 +109,8 @@ static void every_pattern_and_every_set(void **state) {
                 }
                 all_sets(S, F, n, Z, W, &tally);
                 if (tally.wrong) {
-                    print_error("n = %d, edges %u, %s, relaxation %d\n", (int)n, edges, isa_name(opt.isa), which % 2);
+                    print_error("n = %d, edges %u, %s, relaxation %d\n", (int)n, edges,
+                                isa_name(opt.isa), which % 2);
                     fail();
                 }
                 sl_factor_free(F);
@@ -115,7 +121,8 @@ static void every_pattern_and_every_set(void **state) {
             gen_matrix_free(&M);
         }
     }
-    print_message("%ld local solves, largest error %.2g of what is allowed\n", tally.solves, tally.worst);
+    print_message("%ld local solves, largest error %.2g of what is allowed\n", tally.solves,
+                  tally.worst);
     sl_work_free(W);
 }
 

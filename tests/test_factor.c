@@ -13,7 +13,8 @@ static void product_in_every_way_style_and_sign(void **state) {
                     way_take(&opt, &ways, k);
                     opt.relaxation = (sl_relaxation)(which / 2 % 2);
                     opt.ordering = which % 3 ? SL_ORDERING_DEFAULT : SL_ORDERING_NATURAL;
-                    problem_t y = problem_make((gen_kind_t)kind, sizes[size], which % 3 - 1, which, &opt);
+                    problem_t y =
+                        problem_make((gen_kind_t)kind, sizes[size], which % 3 - 1, which, &opt);
                     NOTHING_WRONG(check_factor(y.F, &y.M.view));
                     sl_stats stats;
                     memset(&stats, 0, sizeof stats);
@@ -56,7 +57,8 @@ static void every_small_pair_of_supernodes(void **state) {
             gen_list_t t = gen_list(w + h + 3);
             for (sl_int j = 0; j < w; j++) {
                 for (sl_int i = j + 1; i < w + h; i++) {
-                    gen_add(&t, i < w ? i : i + 3 * (i % 2), j, gen_real(&seed)); /* rows with gaps */
+                    gen_add(&t, i < w ? i : i + 3 * (i % 2), j,
+                            gen_real(&seed)); /* rows with gaps */
                 }
             }
             gen_list_t clean = gen_list(t.n); /* i + 3 (i % 2) may hit a row twice */
@@ -110,7 +112,8 @@ static void equals_the_dense_reference(void **state) {
             sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
             sl_int n = v.n;
             const char *wrong = NULL;
-            double *M = ref_dense(&y.M.view), *C = ref_permute(n, M, v.perm), *L = check_expand(y.F, &wrong);
+            double *M = ref_dense(&y.M.view), *C = ref_permute(n, M, v.perm),
+                   *L = check_expand(y.F, &wrong);
             double *Lr = test_reals((size_t)n * (size_t)n), *Dr = test_reals((size_t)n);
             assert_null(wrong);
             ref_ldl(n, C, Lr, Dr);
@@ -173,7 +176,8 @@ static void inertia_and_determinant(void **state) {
             problem_t y = problem_make((gen_kind_t)kind, 36, sign, 0, NULL);
             sl_int n = y.M.view.n_cols, negative = 0;
             sl_stats stats;
-            double log_det = -1, det_sign = 0, wanted_log = 0, wanted_sign = 1, least = INFINITY, most = 0;
+            double log_det = -1, det_sign = 0, wanted_log = 0, wanted_sign = 1, least = INFINITY,
+                   most = 0;
             memset(&stats, 0, sizeof stats);
             sl_factor_stats(y.F, &stats);
             SL_CHECK(sl_factor_logdet(y.F, &log_det, &det_sign));
@@ -192,7 +196,8 @@ static void inertia_and_determinant(void **state) {
                 assert_true(stats.pivot_min == least && stats.pivot_max == most);
             }
             if (kind == GEN_KKT) {
-                assert_int_equal(negative, n / 3); /* Sylvester: as many as C has rows, in any order */
+                assert_int_equal(negative,
+                                 n / 3); /* Sylvester: as many as C has rows, in any order */
             } else if (sign) {
                 assert_int_equal(negative, sign < 0 ? n : 0);
             }

@@ -13,7 +13,8 @@ static double *rows_of(const double *M, size_t rows, size_t nrhs, size_t ld, dou
 }
 
 /* the rows of R hold the columns of M, and beside them nothing was written */
-static void assert_rows(const double *R, size_t ld, const double *M, size_t rows, size_t nrhs, double rest) {
+static void assert_rows(const double *R, size_t ld, const double *M, size_t rows, size_t nrhs,
+                        double rest) {
     for (size_t k = 0; k < rows; k++) {
         for (size_t r = 0; r < ld; r++) {
             if (r < nrhs) {
@@ -108,12 +109,14 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 2, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 2, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 3, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, X, 2, 2, NULL)); /* in place, two strides */
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_solve_interleaved(y.F, X, 3, X, 2, 2, NULL)); /* in place, two strides */
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(NULL, y.F, X, 3, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, NULL, X, 3, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 2, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 3, B, 2, 3, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_interleaved(P, z.F, X, 3, B, 3, 3, NULL)); /* of another analysis */
+    SL_EXPECT(SL_ERR_STATE,
+              sl_plan_solve_interleaved(P, z.F, X, 3, B, 3, 3, NULL)); /* of another analysis */
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
     SL_CHECK(sl_factor_solve_interleaved(y.F, X, 1, B, 1, 1, NULL)); /* shorter than a column */
     sl_plan_free(P);

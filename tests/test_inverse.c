@@ -9,17 +9,19 @@ static double allowed(sl_int n, const double *Z, sl_int i, sl_int j, int is_defi
     for (sl_int k = 0; !is_definite && k < n * n; k++) {
         largest = fabs(Z[k]) > largest ? fabs(Z[k]) : largest;
     }
-    return 10 * pass_figure(n) * (is_definite ? sqrt(fabs(AT(Z, i, i)) * fabs(AT(Z, j, j))) : largest);
+    return 10 * pass_figure(n) *
+           (is_definite ? sqrt(fabs(AT(Z, i, i)) * fabs(AT(Z, j, j))) : largest);
 }
 
-#define IS_NEAR(n, Z, i, j, is_definite, value)                                                                        \
-    do {                                                                                                               \
-        double error_ = fabs((value) - AT(Z, i, j)), allowed_ = allowed((n), (Z), (i), (j), (is_definite));            \
-        if (!(error_ <= allowed_)) {                                                                                   \
-            print_error("(%ld, %ld): %.17g, should be %.17g; error %.3g, allowed %.3g\n", (long)(i), (long)(j),        \
-                        (value), AT(Z, i, j), error_, allowed_);                                                       \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define IS_NEAR(n, Z, i, j, is_definite, value)                                                    \
+    do {                                                                                           \
+        double error_ = fabs((value)-AT(Z, i, j)),                                                 \
+               allowed_ = allowed((n), (Z), (i), (j), (is_definite));                              \
+        if (!(error_ <= allowed_)) {                                                               \
+            print_error("(%ld, %ld): %.17g, should be %.17g; error %.3g, allowed %.3g\n",          \
+                        (long)(i), (long)(j), (value), AT(Z, i, j), error_, allowed_);             \
+            fail();                                                                                \
+        }                                                                                          \
     } while (0)
 
 /* The dense inverse, its rows and columns scaled by powers of 2 for a diagonal near 1 while it is computed: what the
@@ -52,9 +54,10 @@ static void random_rows(sl_int *rows, sl_int count, sl_int n, uint64_t *seed) {
 }
 
 /* Every call on random rows, unsorted and repeated, in numbers 0 .. 20 and more than one group of a block holds. */
-static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int count, uint64_t *seed,
-                      sl_work *W) {
-    sl_int *rows = test_ints((size_t)count), *columns = test_ints((size_t)count), nc = count / 2 + 1;
+static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int count,
+                      uint64_t *seed, sl_work *W) {
+    sl_int *rows = test_ints((size_t)count), *columns = test_ints((size_t)count),
+           nc = count / 2 + 1;
     size_t ldz = (size_t)count + 1;
     double *out = test_reals((size_t)count + 1), *block = test_reals(ldz * (size_t)(count + 1));
     random_rows(rows, count, n, seed);
@@ -103,11 +106,13 @@ static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definit
 }
 
 /* c' A^-1 b for random sparse values, a row now and then twice; NULL sets: all rows. */
-static void forms(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int nc, sl_int nb, uint64_t *seed,
-                  sl_work *W) {
+static void forms(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int nc, sl_int nb,
+                  uint64_t *seed, sl_work *W) {
     sl_int mc = nc < 0 ? n : nc, mb = nb < 0 ? n : nb;
-    sl_int *cset = nc < 0 ? NULL : test_ints((size_t)nc), *bset = nb < 0 ? NULL : test_ints((size_t)nb);
-    double *c = test_reals((size_t)mc), *b = test_reals((size_t)mb), out = 4321.5, sum = 0, bound = 0, square = 0;
+    sl_int *cset = nc < 0 ? NULL : test_ints((size_t)nc),
+           *bset = nb < 0 ? NULL : test_ints((size_t)nb);
+    double *c = test_reals((size_t)mc), *b = test_reals((size_t)mb), out = 4321.5, sum = 0,
+           bound = 0, square = 0;
     if (cset) {
         random_rows(cset, nc, n, seed);
     }
@@ -157,13 +162,15 @@ static void every_kind_on_every_instruction_set(void **state) {
                 problem_t y = problem_make((gen_kind_t)kind, 60, round ? -1 : 1, 0, &opt);
                 sl_int n = y.M.view.n_cols;
                 int definite = kind != GEN_KKT;
-                double *M = ref_dense(&y.M.view), *Z = scaled_inverse(n, M), *all = test_reals((size_t)n);
+                double *M = ref_dense(&y.M.view), *Z = scaled_inverse(n, M),
+                       *all = test_reals((size_t)n);
                 SL_CHECK(sl_work_create(&W, NULL));
                 for (sl_int count = 0; count <= 20; count++) {
                     all_calls(y.F, n, Z, definite, count, &seed, count % 3 ? W : NULL);
                 }
                 all_calls(y.F, n, Z, definite, 150, &seed, W);
-                SL_CHECK(sl_inverse_diagonal(y.F, all, NULL, -7, W, NULL)); /* all rows; count is not read */
+                SL_CHECK(sl_inverse_diagonal(y.F, all, NULL, -7, W,
+                                             NULL)); /* all rows; count is not read */
                 for (sl_int k = 0; k < n; k++) {
                     IS_NEAR(n, Z, k, k, definite, all[k]);
                 }
@@ -187,7 +194,8 @@ static void a_larger_grid_equals_full_solves(void **state) {
     enum { COUNT = 300 };
     problem_t y = problem_make(GEN_GRID2, 10000, 1, 0, NULL);
     sl_int n = y.M.view.n_cols, rows[COUNT], columns[COUNT];
-    double *X = test_reals((size_t)n * 12), *Z = test_reals(COUNT * COUNT), *S = test_reals(COUNT * COUNT);
+    double *X = test_reals((size_t)n * 12), *Z = test_reals(COUNT * COUNT),
+           *S = test_reals(COUNT * COUNT);
     double *pairs = test_reals(COUNT), *swapped = test_reals(COUNT), *diagonal = test_reals(COUNT);
     double largest = 0;
     uint64_t seed = 3;
@@ -214,7 +222,8 @@ static void a_larger_grid_equals_full_solves(void **state) {
     const double bound = 1000 * DBL_EPSILON * largest; /* tree height times a small factor */
     for (int k = 0; k < 12; k++) {
         for (int i = 0; i < COUNT; i++) {
-            assert_true(fabs(Z[i + COUNT * 25 * k] - X[(size_t)k * (size_t)n + (size_t)rows[i]]) <= bound);
+            assert_true(fabs(Z[i + COUNT * 25 * k] - X[(size_t)k * (size_t)n + (size_t)rows[i]]) <=
+                        bound);
         }
         assert_true(fabs(pairs[25 * k] - X[(size_t)k * (size_t)n + (size_t)rows[25 * k]]) <= bound);
     }
@@ -247,12 +256,17 @@ enum { CALLS = 5 };
 
 static sl_status run_call(call_t *q, int which, sl_int count, sl_work *W) {
     switch (which) {
-    case 0: return sl_inverse_diagonal(q->F, q->out, q->rows, count, W, NULL);
-    case 1: return sl_inverse_pairs(q->F, q->out, q->rows, q->columns, count, W, NULL);
-    case 2: return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->columns, count, W, NULL);
-    case 3: return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
+    case 0:
+        return sl_inverse_diagonal(q->F, q->out, q->rows, count, W, NULL);
+    case 1:
+        return sl_inverse_pairs(q->F, q->out, q->rows, q->columns, count, W, NULL);
+    case 2:
+        return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->columns, count, W, NULL);
+    case 3:
+        return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
     default:
-        return sl_inverse_bilinear(q->F, q->out, q->rows, q->values, count, q->columns, q->values, count, W, NULL);
+        return sl_inverse_bilinear(q->F, q->out, q->rows, q->values, count, q->columns, q->values,
+                                   count, W, NULL);
     }
 }
 
@@ -351,7 +365,8 @@ static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
         q->rows[k] = 10 + k % 7 + side * (10 + k / 7);
         q->columns[count++] = 12 + k % 8 + side * (10 + k / 8);
     }
-    SL_CHECK(sl_inverse_bilinear(F, q->out, q->rows, q->values, 40, q->columns, q->values, 40, NULL, &stats));
+    SL_CHECK(sl_inverse_bilinear(F, q->out, q->rows, q->values, 40, q->columns, q->values, 40, NULL,
+                                 &stats));
     *reach = stats.b_columns;
     for (int which = 0; which < CALLS; which++) {
         counter_t counter = counter_make();
@@ -380,8 +395,8 @@ static void nothing_grows_with_n(void **state) {
         bytes_of_a_patch(side, now, &reach);
         assert_true(reach < reach_first * (side == 200 ? 3 : 6));
         for (int which = 0; which < CALLS; which++) {
-            print_message("n = %ld, call %d: %.0f bytes a column of the reach, %.0f at 1e4\n", (long)(side * side), which,
-                          now[which], first[which]);
+            print_message("n = %ld, call %d: %.0f bytes a column of the reach, %.0f at 1e4\n",
+                          (long)(side * side), which, now[which], first[which]);
             /* anything of n bytes would be 4 times as much a column; twice, where the best group has more lanes */
             assert_true(now[which] <= 2.0 * first[which]);
         }
@@ -441,7 +456,8 @@ static void wrong_use_is_refused(void **state) {
     REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, high, one, 3, NULL, &stats));
     assert_int_equal(stats.error_column, 25);
     /* so many that they cannot be numbered: seen before anything is read */
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_inverse_bilinear(y.F, out, good, one, INT32_MAX, good, one, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE,
+              sl_inverse_bilinear(y.F, out, good, one, INT32_MAX, good, one, 1, NULL, NULL));
     for (int k = 0; k < 9; k++) {
         assert_true(out[k] == 4321.5);
     }

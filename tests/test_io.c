@@ -19,8 +19,8 @@ static sl_status parse(sl_matrix **M, const char *text, sl_stats *stats) {
 #define BANNER(kind) "%%MatrixMarket matrix coordinate " kind "\n"
 
 /* Parses and compares with n_rows x n_cols and the entries, column by column, rows ascending. */
-static void expect_matrix(const char *text, sl_int n_rows, sl_int n_cols, const sl_int *p, const sl_int *i,
-                          const double *x) {
+static void expect_matrix(const char *text, sl_int n_rows, sl_int n_cols, const sl_int *p,
+                          const sl_int *i, const double *x) {
     sl_matrix *M = NULL;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
@@ -61,16 +61,22 @@ static void odd_but_legal(void **state) {
     const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
     const double x[3] = {1.5, -2, 4};
     /* comments, blank lines, CRLF, tabs, blanks at both ends, no newline at the end, + signs, exponents */
-    expect_matrix(BANNER("real symmetric") "% a comment\n%\n\n2 2 3\n1 1 1.5\n\n2 1 -2\n2 2 4\n", 2, 2, p, i, x);
-    expect_matrix("%%MatrixMarket matrix coordinate real symmetric\r\n%\r\n2 2 3\r\n1 1 1.5\r\n2 1 -2\r\n2 2 4\r\n", 2,
+    expect_matrix(BANNER("real symmetric") "% a comment\n%\n\n2 2 3\n1 1 1.5\n\n2 1 -2\n2 2 4\n", 2,
                   2, p, i, x);
-    expect_matrix(BANNER("real symmetric") "  2\t2  3  \n\t1 1 +1.5 \n 2  1\t-2.0e0\n2 2 .4E1", 2, 2, p, i, x);
+    expect_matrix("%%MatrixMarket matrix coordinate real symmetric\r\n%\r\n2 2 3\r\n1 1 1.5\r\n2 1 "
+                  "-2\r\n2 2 4\r\n",
+                  2, 2, p, i, x);
+    expect_matrix(BANNER("real symmetric") "  2\t2  3  \n\t1 1 +1.5 \n 2  1\t-2.0e0\n2 2 .4E1", 2,
+                  2, p, i, x);
     /* words of the banner in any case */
-    expect_matrix("%%MatrixMarket MATRIX Coordinate Real SYMMETRIC\n2 2 3\n1 1 1.5\n2 1 -2\n2 2 4\n", 2, 2, p, i, x);
+    expect_matrix(
+        "%%MatrixMarket MATRIX Coordinate Real SYMMETRIC\n2 2 3\n1 1 1.5\n2 1 -2\n2 2 4\n", 2, 2, p,
+        i, x);
     /* above the diagonal of a symmetric file: mirrored */
     expect_matrix(BANNER("real symmetric") "2 2 3\n1 1 1.5\n1 2 -2\n2 2 4\n", 2, 2, p, i, x);
     /* duplicates are summed */
-    expect_matrix(BANNER("real general") "2 2 5\n1 1 1\n2 1 -1\n2 2 4\n2 1 -1\n1 1 0.5\n", 2, 2, p, i, x);
+    expect_matrix(BANNER("real general") "2 2 5\n1 1 1\n2 1 -1\n2 2 4\n2 1 -1\n1 1 0.5\n", 2, 2, p,
+                  i, x);
     /* nothing in it */
     const sl_int none[3] = {0, 0, 0};
     const double nothing[1] = {0};
@@ -147,9 +153,11 @@ static void malformed_at_each_place(void **state) {
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1.5 1\n"},
         {SL_ERR_IO, 3, BANNER("pattern general") "2 2 1\n1 1 1\n"},
         {SL_ERR_IO, 6, BANNER("real general") "2 2 3\n% comment\n1 1 1\n\n1 q 1\n2 2 1\n"},
-        {SL_ERR_IO, 4, BANNER("real general") "2 2 1\n1 1 1\n2 2 1\n"},        /* one too many */
-        {SL_ERR_IO, 0, BANNER("real general") "2 2 3\n1 1 1\n2 2 1\n"},        /* one too few */
-        {SL_ERR_IO, 0, BANNER("real general") "2 2 1000000000\n1 1 1\n2 2 1\n"}, /* a count that the text cannot hold */
+        {SL_ERR_IO, 4, BANNER("real general") "2 2 1\n1 1 1\n2 2 1\n"}, /* one too many */
+        {SL_ERR_IO, 0, BANNER("real general") "2 2 3\n1 1 1\n2 2 1\n"}, /* one too few */
+        {SL_ERR_IO, 0,
+         BANNER(
+             "real general") "2 2 1000000000\n1 1 1\n2 2 1\n"}, /* a count that the text cannot hold */
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         sl_matrix *M = NULL;
@@ -157,8 +165,8 @@ static void malformed_at_each_place(void **state) {
         memset(&stats, 0, sizeof stats);
         sl_status status = parse(&M, bad[k].text, &stats);
         if (status != bad[k].status || (bad[k].line && stats.error_line != bad[k].line)) {
-            print_error("case %d: \"%s\", line %ld, of the text:\n%s\n", (int)k, sl_status_string(status),
-                        (long)stats.error_line, bad[k].text);
+            print_error("case %d: \"%s\", line %ld, of the text:\n%s\n", (int)k,
+                        sl_status_string(status), (long)stats.error_line, bad[k].text);
             fail();
         }
         SL_EXPECT(bad[k].status, parse(&M, bad[k].text, NULL));
@@ -200,7 +208,8 @@ static void sizes_that_do_not_fit(void **state) {
 
 static void every_prefix_is_refused_or_right(void **state) {
     (void)state;
-    static const char text[] = BANNER("real symmetric") "% c\n3 3 4\n1 1 2.25\n2 2 3\n3 1 -1e-1\n3 3 4\n";
+    static const char text[] =
+        BANNER("real symmetric") "% c\n3 3 4\n1 1 2.25\n2 2 3\n3 1 -1e-1\n3 3 4\n";
     for (size_t length = 0; length < sizeof text - 1; length++) {
         char *copy = (char *)test_array(length, 1);
         memcpy(copy, text, length);
@@ -278,8 +287,9 @@ static void a_long_file_comes_back(void **state) {
 static void extreme_values_come_back_bit_for_bit(void **state) {
     (void)state;
     enum { COUNT = 12 };
-    const double x[COUNT] = {DBL_MIN,  DBL_MAX, -DBL_MAX, 4.9406564584124654e-324, 1.0 / 3.0, 0.1, -0.0, 0.0,
-                             INFINITY, -INFINITY, 1e22,   DBL_EPSILON};
+    const double x[COUNT] = {DBL_MIN,   DBL_MAX,   -DBL_MAX, 4.9406564584124654e-324,
+                             1.0 / 3.0, 0.1,       -0.0,     0.0,
+                             INFINITY,  -INFINITY, 1e22,     DBL_EPSILON};
     sl_int p[COUNT + 1], i[COUNT];
     for (sl_int k = 0; k < COUNT; k++) {
         p[k] = i[k] = k;

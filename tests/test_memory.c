@@ -196,9 +196,9 @@ static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
         memcpy(f->X, f->before, sizeof f->X);
         status = sl_factor_solve(F, f->X, 225, f->B, 225, 3, NULL);
         status = status != SL_OK ? status : sl_plan_solve(f->P, F, f->X, 30, f->B, 20, 3, NULL);
-        status = status != SL_OK
-                     ? status
-                     : sl_local_solve(F, f->X, 30, f->xset, 30, f->B, 20, f->bset, 20, 3, NULL, NULL);
+        status = status != SL_OK ? status
+                                 : sl_local_solve(F, f->X, 30, f->xset, 30, f->B, 20, f->bset, 20,
+                                                  3, NULL, NULL);
     }
     sl_factor_free(F);
     return status;
@@ -214,7 +214,8 @@ static int64_t run(fixture_t *f, scenario_t scenario) {
         counter.fail_at = k;
         status = scenario(f, &opt);
         assert_true(status == SL_OK || status == SL_ERR_MEMORY);
-        assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k); /* no failure is passed over */
+        assert_int_equal(status == SL_ERR_MEMORY,
+                         counter.calls > (size_t)k); /* no failure is passed over */
         COUNTER_CLEAN(&counter);
         assert_in_range(k, 0, 10000);
     }
@@ -304,7 +305,8 @@ static void reading_may_fail(void **state) {
         assert_true(run(f, parse) > 0);
     }
     const char *folder = getenv("TMPDIR");
-    snprintf(f->text, sizeof f->text, "%s/sparse_local_test_memory.mtx", folder && *folder ? folder : ".");
+    snprintf(f->text, sizeof f->text, "%s/sparse_local_test_memory.mtx",
+             folder && *folder ? folder : ".");
     FILE *file = fopen(f->text, "wb");
     assert_non_null(file);
     fputs(texts[0], file);

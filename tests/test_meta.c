@@ -2,15 +2,15 @@
 #include "problem.h"
 
 /* Breaks one number, runs a check, mends it again. */
-#define NOTICED(place, broken, check)                                                                                  \
-    do {                                                                                                               \
-        double keep_ = (place);                                                                                        \
-        (place) = (broken);                                                                                            \
-        if (!(check)) {                                                                                                \
-            print_error("not noticed: %s = %s\n", #place, #broken);                                                    \
-            fail();                                                                                                    \
-        }                                                                                                              \
-        (place) = keep_;                                                                                               \
+#define NOTICED(place, broken, check)                                                              \
+    do {                                                                                           \
+        double keep_ = (place);                                                                    \
+        (place) = (broken);                                                                        \
+        if (!(check)) {                                                                            \
+            print_error("not noticed: %s = %s\n", #place, #broken);                                \
+            fail();                                                                                \
+        }                                                                                          \
+        (place) = keep_;                                                                           \
     } while (0)
 
 /* The factor's own arrays, writable: what only this test may do. */
@@ -37,7 +37,8 @@ static void a_broken_factor_is_noticed(void **state) {
             NOTICED(D[j], D[j] * (1 + 1e-11), check_factor(y.F, &y.M.view));
             NOTICED(D[j], NAN, check_factor(y.F, &y.M.view));
         }
-        for (sl_off q = 0; q < panel_doubles(y.F); q++) { /* values, padding, upper places: all of them */
+        for (sl_off q = 0; q < panel_doubles(y.F);
+             q++) { /* values, padding, upper places: all of them */
             NOTICED(L[q], L[q] * (1 + 1e-10) + 1e-10, check_factor(y.F, &y.M.view));
         }
         sl_int *perm = writable_ints(v.perm), first = perm[3]; /* a permuted result */
@@ -61,7 +62,8 @@ static void a_broken_analysis_is_noticed(void **state) {
     opt.relaxation = SL_RELAXATION_NONE;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
     sl_symbolic_view_t v = sl_symbolic_view(S);
-    sl_int *parent = writable_ints(v.parent), *counts = writable_ints(v.counts), *rows = writable_ints(v.rows);
+    sl_int *parent = writable_ints(v.parent), *counts = writable_ints(v.counts),
+           *rows = writable_ints(v.rows);
     sl_int *up = writable_ints(v.super_parent);
     NOTHING_WRONG(check_structure(&v, &M.view, 1));
     NOTHING_WRONG(check_supernodes(&v));
@@ -104,7 +106,8 @@ static void a_broken_solution_is_noticed(void **state) {
     assert_int_equal(first_difference(X, Y, 100), -1);
     for (int k = 0; k < 100; k++) {
         /* the pass figure is 10 n eps = 2.2e-13 here */
-        NOTICED(X[k], X[k] + 1e-10, !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
+        NOTICED(X[k], X[k] + 1e-10,
+                !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
         NOTICED(X[k], NAN, !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
         NOTICED(X[k], X[k] * (1 + DBL_EPSILON), first_difference(X, Y, 100) == k);
         NOTICED(X[k], NAN, first_difference(X, Y, 100) == k);
@@ -173,7 +176,8 @@ static void references_agree(void **state) {
         gen_matrix_t A = gen_matrix((gen_kind_t)kind, 25, 0, 3);
         sl_int n = A.view.n_cols;
         size_t square = (size_t)n * (size_t)n;
-        double *M = ref_dense(&A.view), *L = test_reals(square), *D = test_reals((size_t)n), *Z = ref_inverse(n, M);
+        double *M = ref_dense(&A.view), *L = test_reals(square), *D = test_reals((size_t)n),
+               *Z = ref_inverse(n, M);
         char *fill = ref_pattern(&A.view);
         ref_ldl(n, M, L, D);
         assert_null(check_product(n, M, L, D));
@@ -185,7 +189,8 @@ static void references_agree(void **state) {
                     sum += AT(M, i, k) * AT(Z, k, j);
                 }
                 assert_true(fabs(sum - (i == j)) < 1e-11);
-                assert_true(AT(L, i, j) == 0 || i < j || AT(fill, i, j)); /* no entry outside the fill */
+                assert_true(AT(L, i, j) == 0 || i < j ||
+                            AT(fill, i, j)); /* no entry outside the fill */
             }
         }
         AT(L, n - 1, 0) += 1e-9;

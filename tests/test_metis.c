@@ -59,7 +59,8 @@ static long bytes_printed(const sl_int *metis, sl_status wanted) {
     int keep[2] = {dup(1), dup(2)};
     FILE *file = fopen(files_path("printed"), "wb");
     assert_non_null(file);
-    assert_true(keep[0] >= 0 && keep[1] >= 0 && dup2(fileno(file), 1) == 1 && dup2(fileno(file), 2) == 2);
+    assert_true(keep[0] >= 0 && keep[1] >= 0 && dup2(fileno(file), 1) == 1 &&
+                dup2(fileno(file), 2) == 2);
     sl_status status = sl_symbolic_create(&S, &M.view, &opt, NULL);
     fflush(stdout);
     fflush(stderr);
@@ -116,7 +117,8 @@ static void options_out_of_range_are_refused(void **state) {
         assert_int_equal(bytes_printed(metis, SL_ERR_ARGUMENT), 0);
         metis[option] = INT32_MIN;
         assert_int_equal(bytes_printed(metis, SL_ERR_ARGUMENT), 0);
-        if (option != METIS_OPTION_NITER && option != METIS_OPTION_NSEPS && option != METIS_OPTION_PFACTOR) {
+        if (option != METIS_OPTION_NITER && option != METIS_OPTION_NSEPS &&
+            option != METIS_OPTION_PFACTOR) {
             metis[option] = ranges[k].high + 1;
             assert_int_equal(bytes_printed(metis, SL_ERR_ARGUMENT), 0);
         }

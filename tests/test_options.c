@@ -73,9 +73,11 @@ static void unknown_values_are_refused(void **state) {
         opt.relaxation = (sl_relaxation)unknown[k];
         SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &y.M.view, &opt, NULL));
         assert_null(S);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&y.M.view, (sl_reading)unknown[k], Y, 25, X, 25, 1));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_csc_multiply(&y.M.view, (sl_reading)unknown[k], Y, 25, X, 25, 1));
         assert_true(Y[0] == 7);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_write(&y.M.view, (sl_reading)unknown[k], "no/such/folder/file.mtx"));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_csc_write(&y.M.view, (sl_reading)unknown[k], "no/such/folder/file.mtx"));
         sl_factor *F = GARBAGE(sl_factor);
         opt = options_none();
         opt.isa = (sl_isa)(unknown[k] + 100); /* as one that this processor has not */

@@ -4,7 +4,8 @@
 
 #include <pthread.h>
 
-static void try_sets(const problem_t *y, sl_int nb, sl_int nx, sl_int nrhs, uint64_t seed, sl_work *W) {
+static void try_sets(const problem_t *y, sl_int nb, sl_int nx, sl_int nrhs, uint64_t seed,
+                     sl_work *W) {
     question_t q = ask(y->F, y->M.view.n_cols, nb, nx, nrhs, seed);
     answer(y->S, y->F, &q, W);
     forget(&q);
@@ -23,7 +24,8 @@ static void local_equals_full_on_the_zoo(void **state) {
                 sl_options opt = options_none();
                 opt.isa = isas.isa[k / 2];
                 opt.relaxation = (sl_relaxation)(k % 2);
-                problem_t y = problem_make((gen_kind_t)kind, sizes[size], size - 1, kind % GEN_STYLES, &opt);
+                problem_t y =
+                    problem_make((gen_kind_t)kind, sizes[size], size - 1, kind % GEN_STYLES, &opt);
                 sl_int n = y.M.view.n_cols;
                 for (sl_int nrhs = 0; nrhs <= 9; nrhs++) {
                     try_sets(&y, -1, -1, nrhs, ++seed, W);
@@ -33,9 +35,10 @@ static void local_equals_full_on_the_zoo(void **state) {
                         try_sets(&y, 1, 1, nrhs, ++seed, nrhs % 2 ? W : NULL);
                         try_sets(&y, 1, -1, nrhs, ++seed, W);
                         try_sets(&y, -1, 1, nrhs, ++seed, W);
-                        try_sets(&y, 1 + gen_below(&seed, n), 1 + gen_below(&seed, n), nrhs, ++seed, W);
-                        try_sets(&y, 1 + gen_below(&seed, n / 8 + 1), 1 + gen_below(&seed, n / 8 + 1), nrhs, ++seed,
+                        try_sets(&y, 1 + gen_below(&seed, n), 1 + gen_below(&seed, n), nrhs, ++seed,
                                  W);
+                        try_sets(&y, 1 + gen_below(&seed, n / 8 + 1),
+                                 1 + gen_below(&seed, n / 8 + 1), nrhs, ++seed, W);
                     }
                 }
                 problem_free(&y);
@@ -64,7 +67,8 @@ static void every_pair_of_rows(void **state) {
             SL_CHECK(sl_factor_solve(y.F, full, (size_t)n, full, (size_t)n, 1, W));
             for (sl_int x = 0; x < n; x++) {
                 double one = 1.5;
-                SL_CHECK(sl_local_solve(y.F, &one, 1, &x, 1, &one, 1, &b, 1, 1, W, NULL)); /* in place, too */
+                SL_CHECK(sl_local_solve(y.F, &one, 1, &x, 1, &one, 1, &b, 1, 1, W,
+                                        NULL)); /* in place, too */
                 SAME_VALUES(&one, full + x, 1);
             }
         }
@@ -196,7 +200,8 @@ static void companions_do_not_matter(void **state) {
 static void wrong_sets_are_named(void **state) {
     (void)state;
     problem_t y = problem_make(GEN_GRID2, 49, 1, 0, NULL);
-    const sl_int good[3] = {4, 48, 0}, twice[4] = {7, 3, 9, 3}, big[3] = {1, 49, 2}, low[3] = {1, 2, -5};
+    const sl_int good[3] = {4, 48, 0}, twice[4] = {7, 3, 9, 3}, big[3] = {1, 49, 2},
+                 low[3] = {1, 2, -5};
     const sl_int *bad[3] = {twice, big, low};
     const sl_int size[3] = {4, 3, 3}, named[3] = {3, 49, -5};
     sl_work *W = NULL;
@@ -238,7 +243,8 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, set, -1, set, 3, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, set, 3, set, -1, NULL, NULL));
     assert_null(P);
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, -1, set, 3, NULL, NULL)); /* nb is ignored without a set */
+    SL_CHECK(
+        sl_plan_create(&P, y.S, NULL, -1, set, 3, NULL, NULL)); /* nb is ignored without a set */
     sl_plan_free(P);
     SL_CHECK(sl_plan_create(&P, y.S, set, 3, NULL, 77, NULL, NULL));
     sl_plan_free(P);
@@ -258,7 +264,8 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, 3, B, 2, set, 3, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, 3, B, 3, set, 3, -1, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 3, set, -3, B, 3, set, 3, 1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_local_solve(y.F, X, 8, NULL, 0, B, 3, set, 3, 1, NULL, NULL)); /* ldx < n */
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_local_solve(y.F, X, 8, NULL, 0, B, 3, set, 3, 1, NULL, NULL)); /* ldx < n */
     assert_true(X[0] == 5 && X[1] == 5 && X[2] == 5);
     sl_plan_free(P);
     sl_plan_free(NULL);
@@ -284,9 +291,9 @@ static void *work(void *argument) {
     w->wrong = sl_work_create(&W, NULL) != SL_OK;
     for (int round = 0; round < 200 && !w->wrong; round++) {
         memset(X, 0, nx * (size_t)q->nrhs * sizeof *X);
-        sl_status status = round % 2
-                               ? sl_plan_solve(w->P, w->F, X, nx, q->B, ldb, q->nrhs, W)
-                               : sl_local_solve(w->F, X, nx, q->xset, q->nx, q->B, ldb, q->bset, q->nb, q->nrhs, W, NULL);
+        sl_status status = round % 2 ? sl_plan_solve(w->P, w->F, X, nx, q->B, ldb, q->nrhs, W)
+                                     : sl_local_solve(w->F, X, nx, q->xset, q->nx, q->B, ldb,
+                                                      q->bset, q->nb, q->nrhs, W, NULL);
         w->wrong = status != SL_OK || first_difference(X, q->wanted, nx * (size_t)q->nrhs) >= 0;
     }
     sl_work_free(W);

@@ -8,8 +8,9 @@
 
 typedef struct reach_t {
     sl_int supernodes, columns;
-    sl_off entries; /* doubles of L in the tiles at and below the first column needed, from that tile's column on */
-    sl_off rows;    /* below the supernodes met */
+    sl_off
+        entries; /* doubles of L in the tiles at and below the first column needed, from that tile's column on */
+    sl_off rows; /* below the supernodes met */
 } reach_t;
 
 static reach_t walk(const sl_symbolic_view_t *v, const sl_int *set, sl_int count) {
@@ -59,8 +60,10 @@ static void the_reach_is_that_of_a_graph_search(void **state) {
             sl_options opt = options_none();
             opt.relaxation = (sl_relaxation)(round % 2);
             opt.ordering = round % 4 < 2 ? SL_ORDERING_DEFAULT : SL_ORDERING_NATURAL;
-            gen_matrix_t M = gen_matrix((gen_kind_t)kind, round < 12 ? 30 : 300, 1, (uint64_t)round);
-            sl_int n = M.view.n_cols, nb = gen_below(&seed, n + 1), nx = gen_below(&seed, 3) % (n + 1);
+            gen_matrix_t M =
+                gen_matrix((gen_kind_t)kind, round < 12 ? 30 : 300, 1, (uint64_t)round);
+            sl_int n = M.view.n_cols, nb = gen_below(&seed, n + 1),
+                   nx = gen_below(&seed, 3) % (n + 1);
             sl_int *bset = test_ints((size_t)n), *xset = test_ints((size_t)n);
             sl_symbolic *S = NULL;
             sl_plan *P = NULL;
@@ -72,7 +75,8 @@ static void the_reach_is_that_of_a_graph_search(void **state) {
             SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
             SL_CHECK(sl_plan_create(&P, S, round % 5 ? bset : NULL, nb, xset, nx, NULL, &stats));
             sl_symbolic_view_t v = sl_symbolic_view(S);
-            reach_t b = walk(&v, round % 5 ? bset : NULL, round % 5 ? nb : n), x = walk(&v, xset, nx);
+            reach_t b = walk(&v, round % 5 ? bset : NULL, round % 5 ? nb : n),
+                    x = walk(&v, xset, nx);
             assert_int_equal(stats.b_supernodes, b.supernodes);
             assert_int_equal(stats.b_columns, b.columns);
             assert_int_equal(stats.b_entries, b.entries);
@@ -106,7 +110,8 @@ static void the_reach_holds_what_the_dense_reference_needs(void **state) {
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
         sl_symbolic_view_t v = sl_symbolic_view(S);
-        char *P = ref_pattern(&M.view), *fill = ref_permute_pattern(n, P, v.perm), *seen = (char *)test_array((size_t)n, 1);
+        char *P = ref_pattern(&M.view), *fill = ref_permute_pattern(n, P, v.perm),
+             *seen = (char *)test_array((size_t)n, 1);
         ref_fill(n, fill);
         for (sl_int row = 0; row < n; row++) {
             sl_plan *plan = NULL;
@@ -155,7 +160,8 @@ static void the_reach_of_everything_is_everything(void **state) {
     assert_int_equal(stats.x_entries, all.nnz_panels);
     assert_true(stats.bytes_plan < 4096); /* everything is in the analysis already */
     sl_plan_free(P);
-    SL_CHECK(sl_plan_create(&P, y.S, y.M.i, 0, y.M.i, 0, NULL, &stats)); /* empty sets reach nothing */
+    SL_CHECK(
+        sl_plan_create(&P, y.S, y.M.i, 0, y.M.i, 0, NULL, &stats)); /* empty sets reach nothing */
     assert_int_equal(stats.b_columns + stats.x_columns, 0);
     assert_int_equal(stats.b_entries + stats.x_entries, 0);
     sl_plan_free(P);
@@ -195,7 +201,8 @@ static void solves_allocate_nothing_once_grown(void **state) {
     size_t bytes = sl_work_bytes(V);
     for (int round = 0; round < 10; round++) {
         SL_CHECK(sl_local_solve(y.F, X, 70, xset, 70, B, 50, bset, 50, 1 + round % 9, V, NULL));
-        SL_CHECK(sl_local_solve(y.F, X, 70, xset, 7 * round, B, 50, bset, 5 * round, 9, V, NULL)); /* smaller sets */
+        SL_CHECK(sl_local_solve(y.F, X, 70, xset, 7 * round, B, 50, bset, 5 * round, 9, V,
+                                NULL)); /* smaller sets */
         SL_CHECK(sl_plan_solve(P, y.F, X, 70, B, 50, 9, V));
     }
     assert_int_equal(counter.calls, calls);
@@ -245,8 +252,10 @@ static void measure(sl_int side, double per_reach[2], reach_t *reach) {
     SL_CHECK(sl_work_create(&W, &counted));
     SL_CHECK(sl_local_solve(F, X, 49, patch, 49, B, 49, patch, 49, 4, W, NULL));
     per_reach[1] = (double)shot.total_bytes / size;
-    print_message("n = %ld: reach of %ld columns, %ld rows; plan %ld bytes, one-shot solve %ld bytes\n", (long)n,
-                  (long)reach->columns, (long)reach->rows, (long)counter.total_bytes, (long)shot.total_bytes);
+    print_message(
+        "n = %ld: reach of %ld columns, %ld rows; plan %ld bytes, one-shot solve %ld bytes\n",
+        (long)n, (long)reach->columns, (long)reach->rows, (long)counter.total_bytes,
+        (long)shot.total_bytes);
     sl_plan_free(P);
     sl_work_free(W);
     sl_factor_free(F);
@@ -327,8 +336,9 @@ static void a_row_at_the_far_end_of_a_branch_is_found_at_once(void **state) {
         seconds[kind] = seconds_of_a_plan(y.S);
         problem_free(&y);
     }
-    print_message("plan of a path %.2f ms, of a ring %.2f ms, of a wheel %.2f ms\n", 1e3 * seconds[BRANCH_PATH],
-                  1e3 * seconds[BRANCH_RING], 1e3 * seconds[BRANCH_WHEEL]);
+    print_message("plan of a path %.2f ms, of a ring %.2f ms, of a wheel %.2f ms\n",
+                  1e3 * seconds[BRANCH_PATH], 1e3 * seconds[BRANCH_RING],
+                  1e3 * seconds[BRANCH_WHEEL]);
     /* a millisecond more, where the clock is that coarse */
     assert_true(seconds[BRANCH_RING] <= 15 * seconds[BRANCH_PATH] + 1e-3);
     assert_true(seconds[BRANCH_WHEEL] <= 15 * seconds[BRANCH_PATH] + 1e-3);

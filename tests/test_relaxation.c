@@ -87,7 +87,8 @@ static void few_zeros(const char *name, gen_list_t *t, sl_ordering ordering) {
     opt.ordering = ordering;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
     sl_symbolic_view_t v = sl_symbolic_view(S);
-    double stored = (double)places(&v) / (double)stats.nnz_l, held = (double)stats.nnz_panels / (double)stats.nnz_l;
+    double stored = (double)places(&v) / (double)stats.nnz_l,
+           held = (double)stats.nnz_panels / (double)stats.nnz_l;
     print_message("%-28s places %.2f, panels %.2f of the entries of L\n", name, stored, held);
     assert_true(stored <= 1 / (1 - 0.70));
     /* tiles of 8 rows pad w columns of height h to less than w (h + 8) doubles: a path's to 8 an entry */

@@ -145,9 +145,11 @@ static void equals_the_dense_inverse(void **state) {
             for (int k = 0; k < ways.count; k++) {
                 sl_options opt = options_none();
                 way_take(&opt, &ways, k);
-                opt.relaxation = (kind + size + k) % 3 == 0 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
+                opt.relaxation =
+                    (kind + size + k) % 3 == 0 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
                 opt.ordering = (size + k) % 4 == 1 ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
-                problem_t y = problem_make((gen_kind_t)kind, sizes[size], (size + k) % 3 - 1, (size + k) % GEN_STYLES, &opt);
+                problem_t y = problem_make((gen_kind_t)kind, sizes[size], (size + k) % 3 - 1,
+                                           (size + k) % GEN_STYLES, &opt);
                 reference_t r = reference_make(&y.M.view, y.F);
                 sl_selected *Z = NULL;
                 sl_stats stats;
@@ -155,8 +157,8 @@ static void equals_the_dense_inverse(void **state) {
                 SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, &stats));
                 const char *wrong = check_selected(Z, &r);
                 if (wrong) {
-                    print_error("%s, n = %d, %s: %s\n", gen_name((gen_kind_t)kind), (int)y.M.view.n_cols,
-                                isa_name(opt.isa), wrong);
+                    print_error("%s, n = %d, %s: %s\n", gen_name((gen_kind_t)kind),
+                                (int)y.M.view.n_cols, isa_name(opt.isa), wrong);
                     fail();
                 }
                 assert_int_equal(stats.z_columns, y.M.view.n_cols);
@@ -203,7 +205,8 @@ static void equals_full_solves(void **state) {
         opt.isa = isas.isa[k];
         problem_t y = problem_make(GEN_GRID2, 10000, 1, 0, &opt);
         sl_int n = y.M.view.n_cols;
-        double *b = test_reals((size_t)n), *x = test_reals((size_t)n), *diagonal = test_reals((size_t)n);
+        double *b = test_reals((size_t)n), *x = test_reals((size_t)n),
+               *diagonal = test_reals((size_t)n);
         sl_selected *Z = NULL;
         uint64_t seed = 5;
         SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
@@ -217,7 +220,8 @@ static void equals_full_solves(void **state) {
             for (sl_int i = 0; i < n; i++) {
                 largest = fmax(largest, fabs(x[i]));
             }
-            double allowed = 64.0 * (double)n * DBL_EPSILON * largest; /* the diagonal dominates: no condition */
+            double allowed =
+                64.0 * (double)n * DBL_EPSILON * largest; /* the diagonal dominates: no condition */
             assert_true(fabs(diagonal[j] - x[j]) <= allowed);
             for (sl_int p = y.M.p[j]; p < y.M.p[j + 1]; p++) { /* A's own pattern is in that of L */
                 double z;
@@ -266,8 +270,10 @@ static void a_set_gives_the_same_bits(void **state) {
                 for (sl_int s = 0; s < v.n_supers; s++) {
                     if (mark[s]) {
                         assert_true(reached < z.count && z.supers[reached] == s);
-                        size_t bytes = (size_t)(z.begin[reached + 1] - z.begin[reached]) * sizeof(double);
-                        assert_memory_equal(z.Z + z.begin[reached], whole.Z + whole.begin[s], bytes);
+                        size_t bytes =
+                            (size_t)(z.begin[reached + 1] - z.begin[reached]) * sizeof(double);
+                        assert_memory_equal(z.Z + z.begin[reached], whole.Z + whole.begin[s],
+                                            bytes);
                         reached++;
                         columns += ref_width(&v, s);
                     }
@@ -347,7 +353,8 @@ static void nothing_to_do(void **state) {
                 SL_CHECK(sl_selected_diagonal(Z, NULL, NULL, 0, NULL));
                 assert_int_equal(sl_selected_view(Z).count, 0);
             } else {
-                SL_EXPECT(whole ? SL_OK : SL_ERR_PATTERN, sl_selected_diagonal(Z, out, NULL, 0, &stats));
+                SL_EXPECT(whole ? SL_OK : SL_ERR_PATTERN,
+                          sl_selected_diagonal(Z, out, NULL, 0, &stats));
                 assert_true(out[0] == (whole ? 1.0 / sl_factor_view(y.F).D[0] : 5.0));
             }
             sl_selected_free(Z);
@@ -358,8 +365,10 @@ static void nothing_to_do(void **state) {
 
 static void wrong_use(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_PATH, 20, 1, 0, NULL), other = problem_make(GEN_PATH, 20, 1, 0, NULL);
-    const sl_int below[3] = {7, -1, 4}, above[3] = {7, 8, 20}, fine[3] = {7, 8, 7}, far[3] = {7, 8, 19};
+    problem_t y = problem_make(GEN_PATH, 20, 1, 0, NULL),
+              other = problem_make(GEN_PATH, 20, 1, 0, NULL);
+    const sl_int below[3] = {7, -1, 4}, above[3] = {7, 8, 20}, fine[3] = {7, 8, 7},
+                 far[3] = {7, 8, 19};
     sl_options half = options_none();
     double out[20];
     sl_selected *Z = NULL, *none = (sl_selected *)(void *)out;
@@ -397,7 +406,8 @@ static void wrong_use(void **state) {
     assert_int_equal(stats.error_column, 20);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, below, fine, 3, &stats));
     assert_int_equal(stats.error_row, -1);
-    SL_EXPECT(SL_ERR_PATTERN, sl_selected_entries(Z, out, fine, far, 3, &stats)); /* a path has no fill that far */
+    SL_EXPECT(SL_ERR_PATTERN,
+              sl_selected_entries(Z, out, fine, far, 3, &stats)); /* a path has no fill that far */
     assert_int_equal(stats.error_row, 7);
     assert_int_equal(stats.error_column, 19);
     assert_true(out[0] == 5.0);
@@ -406,7 +416,9 @@ static void wrong_use(void **state) {
     assert_null(sl_selected_view(NULL).Z);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_refill(NULL, y.F, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_refill(Z, NULL, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_selected_refill(Z, other.F, NULL)); /* another analysis, though of the same pattern */
+    SL_EXPECT(
+        SL_ERR_STATE,
+        sl_selected_refill(Z, other.F, NULL)); /* another analysis, though of the same pattern */
     problem_free(&other);
     sl_selected_free(Z);
     sl_selected_free(NULL);
@@ -431,7 +443,8 @@ static void every_allocation_may_fail(void **state) {
             if (Z) {
                 sl_work *W = NULL;
                 counter.fail_at = (int64_t)counter.calls;
-                SL_EXPECT(SL_ERR_MEMORY, sl_selected_refill(Z, y.F, NULL)); /* Z is as it was: see below */
+                SL_EXPECT(SL_ERR_MEMORY,
+                          sl_selected_refill(Z, y.F, NULL)); /* Z is as it was: see below */
                 SL_CHECK(sl_work_create(&W, &opt));
                 counter.fail_at = (int64_t)counter.calls;
                 SL_EXPECT(SL_ERR_MEMORY, sl_selected_refill(Z, y.F, W));
@@ -485,10 +498,14 @@ static void a_broken_entry_is_noticed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_the_dense_inverse),  cmocka_unit_test(wide_supernodes),
-        cmocka_unit_test(equals_full_solves),        cmocka_unit_test(a_set_gives_the_same_bits),
-        cmocka_unit_test(outlives_a_refactorization), cmocka_unit_test(nothing_to_do),
-        cmocka_unit_test(wrong_use),                 cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(equals_the_dense_inverse),
+        cmocka_unit_test(wide_supernodes),
+        cmocka_unit_test(equals_full_solves),
+        cmocka_unit_test(a_set_gives_the_same_bits),
+        cmocka_unit_test(outlives_a_refactorization),
+        cmocka_unit_test(nothing_to_do),
+        cmocka_unit_test(wrong_use),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(a_broken_entry_is_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -86,8 +86,9 @@ static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
 
 static void a_null_pivot_for_each_component(void **state) {
     (void)state;
-    static const gen_kind_t kinds[9] = {GEN_ONE,   GEN_DIAGONAL, GEN_PATH,   GEN_STAR,      GEN_GRID2,
-                                        GEN_GRID3, GEN_FOREST,   GEN_RANDOM, GEN_COMPONENTS};
+    static const gen_kind_t kinds[9] = {GEN_ONE,    GEN_DIAGONAL, GEN_PATH,
+                                        GEN_STAR,   GEN_GRID2,    GEN_GRID3,
+                                        GEN_FOREST, GEN_RANDOM,   GEN_COMPONENTS};
     static const sl_int sizes[3] = {12, 90, 700};
     way_list_t ways = ways_present();
     for (int kind = 0; kind < 9; kind++) {
@@ -148,7 +149,8 @@ static void local_and_threads_as_ever(void **state) {
             sl_factor *F = NULL, *G = NULL;
             int calls = 0;
             double *B = test_reals((size_t)(20 * nrhs)), *X = test_reals((size_t)(30 * nrhs));
-            double *full = test_reals((size_t)(n * nrhs)), *wanted = test_reals((size_t)(30 * nrhs));
+            double *full = test_reals((size_t)(n * nrhs)),
+                   *wanted = test_reals((size_t)(30 * nrhs));
             SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
             opt.threads.count = 3;
             opt.threads.run = run_backwards;
@@ -197,7 +199,8 @@ static void entries_of_the_inverse(void **state) {
         sl_options opt = options_semidefinite(&ways, k);
         sl_factor *F = NULL;
         sl_selected *Z = NULL;
-        double *X = test_reals(n * n), *diagonal = test_reals(n), *selected = test_reals(n), most = 0.0;
+        double *X = test_reals(n * n), *diagonal = test_reals(n), *selected = test_reals(n),
+               most = 0.0;
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
         for (size_t i = 0; i < n; i++) {
             X[i + n * i] = 1.0;

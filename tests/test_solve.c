@@ -14,7 +14,8 @@ static void backward_errors_on_every_isa(void **state) {
                     sl_options opt = options_none();
                     opt.isa = isas.isa[k];
                     opt.relaxation = (sl_relaxation)relaxation;
-                    problem_t y = problem_make((gen_kind_t)kind, sizes[size], size % 3 - 1, kind % GEN_STYLES, &opt);
+                    problem_t y = problem_make((gen_kind_t)kind, sizes[size], size % 3 - 1,
+                                               kind % GEN_STYLES, &opt);
                     sl_int n = y.M.view.n_cols;
                     size_t ld = (size_t)n + 3;
                     double *B = test_reals(ld * MOST), *X = test_reals(ld * MOST);
@@ -44,7 +45,8 @@ static void equals_the_dense_solution(void **state) {
             opt.isa = isas.isa[k];
             problem_t y = problem_make((gen_kind_t)kind, 60, 0, 0, &opt);
             sl_int n = y.M.view.n_cols;
-            double *M = ref_dense(&y.M.view), *B = test_reals((size_t)n * 5), *X = test_reals((size_t)n * 5);
+            double *M = ref_dense(&y.M.view), *B = test_reals((size_t)n * 5),
+                   *X = test_reals((size_t)n * 5);
             double largest = 0;
             gen_reals(B, (size_t)n * 5, 6);
             SL_CHECK(sl_factor_solve(y.F, X, (size_t)n, B, (size_t)n, 5, NULL));
@@ -75,7 +77,8 @@ static void leading_dimensions_and_in_place(void **state) {
         size_t n = (size_t)y.M.view.n_cols;
         for (sl_int nrhs = 0; nrhs <= MOST; nrhs++) {
             size_t ldx = n + 5, ldb = n + 2, cols = (size_t)nrhs;
-            double *X = test_reals(ldx * (MOST + 1)), *B = test_reals(ldb * MOST), *B2 = test_reals(ldb * MOST);
+            double *X = test_reals(ldx * (MOST + 1)), *B = test_reals(ldb * MOST),
+                   *B2 = test_reals(ldb * MOST);
             double *C = test_reals(n * MOST);
             for (size_t q = 0; q < ldx * (MOST + 1); q++) {
                 X[q] = 1234.5;
@@ -182,7 +185,8 @@ static void a_workspace_is_reused_across_sizes(void **state) {
     for (int round = 0; round < 12; round++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[round % isas.count];
-        problem_t y = problem_make(round % 2 ? GEN_GRID2 : GEN_RANDOM, sizes[round % 6], 1, 0, &opt);
+        problem_t y =
+            problem_make(round % 2 ? GEN_GRID2 : GEN_RANDOM, sizes[round % 6], 1, 0, &opt);
         size_t n = (size_t)y.M.view.n_cols;
         double *B = test_reals(n * MOST), *X = test_reals(n * MOST), *Y = test_reals(n * MOST);
         gen_reals(B, n * MOST, (uint64_t)round);
@@ -244,7 +248,8 @@ static void nothing_is_allocated_once_grown(void **state) {
 
 static void nothing_to_do(void **state) {
     (void)state;
-    problem_t empty = problem_make(GEN_NONE, 0, 1, 0, NULL), y = problem_make(GEN_PATH, 4, 1, 0, NULL);
+    problem_t empty = problem_make(GEN_NONE, 0, 1, 0, NULL),
+              y = problem_make(GEN_PATH, 4, 1, 0, NULL);
     double one = 5;
     for (sl_int nrhs = 0; nrhs <= 9; nrhs++) {
         SL_CHECK(sl_factor_solve(empty.F, &one, 1, &one, 1, nrhs, NULL));
@@ -266,7 +271,8 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 5, B, 6, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, B, 5, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, B, 6, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 7, X, 6, 1, NULL)); /* in place with two strides */
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_factor_solve(y.F, X, 7, X, 6, 1, NULL)); /* in place with two strides */
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_create(NULL, NULL));
     SL_CHECK(sl_work_create(&W, NULL));

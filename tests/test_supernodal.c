@@ -150,7 +150,8 @@ static void pivots_without_a_reciprocal(void **state) {
         problem_t y = problem_make(GEN_GRID2, 400, 1, 0, NULL);
         sl_int n = y.M.view.n_cols;
         for (sl_int q = 0; q < y.M.p[n]; q++) {
-            y.M.x[q] = ldexp(rint(ldexp(y.M.x[q], 20)), powers[which] - 20); /* exact down there, too */
+            y.M.x[q] =
+                ldexp(rint(ldexp(y.M.x[q], 20)), powers[which] - 20); /* exact down there, too */
         }
         for (int k = 0; k < isas.count; k++) {
             sl_factor *F = factor_by(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);

@@ -64,11 +64,13 @@ static void the_zoo_in_every_style_and_ordering(void **state) {
             gen_list_t t = gen_make((gen_kind_t)kind, sizes[size], 1, 12);
             sl_int *perm = test_ints((size_t)t.n);
             gen_permutation(perm, t.n, 3);
-            for (int which = 0; which < GEN_STYLES; which += sizes[size] > 20 ? 5 : 1) {
+            for (int which = 0; which<GEN_STYLES; which += sizes[size]> 20 ? 5 : 1) {
                 gen_matrix_t M = gen_store(&t, gen_style(which), 4);
                 M.view.x = NULL; /* values are not read */
-                for (int ordering = SL_ORDERING_DEFAULT; ordering <= SL_ORDERING_NATURAL; ordering++) {
-                    for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE; relaxation++) {
+                for (int ordering = SL_ORDERING_DEFAULT; ordering <= SL_ORDERING_NATURAL;
+                     ordering++) {
+                    for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE;
+                         relaxation++) {
                         sl_options opt = options_none();
                         opt.ordering = (sl_ordering)ordering;
                         opt.relaxation = (sl_relaxation)relaxation;
@@ -94,7 +96,8 @@ static void many_random_patterns(void **state) {
             gen_dominate(&t, 1, &seed);
         } /* else: no diagonal is stored */
         gen_matrix_t M = gen_store(&t, gen_style(round % GEN_STYLES), seed);
-        for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE; relaxation++) {
+        for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE;
+             relaxation++) {
             sl_options opt = options_none();
             opt.ordering = round % 2 ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
             opt.relaxation = (sl_relaxation)relaxation;
@@ -123,10 +126,12 @@ static void a_given_order_is_followed(void **state) {
         ref_fill(n, fill);
         ref_counts(n, fill, counts);
         ref_etree(n, fill, parent);
-        for (sl_int k = 0; k < n; k++) { /* row perm[k] has the same count and the same parent row */
+        for (sl_int k = 0; k < n;
+             k++) { /* row perm[k] has the same count and the same parent row */
             sl_int at = v.iperm[perm[k]];
             assert_int_equal(v.counts[at], counts[k]);
-            assert_int_equal(v.parent[at] < 0 ? -1 : v.perm[v.parent[at]], parent[k] < 0 ? -1 : perm[parent[k]]);
+            assert_int_equal(v.parent[at] < 0 ? -1 : v.perm[v.parent[at]],
+                             parent[k] < 0 ? -1 : perm[parent[k]]);
         }
         free(P);
         free(fill);
@@ -231,15 +236,21 @@ static void hostile_arrays(void **state) {
         sl_int n = gen_below(&seed, 5), p[6], i[12];
         p[0] = gen_below(&seed, 12) ? 0 : gen_below(&seed, 5) - 2;
         for (sl_int j = 0; j < n; j++) {
-            sl_int step = gen_below(&seed, 20) ? gen_below(&seed, 3) : gen_below(&seed, 2) ? -2 : INT32_MAX;
+            sl_int step = gen_below(&seed, 20)  ? gen_below(&seed, 3)
+                          : gen_below(&seed, 2) ? -2
+                                                : INT32_MAX;
             int64_t next = (int64_t)p[j] + step;
-            p[j + 1] = next > 12 && step != INT32_MAX ? 12 : next > INT32_MAX ? INT32_MAX : (sl_int)next;
+            p[j + 1] = next > 12 && step != INT32_MAX ? 12
+                       : next > INT32_MAX             ? INT32_MAX
+                                                      : (sl_int)next;
         }
-        if (p[n] > 12) { /* positions beyond the array would be the caller's lie, not a malformed view */
+        if (p[n] >
+            12) { /* positions beyond the array would be the caller's lie, not a malformed view */
             p[n] = 12;
         }
         for (int k = 0; k < 12; k++) {
-            i[k] = gen_below(&seed, 30) || n == 0 ? (n ? gen_below(&seed, n) : 0) : gen_below(&seed, 3) * n - 1;
+            i[k] = gen_below(&seed, 30) || n == 0 ? (n ? gen_below(&seed, n) : 0)
+                                                  : gen_below(&seed, 3) * n - 1;
         }
         sl_csc A = {n, n, p, i, NULL};
         sl_options opt = options_none();
@@ -273,7 +284,9 @@ static void large_graphs_do_not_recurse(void **state) {
         sl_symbolic_view_t v = sl_symbolic_view(S);
         NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
         NOTHING_WRONG(check_supernodes(&v));
-        assert_int_equal(stats.tree_height, kinds[k] == GEN_PATH ? 200000 : kinds[k] == GEN_ARROW ? 2 : 1);
+        assert_int_equal(stats.tree_height, kinds[k] == GEN_PATH    ? 200000
+                                            : kinds[k] == GEN_ARROW ? 2
+                                                                    : 1);
         sl_symbolic_free(S);
         if (kinds[k] == GEN_DIAGONAL) { /* METIS per component: 200000 of them, each alone */
             S = analyse(&M.view, NULL, &stats);

@@ -18,7 +18,7 @@ SLI_INLINE void sli_ask_huge_pages(void *block, size_t bytes) {
         const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
         const int keep = errno;
         (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
-                      SLI_HUGE_PAGES);
+                          SLI_HUGE_PAGES);
         errno = keep; /* a refusal changes nothing */
     }
 #else

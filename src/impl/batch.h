@@ -49,12 +49,12 @@ static void sli_batch_share(void *data, sl_int k) {
         const sli_query q = sli_request_query(b->F, r);
         const double weight = sli_query_weight(&q);
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
-        const sl_int last = k + 1 == b->workers
-                                ? r->nrhs
-                                : sli_blocks_before(to, before, weight, r->nrhs);
+        const sl_int last =
+            k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
         if (first < last && q.nx > 0) {
             const sli_layout layout = sli_request_layout(r);
-            const sli_dense x_at = sli_dense_of(layout, r->ldx), b_at = sli_dense_of(layout, r->ldb);
+            const sli_dense x_at = sli_dense_of(layout, r->ldx),
+                            b_at = sli_dense_of(layout, r->ldb);
             sli_sweep(b->F, &q, r->X + (size_t)first * x_at.column, x_at,
                       q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
                       memory);
@@ -69,8 +69,8 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
         const sl_request *r = &b->requests[*at];
         const sli_query q = sli_request_query(b->F, r);
         size_t bytes;
-        const sl_status status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb,
-                                                 sli_request_layout(r), r->nrhs);
+        const sl_status status =
+            sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, sli_request_layout(r), r->nrhs);
         if (status != SL_OK) {
             return status;
         }

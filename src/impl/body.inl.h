@@ -194,9 +194,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 }
             }
             if (inner > 0) {
-                SLV_NAME(diagonal)(tile + SLI_TILE * (ptrdiff_t)row, inner,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row,
-                                   buf + SLI_TILE);
+                SLV_NAME(diagonal)
+                (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+                 xs + row, buf + SLI_TILE);
             }
             if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
@@ -211,8 +211,9 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 SLV_NAME(dots2)(above, tile, buf, first, w, sums);
             } else {
                 SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-                SLV_NAME(diagonal)(above + SLI_TILE * (ptrdiff_t)row, SLI_TILE,
-                                   sums + SLI_TILE * (ptrdiff_t)row, d + row, xs + row, buf);
+                SLV_NAME(diagonal)
+                (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
+                 d + row, xs + row, buf);
                 SLV_NAME(dots2)(above, tile, buf, first, row, sums);
             }
             tile = above;

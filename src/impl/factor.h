@@ -212,9 +212,9 @@ static double sli_null_tolerance(sl_int n) {
 
 /* Are the method, the definiteness and the number of threads such as exist? */
 static int sli_way_is_known(const sl_options *opt) {
-    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
-                           opt->threads.count >= 0);
+    return opt == NULL ||
+           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+            (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE && opt->threads.count >= 0);
 }
 
 /* A front costs some 50 ns whatever is in it: below this many flops each, as in diagonal matrices and

@@ -28,8 +28,7 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
-                                     sl_int *count) {
+SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
     sl_int k;
     if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
         return SL_ERR_ARGUMENT;

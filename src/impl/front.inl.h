@@ -24,13 +24,14 @@
         SLV_ZERO(a##k)                                                                             \
     }
 
-/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). */
+/* The diagonal tile, column k: the pivot, then the columns after it lose l(rows) x(column). Here by
+ * division, one step shorter than by the reciprocal: all wait for this chain. */
 #define SLI_AFTER(i, k)                                                                            \
     if ((i) > (k)) {                                                                               \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i))                                                 \
         SLV_FNMA(a##i, l, b)                                                                       \
     }
-#define SLI_PIVOT(k, p) /* by division: a step shorter than by the reciprocal, on which all wait */    \
+#define SLI_PIVOT(k, p)                                                                            \
     if ((k) < columns) {                                                                           \
         double d;                                                                                  \
         SLV_STORE(x + SLI_TILE * (k), a##k)                                                        \
@@ -193,15 +194,16 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
                                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
-        for (end = row;
-             end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile; end++) {
+        for (end = row; end < last && end - row < SLI_TILE - lane && places[end] / SLI_TILE == tile;
+             end++) {
             lanes[end - row] = places[end] % SLI_TILE;
             mask |= 1u << lanes[end - row];
         }
         {
             SLV_SPREAD(mask, lanes, end - row)
             for (i = 0; i < end && i < columns; i++) {
-                const int is_below = places[i] >= w; /* the panel or the update matrix, not a branch */
+                const int is_below =
+                    places[i] >= w; /* the panel or the update matrix, not a branch */
                 double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)places[i]);
                 SLV_SPREAD_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }

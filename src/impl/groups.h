@@ -115,9 +115,8 @@ static void sli_requests_sort(sli_requests *r) {
         const sl_int i = sli_request_row(r, k), j = sli_request_column(r, k);
         const uint32_t high = (uint32_t)(sli_max(i, j) >> shift);
         const uint32_t low = (uint32_t)(sli_min(i, j) >> shift);
-        const sl_int key = r->rows == r->columns
-                               ? i
-                               : (sl_int)(sli_widen_bits(high) << 1 | sli_widen_bits(low));
+        const sl_int key =
+            r->rows == r->columns ? i : (sl_int)(sli_widen_bits(high) << 1 | sli_widen_bits(low));
         r->order[k] = sli_keyed(key, k);
     }
     sli_sort(r->order, r->count, r->taken);

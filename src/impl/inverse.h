@@ -167,9 +167,9 @@ static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
                                      sl_int count, sl_work *W, sl_stats *stats) {
     sli_stats_clear_error(stats);
-    return F == NULL ? SL_ERR_ARGUMENT
-                     : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W,
-                                         stats);
+    return F == NULL
+               ? SL_ERR_ARGUMENT
+               : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,

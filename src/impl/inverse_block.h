@@ -80,8 +80,8 @@ static void sli_block_layout_sweeps(sli_inverse_block *q, sli_block *b, const sl
     sl_int k;
     both.rows = passing->rows > both.rows ? passing->rows : both.rows;
     both.scratch = passing->scratch > both.scratch ? passing->scratch : both.scratch;
-    q->weighed = SLI_TAKE(b, double,
-                          passing->values > kept->values ? passing->values : kept->values);
+    q->weighed =
+        SLI_TAKE(b, double, passing->values > kept->values ? passing->values : kept->values);
     sli_forward_layout(&q->pass.forward, b, passing);
     sli_forward_layout_run(&q->pass.forward, b, &both);
     for (k = 0; k < count; k++) {

@@ -52,8 +52,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_keep(__m256i spread) {
 }
 
 SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d keep) {
-    return _mm256_and_pd(
-        _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), spread)), keep);
+    return _mm256_and_pd(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), spread)),
+                         keep);
 }
 
 #define SLV_DECLARE(a) __m256d a##_0, a##_1;
@@ -123,8 +123,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
     a##_1 = _mm256_load_pd((p) + 4);                                                               \
     __asm__("" : "+x"(a##_0), "+x"(a##_1)); /* used 4 times: not to be loaded 4 times */
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
-#define SLV_MULTIPLY(a, b, c) a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
+#define SLV_MULTIPLY(a, b, c)                                                                      \
+    a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c)                                                                        \
+    a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
 #define SLV_BELOW(a, k)                                                                            \
     a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)),                                         \
     a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
@@ -136,9 +138,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #define SLV_SPREAD_ADD(to, from)                                                                   \
     _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to),                                        \
                                         sli_spread_4(_mm256_loadu_pd(from), low_, keep_low_)));    \
-    _mm256_store_pd(                                                                               \
-        (to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4),                                          \
-                                sli_spread_4(_mm256_loadu_pd((from) + second_), high_, keep_high_)));
+    _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4),                              \
+                                            sli_spread_4(_mm256_loadu_pd((from) + second_), high_, \
+                                                         keep_high_)));
 #define SLV_TWICE_AT(e, l)                                                                         \
     {                                                                                              \
         const __m256d l_ = _mm256_load_pd(l);                                                      \

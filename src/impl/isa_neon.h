@@ -59,12 +59,11 @@
         SLV_LOAD(a, part_)                                                                         \
     }
 #define SLV_LANE(b, a, k)                                                                          \
-    b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(                                                   \
-        vgetq_lane_f64((k) < 2   ? a##_0                                                           \
-                       : (k) < 4 ? a##_1                                                           \
-                       : (k) < 6 ? a##_2                                                           \
-                                 : a##_3,                                                          \
-                       (k) % 2));
+    b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0                   \
+                                                               : (k) < 4 ? a##_1                   \
+                                                               : (k) < 6 ? a##_2                   \
+                                                                         : a##_3,                  \
+                                                               (k) % 2));
 #define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
 #define SLV_GATHER(a, x, at)                                                                       \
     a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)),                  \
@@ -105,12 +104,12 @@
     a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1),                              \
     a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
 #define SLV_BELOW_2(a, k)                                                                          \
-    a = vreinterpretq_f64_u64(vandq_u64(                                                           \
-        vreinterpretq_u64_f64(a),                                                                  \
-        vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+    a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a),                                  \
+                                        vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0),      \
+                                                     vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
 #define SLV_BELOW(a, k)                                                                            \
-    SLV_BELOW_2(a##_0, k) SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4)                      \
-    SLV_BELOW_2(a##_3, (k)-6)
+    SLV_BELOW_2(a##_0, k)                                                                          \
+    SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
 #define SLV_SPREAD(mask, lanes, count)                                                             \
     const sl_int *lanes_ = (lanes), count_ = (count);                                              \
     (void)(mask);

@@ -98,39 +98,39 @@
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
 #define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_FNMA(a, b, c) \
+#define SLV_FNMA(a, b, c)                                                                          \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] -= b[i_] * c[i_]; \
+            a[i_] -= b[i_] * c[i_];                                                                \
         }                                                                                          \
     }
-#define SLV_BROADCAST(b, p) \
+#define SLV_BROADCAST(b, p)                                                                        \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            b[i_] = *(p); \
+            b[i_] = *(p);                                                                          \
         }                                                                                          \
     }
-#define SLV_MULTIPLY(a, b, c) \
+#define SLV_MULTIPLY(a, b, c)                                                                      \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = b[i_] * c[i_]; \
+            a[i_] = b[i_] * c[i_];                                                                 \
         }                                                                                          \
     }
-#define SLV_DIVIDE(a, b, c) \
+#define SLV_DIVIDE(a, b, c)                                                                        \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = b[i_] / c[i_]; \
+            a[i_] = b[i_] / c[i_];                                                                 \
         }                                                                                          \
     }
-#define SLV_BELOW(a, k) \
+#define SLV_BELOW(a, k)                                                                            \
     {                                                                                              \
         int i_;                                                                                    \
         for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = i_ > (k) ? a[i_] : 0.0; \
+            a[i_] = i_ > (k) ? a[i_] : 0.0;                                                        \
         }                                                                                          \
     }
 #define SLV_SPREAD(mask, lanes, count)                                                             \

@@ -86,16 +86,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * second. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                                            sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                                           sl_int j1,
-                                           double *target, sl_int target_width,
+                                           sl_int j1, double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
     for (j = j0; j < j1; j += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, j1 - j);
         for (c = c0; c < c1; c++) {
-            SLV_NAME(pack)(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-                           B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            SLV_NAME(pack)
+            (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
+             B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
         }
         for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
@@ -104,8 +104,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             const int is_pair = t + 1 < t1;
             const double *A1 =
                 is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-            double *C1 =
-                is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
+            double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
 #endif
             for (c = c0; c < c1 && c <= t; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
@@ -125,8 +124,9 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             t += is_pair;
             if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                SLV_NAME(block1)(A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-                                 target_width - SLI_TILE * (c - target_first));
+                SLV_NAME(block1)
+                (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
+                 target_width - SLI_TILE * (c - target_first));
             }
 #endif
         }

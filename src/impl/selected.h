@@ -11,11 +11,11 @@
  * last to first. Fronts of even and of odd depth have a stack each, which grow towards each other: when
  * a front is made, its parent's is the top of the other stack. */
 typedef struct sli_descent {
-    sl_int *up;    /* count: the parent, as a number in the list of supernodes, -1 at a root */
-    sl_int *last;  /* count: the child that comes last, -1 where there is none */
-    sl_int *side;  /* count: depth % 2 */
-    sl_off *front; /* count: where the front begins, in doubles */
-    sl_off fronts; /* doubles for all of them */
+    sl_int *up;     /* count: the parent, as a number in the list of supernodes, -1 at a root */
+    sl_int *last;   /* count: the child that comes last, -1 where there is none */
+    sl_int *side;   /* count: depth % 2 */
+    sl_off *front;  /* count: where the front begins, in doubles */
+    sl_off fronts;  /* doubles for all of them */
     sl_off scratch; /* doubles for the kernels */
 } sli_descent;
 
@@ -184,8 +184,7 @@ static void sli_selected_keep(const sli_dual *f, double *panel) {
         const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
         memcpy(to, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *to);
         for (j = 0; j < columns && rows < SLI_TILE; j++) { /* padding */
-            memset(to + SLI_TILE * (ptrdiff_t)j + rows, 0,
-                   (size_t)(SLI_TILE - rows) * sizeof *to);
+            memset(to + SLI_TILE * (ptrdiff_t)j + rows, 0, (size_t)(SLI_TILE - rows) * sizeof *to);
         }
     }
 }

@@ -25,10 +25,10 @@ struct sl_symbolic {
     sl_off *panel_begin;    /* n_supers + 1, in doubles */
     sli_step *steps;        /* n_supers: the reach of everything */
     sl_int *descendant;     /* n_supers: the first supernode of each one's subtree */
-    sl_int *places;         /* rows_begin[n_supers]: the local row of every row in the parent's front */
-    sl_off *map_begin;      /* n_supers + 1 */
-    sl_int *map_from;       /* map_begin[n_supers]: positions in A, grouped by supernode */
-    sl_off *map_to;         /* the same: positions in L; several may share one (duplicates) */
+    sl_int *places;    /* rows_begin[n_supers]: the local row of every row in the parent's front */
+    sl_off *map_begin; /* n_supers + 1 */
+    sl_int *map_from;  /* map_begin[n_supers]: positions in A, grouped by supernode */
+    sl_off *map_to;    /* the same: positions in L; several may share one (duplicates) */
 };
 
 /* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */

@@ -81,16 +81,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
     for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
-            const double *l = f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) +
-                              SLI_TILE * (ptrdiff_t)j0;
+            const double *l =
+                f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
             double *x = N + tile_size * (ptrdiff_t)t;
             SLV_NAME(clear)(x, SLI_TILE);
             for (k = 0; k < columns && t == c; k++) {
                 x[SLI_TILE * k + k] = -1.0;
             }
             if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
-                SLV_NAME(block)(N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c,
-                                SLI_TILE * (t - c), x, columns);
+                SLV_NAME(block)
+                (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
+                 columns);
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
@@ -106,10 +107,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
             SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)(N + first,
-                            f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                first,
-                            m - SLI_TILE * c, W, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, W, SLI_TILE);
         }
     }
 }
@@ -135,16 +135,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
                     const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
-                    SLV_NAME(block2)(A, A + next, B + c * stride, length, C + at, C + next + at,
-                                     m - SLI_TILE * c);
+                    SLV_NAME(block2)
+                    (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
                 t++;
                 continue;
             }
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
-                SLV_NAME(block)(A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                                sli_min(SLI_TILE, m - SLI_TILE * c));
+                SLV_NAME(block)
+                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
+                 sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -187,10 +188,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
         for (t = first / SLI_TILE; t < tiles; t++) {
-            SLV_NAME(mirror)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                                 tile_size * (ptrdiff_t)c,
-                             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-                             to + tile_size * (ptrdiff_t)t, columns);
+            SLV_NAME(mirror)
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
+                 tile_size * (ptrdiff_t)c,
+             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * (ptrdiff_t)t, columns);
         }
     }
 }
@@ -222,18 +224,20 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
             SLV_NAME(clear)(x, columns);
-            SLV_NAME(block)(N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-                            P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t,
-                            m - SLI_TILE * t, x, columns);
+            SLV_NAME(block)
+            (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+             columns);
             if (first < h) {
-                SLV_NAME(block)(W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                                column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                SLV_NAME(block)
+                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
+                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
-                SLV_NAME(mirror)(x, 0, rows,
-                                 column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
-                                 SLI_TILE);
+                SLV_NAME(mirror)
+                (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+                 SLI_TILE);
             }
         }
     }
@@ -243,7 +247,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW, *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
     for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
         const sl_int m = sli_min(most, w - j0);

@@ -12,7 +12,8 @@ typedef struct sl_request {
     const double *B; /* nb x nrhs (n x nrhs), leading dimension ldb elements */
     size_t ldb;
     int is_interleaved; /* 0: X and B column-major; else row-major, as in the calls named interleaved */
-    sl_int nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
+    sl_int
+        nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
 } sl_request;
 
 /** Answers requests with one factor: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.

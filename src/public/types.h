@@ -74,9 +74,9 @@ typedef enum sl_isa {
 
 /** How to factor; both write the same L to rounding. */
 typedef enum sl_method {
-    SL_METHOD_AUTO = 0,    /* the faster one, by the flops per supernode */
-    SL_METHOD_UP_LOOKING,  /* row by row, little memory beyond L: nearly diagonal patterns, stars */
-    SL_METHOD_SUPERNODAL   /* dense fronts, children before parents: everything else; threads */
+    SL_METHOD_AUTO = 0,   /* the faster one, by the flops per supernode */
+    SL_METHOD_UP_LOOKING, /* row by row, little memory beyond L: nearly diagonal patterns, stars */
+    SL_METHOD_SUPERNODAL  /* dense fronts, children before parents: everything else; threads */
 } sl_method;
 
 /** What a null pivot means. */
@@ -91,9 +91,10 @@ typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *
 
 /** Threads, opt-in: all zero = none. What a call computes does not depend on how many there are. */
 typedef struct sl_threads {
-    sl_int count;        /* 0 or 1: the calling thread alone */
-    sl_parallel_for run; /* the caller's pool; NULL: OpenMP where compiled with it, else one after the other */
-    void *context;       /* handed to run */
+    sl_int count; /* 0 or 1: the calling thread alone */
+    sl_parallel_for
+        run; /* the caller's pool; NULL: OpenMP where compiled with it, else one after the other */
+    void *context; /* handed to run */
 } sl_threads;
 
 /** Memory for the objects. Both functions NULL: malloc and free, on Linux in huge pages where a block has 4 MB or more;
@@ -152,12 +153,12 @@ typedef struct sl_stats {
     /* sl_factor_create, sl_factor_refactor */
     sl_isa isa;
     sl_method method; /* the one that was used */
-    sl_int positive; /* pivots by sign: the inertia of A */
+    sl_int positive;  /* pivots by sign: the inertia of A */
     sl_int negative;
     sl_int null;      /* null pivots: skipped (SL_SEMIDEFINITE), or the one that was refused */
     double pivot_min; /* smallest and largest |d| */
     double pivot_max;
-    double seconds_setup;  /* processor seconds in the schedule and the memory of sl_factor_create */
+    double seconds_setup; /* processor seconds in the schedule and the memory of sl_factor_create */
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
 
