@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: ae4d8c5d81476d77
+ * FNV-1a of all that follows this comment, license aside: fd19d6e2e2da7cb6
  *
  * Contents
  *         (what a user reads)
@@ -24,58 +24,58 @@
  *   1422  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
  *   1456  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1706  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1855  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1885  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3056  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3102  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3239  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3454  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3720  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3882  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4154  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4206  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4359  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5172  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6452  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8633  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10875  impl/select.h              the kernel table for an instruction set
+ *   1721  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1860  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1890  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3061  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3107  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3244  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3459  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3725  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3887  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4159  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4211  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4364  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5177  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6457  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8638  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10870  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10908  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11336  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11409  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10903  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11331  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11404  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11763  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11802  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11949  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12063  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12207  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12292  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12365  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12531  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12607  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12648  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12841  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13127  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11758  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11797  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11944  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12058  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12202  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12287  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12360  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12526  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12602  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12643  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12836  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13122  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13360  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13492  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13578  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13838  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13925  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14219  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14334  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14394  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14631  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14673  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13355  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13487  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13573  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13833  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  13920  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14214  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14329  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14389  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14626  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14668  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  14971  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15211  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15530  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  15757  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  15911  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  14966  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15206  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15525  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  15752  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  15906  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  16355  impl/leave.h               takes every internal macro away again
+ *  16350  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1687,6 +1687,21 @@ typedef void (*sli_gather_kernel)(const sli_dual *f, const double *from, sl_int 
  * Z_SJ = -Z_SS W, Z_JJ = (L_JJ D L_JJ')^-1 - W' Z_SJ. */
 typedef void (*sli_takahashi_kernel)(const sli_dual *f, double *scratch);
 
+/* Numbers that stand side by side, spread over the lanes of a tile one by one: where no instruction
+ * does it. */
+#define SLI_SPREAD_PLAIN(mask, lanes, count)                                                       \
+    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
+    (void)(mask);
+#define SLI_SPREAD_ADD_PLAIN(to, from)                                                             \
+    {                                                                                              \
+        double *to_ = (to);                                                                        \
+        const double *from_ = (from);                                                              \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < count_; i_++) {                                                          \
+            to_[lanes_[i_]] += from_[i_];                                                          \
+        }                                                                                          \
+    }
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];
@@ -1837,18 +1852,8 @@ typedef struct sli_kernels {
             a[i_] = i_ > (k) ? a[i_] : 0.0;                                                        \
         }                                                                                          \
     }
-#define SLV_SPREAD(mask, lanes, count)                                                             \
-    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
-    (void)(mask);
-#define SLV_SPREAD_ADD(to, from)                                                                   \
-    {                                                                                              \
-        double *to_ = (to);                                                                        \
-        const double *from_ = (from);                                                              \
-        sl_int i_;                                                                                 \
-        for (i_ = 0; i_ < count_; i_++) {                                                          \
-            to_[lanes_[i_]] += from_[i_];                                                          \
-        }                                                                                          \
-    }
+#define SLV_SPREAD SLI_SPREAD_PLAIN
+#define SLV_SPREAD_ADD SLI_SPREAD_ADD_PLAIN
 /* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2
@@ -8741,18 +8746,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_BELOW(a, k)                                                                            \
     SLV_BELOW_2(a##_0, k)                                                                          \
     SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
-#define SLV_SPREAD(mask, lanes, count)                                                             \
-    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
-    (void)(mask);
-#define SLV_SPREAD_ADD(to, from)                                                                   \
-    {                                                                                              \
-        double *to_ = (to);                                                                        \
-        const double *from_ = (from);                                                              \
-        sl_int i_;                                                                                 \
-        for (i_ = 0; i_ < count_; i_++) {                                                          \
-            to_[lanes_[i_]] += from_[i_];                                                          \
-        }                                                                                          \
-    }
+#define SLV_SPREAD SLI_SPREAD_PLAIN
+#define SLV_SPREAD_ADD SLI_SPREAD_ADD_PLAIN
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1),                                \
     e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
@@ -16383,6 +16378,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_SPREAD_PLAIN
+#undef SLI_SPREAD_ADD_PLAIN
 #undef SLI_GROUP
 #undef SLI_CHUNK
 #undef SLI_FRONT_INVERSE

@@ -110,18 +110,8 @@
 #define SLV_BELOW(a, k)                                                                            \
     SLV_BELOW_2(a##_0, k)                                                                          \
     SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
-#define SLV_SPREAD(mask, lanes, count)                                                             \
-    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
-    (void)(mask);
-#define SLV_SPREAD_ADD(to, from)                                                                   \
-    {                                                                                              \
-        double *to_ = (to);                                                                        \
-        const double *from_ = (from);                                                              \
-        sl_int i_;                                                                                 \
-        for (i_ = 0; i_ < count_; i_++) {                                                          \
-            to_[lanes_[i_]] += from_[i_];                                                          \
-        }                                                                                          \
-    }
+#define SLV_SPREAD SLI_SPREAD_PLAIN
+#define SLV_SPREAD_ADD SLI_SPREAD_ADD_PLAIN
 #define SLV_TWICE_LOW(e, l)                                                                        \
     e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1),                                \
     e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);

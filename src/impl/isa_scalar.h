@@ -133,18 +133,8 @@
             a[i_] = i_ > (k) ? a[i_] : 0.0;                                                        \
         }                                                                                          \
     }
-#define SLV_SPREAD(mask, lanes, count)                                                             \
-    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
-    (void)(mask);
-#define SLV_SPREAD_ADD(to, from)                                                                   \
-    {                                                                                              \
-        double *to_ = (to);                                                                        \
-        const double *from_ = (from);                                                              \
-        sl_int i_;                                                                                 \
-        for (i_ = 0; i_ < count_; i_++) {                                                          \
-            to_[lanes_[i_]] += from_[i_];                                                          \
-        }                                                                                          \
-    }
+#define SLV_SPREAD SLI_SPREAD_PLAIN
+#define SLV_SPREAD_ADD SLI_SPREAD_ADD_PLAIN
 /* arrays gain nothing from spreading L: two right-hand sides go the way of four */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_LANES 2

@@ -234,6 +234,21 @@ typedef void (*sli_gather_kernel)(const sli_dual *f, const double *from, sl_int 
  * Z_SJ = -Z_SS W, Z_JJ = (L_JJ D L_JJ')^-1 - W' Z_SJ. */
 typedef void (*sli_takahashi_kernel)(const sli_dual *f, double *scratch);
 
+/* Numbers that stand side by side, spread over the lanes of a tile one by one: where no instruction
+ * does it. */
+#define SLI_SPREAD_PLAIN(mask, lanes, count)                                                       \
+    const sl_int *lanes_ = (lanes), count_ = (count);                                              \
+    (void)(mask);
+#define SLI_SPREAD_ADD_PLAIN(to, from)                                                             \
+    {                                                                                              \
+        double *to_ = (to);                                                                        \
+        const double *from_ = (from);                                                              \
+        sl_int i_;                                                                                 \
+        for (i_ = 0; i_ < count_; i_++) {                                                          \
+            to_[lanes_[i_]] += from_[i_];                                                          \
+        }                                                                                          \
+    }
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_LANES_COUNT];

@@ -28,6 +28,8 @@
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_SPREAD_PLAIN
+#undef SLI_SPREAD_ADD_PLAIN
 #undef SLI_GROUP
 #undef SLI_CHUNK
 #undef SLI_FRONT_INVERSE
