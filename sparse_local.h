@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: fd19d6e2e2da7cb6
+ * FNV-1a of all that follows this comment, license aside: 4b21f8b7096b7bbf
  *
  * Contents
  *         (what a user reads)
@@ -25,57 +25,57 @@
  *         (L1 kernels: raw arrays only)
  *   1456  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
  *   1721  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1860  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1890  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3061  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3107  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3244  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3459  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3725  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3887  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4159  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4211  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4364  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5177  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6457  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8638  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10870  impl/select.h              the kernel table for an instruction set
+ *   1859  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1889  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3060  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3106  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3243  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3458  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3724  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3886  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4158  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4209  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4354  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5167  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6446  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8619  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10849  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10903  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11331  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11404  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10882  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11310  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11383  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11758  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11797  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11944  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12058  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12202  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12287  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12360  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12526  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12602  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12643  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12836  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13122  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11737  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11776  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11923  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12037  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12181  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12266  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12339  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12505  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12581  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12622  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12815  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13101  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13355  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13487  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13573  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13833  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13920  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14214  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14329  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14389  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14626  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14668  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13334  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13466  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13552  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13812  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  13899  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14193  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14308  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14368  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14605  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14647  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  14966  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15206  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15525  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  15752  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  15906  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  14945  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15185  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15504  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  15731  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  15885  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  16350  impl/leave.h               takes every internal macro away again
+ *  16329  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1760,7 +1760,6 @@ typedef struct sli_kernels {
             a[i_] -= (l)[i_] * v[i_];                                                              \
         }                                                                                          \
     }
-#define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
 #define SLV_LOAD_PART(a, p, count, rest)                                                           \
     {                                                                                              \
         double part_[SLI_TILE];                                                                    \
@@ -4168,7 +4167,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_ADD
 #undef SLV_AXPY
 #undef SLV_DOT
-#undef SLV_SUM
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
@@ -4219,11 +4217,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_ISA SL_ISA_AVX2
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
 #define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
-
-SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
-    low = _mm_add_pd(low, high);
-    return _mm_cvtsd_f64(_mm_add_sd(low, _mm_unpackhi_pd(low, low)));
-}
 
 /* All bits in the lanes from k on, k = -3 .. 8. */
 SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
@@ -4279,9 +4272,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #define SLV_DOT(a, l, v)                                                                           \
     a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0),                                     \
     a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
-#define SLV_SUM(a)                                                                                 \
-    sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)),                                  \
-             _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
@@ -6412,7 +6402,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_ADD
 #undef SLV_AXPY
 #undef SLV_DOT
-#undef SLV_SUM
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
@@ -6472,12 +6461,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
-/* the masked extraction keeps gcc's own headers from warning in C++ */
-#define SLV_HALVES(a)                                                                              \
-    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0),                                        \
-                  _mm512_maskz_extractf64x4_pd(0xff, a, 1))
-#define SLV_SUM(a)                                                                                 \
-    sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest)                                                           \
@@ -8592,7 +8575,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_ADD
 #undef SLV_AXPY
 #undef SLV_DOT
-#undef SLV_SUM
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
@@ -8629,7 +8611,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SUM_LOAD
 #undef SLV_SUM_STORE
 /* end src/impl/words_end.inl.h */
-#undef SLV_HALVES
 
 #endif
 
@@ -8670,7 +8651,6 @@ static const sli_kernels SLV_NAME(kernels) = {
     a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1),                                           \
     a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2),                                           \
     a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
-#define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \
@@ -10825,7 +10805,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_ADD
 #undef SLV_AXPY
 #undef SLV_DOT
-#undef SLV_SUM
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA

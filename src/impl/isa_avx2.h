@@ -11,11 +11,6 @@
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
 #define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
 
-SLV_FUNCTION SLI_INLINE double sli_sum4(__m128d low, __m128d high) {
-    low = _mm_add_pd(low, high);
-    return _mm_cvtsd_f64(_mm_add_sd(low, _mm_unpackhi_pd(low, low)));
-}
-
 /* All bits in the lanes from k on, k = -3 .. 8. */
 SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
     return _mm256_castsi256_pd(
@@ -70,9 +65,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_spread_4(__m256d a, __m256i spread, __m256d 
 #define SLV_DOT(a, l, v)                                                                           \
     a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0),                                     \
     a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
-#define SLV_SUM(a)                                                                                 \
-    sli_sum4(_mm256_castpd256_pd128(_mm256_add_pd(a##_0, a##_1)),                                  \
-             _mm256_extractf128_pd(_mm256_add_pd(a##_0, a##_1), 1))
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);

@@ -18,12 +18,6 @@
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
-/* the masked extraction keeps gcc's own headers from warning in C++ */
-#define SLV_HALVES(a)                                                                              \
-    _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, a, 0),                                        \
-                  _mm512_maskz_extractf64x4_pd(0xff, a, 1))
-#define SLV_SUM(a)                                                                                 \
-    sli_sum4(_mm256_castpd256_pd128(SLV_HALVES(a)), _mm256_extractf128_pd(SLV_HALVES(a), 1))
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest)                                                           \
@@ -124,7 +118,6 @@
 #include "body.inl.h"
 
 #include "words_end.inl.h"
-#undef SLV_HALVES
 
 #endif
 

@@ -34,7 +34,6 @@
     a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1),                                           \
     a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2),                                           \
     a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
-#define SLV_SUM(a) vaddvq_f64(vaddq_f64(vaddq_f64(a##_0, a##_1), vaddq_f64(a##_2, a##_3)))
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_FNMA(a, b, c)                                                                          \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1),                \

@@ -41,7 +41,6 @@
             a[i_] -= (l)[i_] * v[i_];                                                              \
         }                                                                                          \
     }
-#define SLV_SUM(a) (((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])))
 #define SLV_LOAD_PART(a, p, count, rest)                                                           \
     {                                                                                              \
         double part_[SLI_TILE];                                                                    \

@@ -9,7 +9,6 @@
 #undef SLV_ADD
 #undef SLV_AXPY
 #undef SLV_DOT
-#undef SLV_SUM
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
