@@ -1,81 +1,84 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 4b21f8b7096b7bbf
+ * FNV-1a of all that follows this comment, license aside: f619218d16d91354
  *
  * Contents
  *         (what a user reads)
- *     83  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    134  public/config.h            what a user may set before including the header, the version, and the integer types
- *    183  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    372  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    492  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    554  public/factor.h            the numbers: P A P' = L D L'
- *    660  public/solve.h             full solves, and the workspace that every solve writes to
- *    729  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    815  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    894  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    931  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *     86  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    137  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    186  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    393  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    513  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    575  public/factor.h            the numbers: P A P' = L D L'
+ *    681  public/solve.h             full solves, and the workspace that every solve writes to
+ *    750  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    838  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    917  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    954  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1051  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1038  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1129  impl/status.h              status codes in words, and the error fields of stats
- *   1185  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1310  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1385  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1422  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1139  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1230  impl/status.h              status codes in words, and the error fields of stats
+ *   1286  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1411  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1486  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1523  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1456  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1721  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1859  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1889  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3060  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3106  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3243  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3458  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3724  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3886  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4158  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4209  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4354  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5167  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6446  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8619  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10849  impl/select.h              the kernel table for an instruction set
+ *   1557  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1822  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1960  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1990  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3161  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3207  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3344  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3559  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3825  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3987  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4259  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4310  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4455  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5268  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6547  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8720  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10950  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10882  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11310  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11383  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10983  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11411  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11484  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11737  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11776  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11923  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12037  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12181  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12266  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12339  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12505  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12581  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12622  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12815  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13101  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11838  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11877  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12024  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12138  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12282  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12367  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12440  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12606  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12682  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12723  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12916  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13202  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13334  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13466  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13552  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13812  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13899  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14193  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14308  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14368  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14605  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14647  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13500  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13633  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13719  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13979  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14066  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14366  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14481  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  14571  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14631  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14895  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14937  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  14945  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15185  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15504  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  15731  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  15885  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15303  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15543  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15862  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16110  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16265  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16712  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  16329  impl/leave.h               takes every internal macro away again
+ *  17164  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -303,6 +306,10 @@ typedef struct sl_options {
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
+    const struct sl_region *
+        region; /* of sl_plan_create: where its sweeps may end; borrowed, must outlive the plan; NULL: none */
+    size_t
+        region_bytes; /* of sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -358,6 +365,19 @@ typedef struct sl_stats {
     sl_off z_entries;        /* doubles kept for them */
     double seconds_selected; /* processor seconds, those of all threads summed up */
     size_t bytes_selected;
+
+    /* sl_region_create, sl_region_refill */
+    sl_int region_rows;     /* rows of A that a plan may use, the boundary included */
+    sl_int region_boundary; /* rows of the boundary */
+    sl_int region_subtrees; /* subtrees of supernodes inside it */
+    sl_off region_entries;  /* doubles kept of the inverse */
+    int region_is_copied;   /* 1: out of a selected inverse; else by forward sweeps */
+    double seconds_region;  /* processor seconds */
+    size_t bytes_region;
+
+    /* sl_plan_create */
+    int plan_in_region; /* the sweeps end at the boundary of options.region; else at the roots */
+    sl_off plan_region_entries; /* doubles of the region's inverse that a solve reads; 0 without */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -366,6 +386,7 @@ typedef struct sl_factor sl_factor;     /* numbers over a symbolic: L and D */
 typedef struct sl_plan sl_plan;         /* reach of a b-set and of an x-set; immutable */
 typedef struct sl_work sl_work;         /* scratch of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
+typedef struct sl_region sl_region;     /* where local solves may stop below the root of the tree */
 
 #endif
 /* end src/public/types.h */
@@ -741,9 +762,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve_interleaved(const sl_factor *F, 
  *  bset   [in]   nb rows of A in 0..n-1, any order, none twice; NULL (with nb ignored): all n. b is 0 elsewhere.
  *  xset   [in]   nx rows of A in 0..n-1, any order, none twice; NULL (with nx ignored): all n.
  *                An empty set is a pointer that is not NULL with nb or nx = 0; nothing is read there.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  opt    [in]   allocator, region; may be NULL. Where both sets are inside the region the sweeps end at its boundary,
+ *                and nothing above it is looked at; where they are not, or one is NULL, the plan is the same as without.
+ *  stats  [out]  the plan group, plan_in_region; error_row: an index out of range or given twice; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
  *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
  *  Threads  reads S; the plan is immutable and may be shared.
@@ -762,7 +784,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 
 /** Solves A x = b on the plan's sets: exactly what the full solve gives there.
  *
- *  For the same instruction set and nrhs the result equals sl_factor_solve's bit for bit (the sign of a zero aside).
+ *  For the same instruction set and nrhs the result equals sl_factor_solve's bit for bit (the sign of a zero aside);
+ *  in a region, to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
  *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of xset; may be B itself
@@ -770,9 +793,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     2 (b_entries + x_entries) flops a right-hand side; nothing O(n); no allocation once W has grown.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or, in a region, other
+ *           numbers than those it was made or refilled of; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
  */
@@ -917,7 +940,7 @@ typedef struct sl_request {
  *                      this call.
  *  failed    [out]     the request at fault, or -1; may be NULL. On error no X has been touched.
  *  Returns   SL_OK; SL_ERR_ARGUMENT, also for works that hold a NULL or one workspace twice; SL_ERR_STATE: failed
- *            factor, or a plan of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *            factor, or a plan that sl_plan_solve refuses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost      that of the solves, shared out by the entries of L that each reads; threads times the largest workspace.
  *  Threads   as sl_plan_solve.
  *  Example   tests/test_batch.c
@@ -1025,6 +1048,84 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
 
 #endif
 /* end src/public/selected.h */
+/* begin src/public/region.h */
+/* region.h: regions: parts of the matrix inside which local solves cost the same whatever surrounds them */
+#ifndef SL_PUBLIC_REGION_H
+#define SL_PUBLIC_REGION_H
+
+/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole subtrees
+ * of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
+ *
+ *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
+ *
+ * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
+ * solve to rounding.
+ */
+
+/** Makes the region for a set of rows: what solves with b and x there need of the inverse.
+ *
+ *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees have a
+ *  short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows that
+ *  happen to be in the subtrees are in the region too.
+ *
+ *  out    [out]  the region, or NULL on error; release with sl_region_free. Give it to sl_plan_create as options.region.
+ *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again, or
+ *                begun to be, plans in the region are refused until sl_region_refill.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
+ *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
+ *  Z      [in]   a selected inverse of what F holds now, read where it has all that is needed, or NULL. Otherwise the
+ *                entries come from forward sweeps, as those of sl_inverse_block.
+ *  opt    [in]   allocator, region_bytes; may be NULL. What exceeds region_bytes is not taken for a region. One
+ *                without a boundary, which is a solve to the roots of the tree, is always possible.
+ *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
+ *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
+ *           4 (boundary)^2 bytes kept, and 8 a row.
+ *  Threads  reads F and Z.
+ *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
+ *  Example  tests/test_region.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
+                                                 const sl_int *set, sl_int count,
+                                                 const sl_selected *Z, const sl_options *opt,
+                                                 sl_stats *stats);
+
+/** Computes the numbers of a region again, of what F holds now, in the same memory; its plans hold on.
+ *
+ *  R      [in,out]  on error as before.
+ *  F      [in]      a factor over the analysis that R was made for: from now on the only one that fits.
+ *  Z      [in]      as in sl_region_create; may be NULL.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or Z is not of F as it is;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     as sl_region_create, less the plan; no allocation once W has grown.
+ *  Threads  nobody else may use R, or a plan in it, meanwhile.
+ *  Example  tests/test_region.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_region_refill(sl_region *R, const sl_factor *F,
+                                                 const sl_selected *Z, sl_work *W);
+
+/** Releases a region; NULL is fine. */
+SL_API void sl_region_free(sl_region *R);
+
+/** Fills the region group of stats again. */
+SL_API void sl_region_stats(const sl_region *R, sl_stats *stats);
+
+/** A look inside: arrays that live as long as the object. */
+typedef struct sl_region_view_t {
+    const sl_symbolic *symbolic;
+    sl_int n_roots;
+    const sl_int *roots; /* n_roots supernodes, ascending: the subtrees inside hang from them */
+    sl_int n_boundary;
+    const sl_int *boundary; /* n_boundary rows of A, in the order of elimination */
+} sl_region_view_t;
+
+SL_API sl_region_view_t sl_region_view(const sl_region *R);
+
+#endif
+/* end src/public/region.h */
 #ifdef __cplusplus
 }
 #endif
@@ -13129,6 +13230,33 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
     return R;
 }
 
+/* Where paths end before the roots of the tree: a forest of whole subtrees, and a boundary that holds
+ * at least all rows of L below it. Of a reach inside it the boundary is the end of the vector. */
+typedef struct sli_fence {
+    sl_int n_roots;
+    const sl_int *roots; /* ascending: the supernodes that the subtrees hang from */
+    sl_int n_rows;
+    const sl_int *rows; /* ascending: the boundary, columns of L */
+} sli_fence;
+
+/* The subtree that holds supernode s, or -1. */
+SLI_INLINE sl_int sli_fence_find(const sl_symbolic *S, const sli_fence *fence, sl_int s) {
+    const sl_int at = sli_lower_bound(fence->roots, fence->n_roots, s);
+    return at < fence->n_roots && S->descendant[fence->roots[at]] <= s ? at : -1;
+}
+
+/* The place of a column in the boundary, or -1. */
+SLI_INLINE sl_int sli_fence_boundary(const sli_fence *fence, sl_int column) {
+    const sl_int at = sli_lower_bound(fence->rows, fence->n_rows, column);
+    return at < fence->n_rows && fence->rows[at] == column ? at : -1;
+}
+
+/* One past the last supernode of the paths from s on, which is inside; fence NULL: the whole tree. */
+SLI_INLINE sl_int sli_fence_end(const sl_symbolic *S, const sli_fence *fence, sl_int s) {
+    return fence == NULL ? S->n_supers
+                         : fence->roots[sli_lower_bound(fence->roots, fence->n_roots, s)] + 1;
+}
+
 /* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a
  * postorder the first ancestor at or after it is on the next seed's own path, so that paths join
  * without a mark on any column. */
@@ -13151,14 +13279,9 @@ SLI_INLINE sl_off sli_entries_from(sl_int width, sl_int below, sl_int first_tile
            (sl_off)SLI_TILE * SLI_TILE * first_tile * (sli_tiles(width + below) - first_tile);
 }
 
-/* Adds what column k brings to a reach: the supernodes of its path up to where it meets the path of
- * the nearest column of the reach before it or behind it; -1 for none. Exact are supernodes, rows,
- * height and width; columns are those of whole supernodes, and entries leave out that k may enter
- * what it shares at an earlier tile. O(supernodes added). */
-static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
-                          sli_reach *R) {
-    const sl_int low = before < 0 ? -1 : S->super_of[before];
-    const sl_int high = behind < 0 ? S->n_supers : S->super_of[behind];
+/* Adds the supernodes of column k's path below supernode `high` that have no descendant at or before
+ * `low`. */
+static void sli_reach_climb(const sl_symbolic *S, sl_int k, sl_int low, sl_int high, sli_reach *R) {
     sl_int s = S->super_of[k];
     while (s != -1 && s < high && S->descendant[s] > low) {
         const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
@@ -13174,21 +13297,40 @@ static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int 
     }
 }
 
-/* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
-static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                              sli_reach *R) {
-    sl_int k;
-    memset(R, 0, sizeof *R);
-    for (k = 0; k < count; k++) {
-        sli_reach_add(S, sli_key(seeds[k]), k > 0 ? sli_key(seeds[k - 1]) : -1, -1, R);
-    }
+/* Adds what column k brings to a reach: the supernodes of its path up to where it meets the path of
+ * the nearest column of the reach before it or behind it; -1 for none. Exact are supernodes, rows,
+ * height and width; columns are those of whole supernodes, and entries leave out that k may enter
+ * what it shares at an earlier tile. O(supernodes added). */
+static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
+                          sli_reach *R) {
+    sli_reach_climb(S, k, before < 0 ? -1 : S->super_of[before],
+                    behind < 0 ? S->n_supers : S->super_of[behind], R);
 }
 
-/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded
- * through `up` of the steps whose parent has not come yet; its top waits for the smallest
- * supernode. */
+/* Counts the supernodes and rows of the reach of seeds, columns of L, ascending, inside a fence or, where
+ * that is NULL, to the roots. O(reach). */
+static void sli_reach_measure_within(const sl_symbolic *S, const sli_fence *fence,
+                                     const uint64_t *seeds, sl_int count, sli_reach *R) {
+    sl_int k, low = -1;
+    memset(R, 0, sizeof *R);
+    for (k = 0; k < count; k++) {
+        const sl_int s = S->super_of[sli_key(seeds[k])];
+        sli_reach_climb(S, sli_key(seeds[k]), low, sli_fence_end(S, fence, s), R);
+        low = s;
+    }
+    R->columns += fence == NULL ? 0 : fence->n_rows;
+}
+
+static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                              sli_reach *R) {
+    sli_reach_measure_within(S, NULL, seeds, count, R);
+}
+
+/* Adds supernode s, which a seed or children on the waiting list enter; its parent is not in the reach
+ * unless it is below supernode `end`. The list is threaded through `up` of the steps whose parent has
+ * not come yet; its top waits for the smallest supernode. */
 static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
-                            sl_int *waiting) {
+                            sl_int end, sl_int *waiting) {
     const sl_int first = S->super_first[s];
     sli_step *step = &steps[at];
     sl_int column = seed;
@@ -13205,7 +13347,7 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     step->width = S->super_first[s + 1] - first;
     step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
     step->up = -1;
-    if (S->super_parent[s] != -1) {
+    if (S->super_parent[s] != -1 && S->super_parent[s] < end) {
         step->up = *waiting;
         *waiting = at;
     }
@@ -13226,15 +13368,13 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
 
 #define SLI_CLIMB 8 /* ancestors that cost about what a look-up among a few thousand steps costs */
 
-/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
- * The owner of the next row is mostly a few ancestors up; where it is not, climbing on would make a
- * tree of one long branch quadratic, so that it is looked up among all `count` steps. */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int count, sl_int at,
-                             sl_int *places) {
-    const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
-    const sl_int below = steps[at].below;
+/* The first `inside` rows of a step to places in the vector: the rows ascend, and so do the ancestors
+ * that own them. The owner of the next row is mostly a few ancestors up; where it is not, climbing on
+ * would make a tree of one long branch quadratic, so that it is looked up among all `count` steps. */
+static void sli_reach_places(const sl_int *rows, sl_int inside, const sli_step *steps, sl_int count,
+                             sl_int at, sl_int *places) {
     sl_int i = 0;
-    while (i < below) {
+    while (i < inside) {
         sl_int end, shift, climbed = 0;
         do {
             at = climbed++ < SLI_CLIMB ? steps[at].up
@@ -13242,24 +13382,36 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
             end = steps[at].column + sli_step_columns(&steps[at]);
         } while (rows[i] >= end);
         shift = steps[at].base - steps[at].column;
-        for (; i < below && rows[i] < end; i++) {
+        for (; i < inside && rows[i] < end; i++) {
             places[i] = rows[i] + shift;
         }
     }
 }
 
-/* Compiles the reach of seeds; sli_reach_measure tells the room it takes. O(reach), times a
- * logarithm where rows skip many ancestors. */
-static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                           sli_step *steps, sl_int *rows, sli_reach *R) {
-    sl_int k = 0, at = 0, waiting = -1, s, next;
+/* Rows of a boundary that begins at `base` to places in the vector: both ascend. */
+static void sli_fence_places(const sli_fence *fence, sl_int base, const sl_int *rows, sl_int count,
+                             sl_int *places) {
+    sl_int i, at = 0;
+    for (i = 0; i < count; i++) {
+        at += sli_lower_bound(fence->rows + at, fence->n_rows - at, rows[i]);
+        places[i] = base + at;
+    }
+}
+
+/* Compiles the reach of seeds; sli_reach_measure_within tells the room it takes. O(reach), times a
+ * logarithm where rows skip many ancestors and for rows in the boundary. */
+static void sli_reach_fill_within(const sl_symbolic *S, const sli_fence *fence,
+                                  const uint64_t *seeds, sl_int count, sli_step *steps,
+                                  sl_int *rows, sli_reach *R) {
+    sl_int k = 0, at = 0, waiting = -1, s, next, end;
     memset(R, 0, sizeof *R);
     while (k < count) {
         sl_int seed = sli_key(seeds[k]);
         s = S->super_of[seed];
-        next = sli_next_seed(S, seeds, count, &k);
+        end = sli_fence_end(S, fence, s);
+        next = sli_min(sli_next_seed(S, seeds, count, &k), end);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
-            sli_reach_enter(S, steps, at++, s, seed, &waiting);
+            sli_reach_enter(S, steps, at++, s, seed, end, &waiting);
             seed = INT32_MAX;
         }
     }
@@ -13273,11 +13425,25 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
         R->entries += sli_entries_from(step->width, step->below, step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, R->count, at, rows + R->n_rows);
-        R->n_rows += steps[at].below;
+        const sl_int own = S->super_of[steps[at].column], below = steps[at].below;
+        const sl_int *from = S->rows + S->rows_begin[own];
+        sl_int inside = below;
+        if (fence != NULL) {
+            inside = sli_lower_bound(from, below, S->super_first[sli_fence_end(S, fence, own)]);
+            sli_fence_places(fence, R->columns, from + inside, below - inside,
+                             rows + R->n_rows + inside);
+        }
+        sli_reach_places(from, inside, steps, R->count, at, rows + R->n_rows);
+        R->n_rows += below;
     }
+    R->columns += fence == NULL ? 0 : fence->n_rows;
     R->steps = steps;
     R->rows = rows;
+}
+
+static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                           sli_step *steps, sl_int *rows, sli_reach *R) {
+    sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
 }
 
 /* The place of a column in the reach's vector. *at, 0 at first, remembers the step for the next
@@ -13353,10 +13519,11 @@ struct sl_factor {
     double null_tolerance;
     sl_definiteness definiteness;
     sl_method method;
-    int is_good;    /* L and D hold a factor */
-    double *L;      /* the panels */
-    double *D;      /* n pivots */
-    double *buffer; /* kernel scratch, for each worker */
+    int is_good;         /* L and D hold a factor */
+    uint64_t generation; /* of the numbers: how often they were begun anew */
+    double *L;           /* the panels */
+    double *D;           /* n pivots */
+    double *buffer;      /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
     sl_threads threads;
     sli_schedule schedule;
@@ -14011,6 +14178,12 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     return failure->status;
 }
 
+/* Before the numbers change: whatever was made of them is out of date, even if this fails. */
+static void sli_factor_begin(sl_factor *F) {
+    F->is_good = 0;
+    F->generation++;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
     sli_failure failure;
@@ -14019,7 +14192,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    F->is_good = 0;
+    sli_factor_begin(F);
     status = sli_factor_check(F->S, A);
     if (status != SL_OK) {
         return status;
@@ -14087,7 +14260,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         return status;
     }
     memset(&failure, 0, sizeof failure);
-    F->is_good = 0;
+    sli_factor_begin(F);
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
     (void)sli_left_looking_all(F, A, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
@@ -14305,6 +14478,96 @@ SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
 
 #endif
 /* end src/impl/factor_ask.h */
+/* begin src/impl/region_parts.h */
+/* region_parts.h: the region object, and what a sweep that ends there needs: the product with the cached inverse */
+#ifndef SLI_REGION_PARTS_H
+#define SLI_REGION_PARTS_H
+
+/* Let T be whole subtrees of the elimination tree and S, the boundary, contain the rows of L below them. For b
+ * on T and S, y = L_TT^-1 b_T and u = b_S - L_ST y are what a forward sweep inside T leaves, and
+ *
+ *     x_S = Z_SS u, Z = A^-1,
+ *
+ * is where the backward sweep inside T starts: all that is above T is in Z_SS. It is kept as N with
+ * Z_SS = N + N', N lower triangular with half of the diagonal, in chunks of columns, and -N stands in the
+ * places below the diagonal block of a panel whose own columns are 0. What a step does to the rows below it on
+ * the way forward is then a product with N, and what these do to it on the way back one with N': the panel is
+ * read twice, the second time from the first cache. */
+struct sl_region {
+    sl_allocator allocator;
+    const sl_symbolic *S; /* borrowed */
+    const sl_factor *F;   /* Z is its inverse, and .. */
+    uint64_t generation;  /* .. of these numbers of it; 0 for none */
+    sli_fence fence;
+    sl_int *roots, *rows; /* of the fence */
+    sl_int *asked;        /* fence.n_rows: rows of A */
+    sl_int inside;        /* rows of A in the subtrees */
+    sl_int *places;       /* fence.n_rows: those of the boundary in the product's second vector */
+    sl_off *begin;        /* chunks + 1: the panels, in doubles */
+    double *Z;
+    int is_copied; /* Z is out of a selected inverse */
+    double seconds;
+    size_t bytes;
+};
+
+/* Columns of a chunk: kernels keep all of so few in registers. */
+#define SLI_REGION_COLUMNS 8
+
+SLI_INLINE sl_int sli_region_chunks(sl_int rows) {
+    return rows / SLI_REGION_COLUMNS + (rows % SLI_REGION_COLUMNS != 0);
+}
+
+/* The chunk that begins at column `first` of a boundary, as a step. */
+SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
+    sli_step step;
+    step.panel = R->begin[first / SLI_REGION_COLUMNS];
+    step.column = 0;
+    step.base = first;
+    step.width = sli_min(SLI_REGION_COLUMNS, R->fence.n_rows - first);
+    step.below = R->fence.n_rows - first;
+    step.first_tile = 0;
+    step.up = -1;
+    return step;
+}
+
+/* Does Z belong to the numbers that F holds? */
+SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
+    return R->F == F && R->generation == F->generation;
+}
+
+/* Doubles for a product: u, the result, and u again, then the scratch of the kernels. */
+SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
+    return 3 * (uint64_t)R->fence.n_rows * (uint64_t)lanes;
+}
+
+SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
+    return sli_scratch_size(SLI_REGION_COLUMNS + R->fence.n_rows, SLI_REGION_COLUMNS, lanes);
+}
+
+/* x := Z_SS u, interleaved; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
+ * way back, where the vector begins one boundary later, its columns are the result and its rows u. */
+static void sli_region_apply(const sl_region *R, const sli_kernels *kernels, int kind,
+                             const double *u, double *x, double *vectors, double *scratch) {
+    static const double one[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const sl_int n = R->fence.n_rows;
+    const size_t size = (size_t)n << kind;
+    sl_int first;
+    if (n == 0) {
+        return;
+    }
+    memcpy(vectors, u, size * sizeof(double));
+    memset(vectors + size, 0, size * sizeof(double));
+    memcpy(vectors + 2 * size, u, size * sizeof(double));
+    for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
+        const sli_step step = sli_region_step(R, first);
+        kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
+        kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+    }
+    memcpy(x, vectors + size, size * sizeof(double));
+}
+
+#endif
+/* end src/impl/region_parts.h */
 /* begin src/impl/work.h */
 /* work.h: the workspace: one block of a thread's scratch that only grows */
 #ifndef SLI_WORK_H
@@ -14379,6 +14642,8 @@ typedef struct sli_query {
     sli_reach forward, backward;
     const sl_int *b_place; /* nb */
     const sl_int *x_place; /* nx */
+    const sl_region
+        *region; /* both reaches end there, and its boundary is the end of their vectors; or NULL */
 } sli_query;
 
 /* Everything known and everything wanted: the full solve. */
@@ -14389,7 +14654,18 @@ static sli_query sli_query_all(const sl_symbolic *S) {
     q.is_shared = 1;
     q.forward = q.backward = sli_reach_all(S);
     q.b_place = q.x_place = S->iperm;
+    q.region = NULL;
     return q;
+}
+
+/* Doubles of a region's inverse that an answer reads. */
+SLI_INLINE sl_off sli_query_region_entries(const sli_query *q) {
+    return q->region == NULL ? 0 : q->region->begin[sli_region_chunks(q->region->fence.n_rows)];
+}
+
+/* Can the query be answered by what F holds? */
+SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
+    return F->is_good && F->S == q->S && (q->region == NULL || sli_region_fits(q->region, F));
 }
 
 /* The kernel for the next block of nrhs right-hand sides, and how many lanes it has. */
@@ -14402,17 +14678,20 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
 
 /* The vectors and scratch of one block, cut from a workspace. */
 typedef struct sli_vectors {
-    double *y, *x, *scratch;
+    double *y, *x, *product, *scratch;
 } sli_vectors;
 
 static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q, sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
+    const size_t across = q->region == NULL ? 0 : sli_region_scratch(q->region, lanes);
+    const size_t most = forward > backward ? forward : backward;
     v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
     v->x =
         q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
-    v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
+    v->product = SLI_TAKE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
+    v->scratch = SLI_TAKE(b, double, most > across ? most : across);
 }
 
 /* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One and
@@ -14524,6 +14803,14 @@ static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lan
     }
 }
 
+/* The boundary of the query's region: u at the end of y, Z u at the end of x. */
+static void sli_cross_region(const sl_factor *F, const sli_query *q, int kind,
+                             const sli_vectors *v) {
+    const ptrdiff_t n = q->region->fence.n_rows;
+    sli_region_apply(q->region, F->kernels, kind, v->y + ((q->forward.columns - n) << kind),
+                     v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
+}
+
 /* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good.
  */
 static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
@@ -14544,6 +14831,9 @@ static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_den
                                   v.scratch);
         if (!q->is_shared) {
             sli_cross(q, v.y, v.x, lanes);
+        }
+        if (q->region != NULL) {
+            sli_cross_region(F, q, kind, &v);
         }
         F->kernels->backward[kind](q->backward.count, q->backward.steps,
                                    q->backward.rows + q->backward.n_rows, F->L, F->D, v.x,
@@ -14594,7 +14884,7 @@ static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, si
     if (status != SL_OK) {
         return status;
     }
-    if (!F->is_good || F->S != q->S) {
+    if (!sli_query_fits(q, F)) {
         return SL_ERR_STATE;
     }
     return sli_answer(F, q, X, sli_dense_of(layout, ldx), B, sli_dense_of(layout, ldb), nrhs, W);
@@ -14659,6 +14949,9 @@ struct sl_plan {
 typedef struct sli_set {
     const sl_int *rows;
     sl_int count;
+    sl_int
+        inside; /* seeds that the reach starts from; those after them are in the fence's boundary */
+    const sli_fence *fence; /* NULL: none */
     uint64_t
         *seeds; /* count: its columns of L ascending, each with its place in the caller's order */
     uint64_t *scratch; /* count */
@@ -14690,12 +14983,12 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
     }
 }
 
-/* Sorts a set by column of L; refuses rows out of range or given twice. Then counts its reach. */
-static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R,
-                                 sl_stats *stats) {
+/* Sorts a set by column of L; refuses rows out of range or given twice. */
+static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stats) {
     sl_int k;
+    set->inside = set->count;
+    set->fence = NULL;
     if (set->rows == NULL) {
-        *R = sli_reach_all(S);
         return SL_OK;
     }
     for (k = 0; k < set->count; k++) {
@@ -14711,8 +15004,46 @@ static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *
             return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[sli_key(set->seeds[k])], -1, 0.0);
         }
     }
-    sli_reach_measure(S, set->seeds, set->count, R);
     return SL_OK;
+}
+
+/* Is every row of a sorted set in a fence? Of all rows nobody asks. */
+static int sli_set_is_within(const sl_symbolic *S, const sli_set *set, const sli_fence *fence) {
+    sl_int k;
+    for (k = 0; set->rows != NULL && k < set->count; k++) {
+        const sl_int column = sli_key(set->seeds[k]);
+        if (sli_fence_find(S, fence, S->super_of[column]) == -1 &&
+            sli_fence_boundary(fence, column) == -1) {
+            return 0;
+        }
+    }
+    return set->rows != NULL;
+}
+
+/* Puts a set behind a fence that it is in: the seeds in its boundary behind the others, both ascending. */
+static void sli_set_enclose(const sl_symbolic *S, sli_set *set, const sli_fence *fence) {
+    sl_int k, inside = 0, rest = 0;
+    for (k = 0; k < set->count; k++) {
+        if (sli_fence_find(S, fence, S->super_of[sli_key(set->seeds[k])]) != -1) {
+            set->seeds[inside++] = set->seeds[k];
+        } else {
+            set->scratch[rest++] = set->seeds[k];
+        }
+    }
+    for (k = 0; k < rest; k++) {
+        set->seeds[inside + k] = set->scratch[k];
+    }
+    set->inside = inside;
+    set->fence = fence;
+}
+
+/* Counts the reach of a sorted set. */
+static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach *R) {
+    if (set->rows == NULL) {
+        *R = sli_reach_all(S);
+    } else {
+        sli_reach_measure_within(S, set->fence, set->seeds, set->inside, R);
+    }
 }
 
 /* Fills the reach and the place of each of the caller's rows in its vector. */
@@ -14722,9 +15053,14 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
         *place = S->iperm;
         return;
     }
-    sli_reach_fill(S, set->seeds, set->count, set->steps, set->compact, R);
-    for (k = 0; k < set->count; k++) {
+    sli_reach_fill_within(S, set->fence, set->seeds, set->inside, set->steps, set->compact, R);
+    for (k = 0; k < set->inside; k++) {
         set->place[sli_value(set->seeds[k])] = sli_reach_place(R, &at, sli_key(set->seeds[k]));
+    }
+    for (; k < set->count; k++) {
+        set->place[sli_value(set->seeds[k])] =
+            R->columns - set->fence->n_rows +
+            sli_fence_boundary(set->fence, sli_key(set->seeds[k]));
     }
     *place = set->place;
 }
@@ -14745,8 +15081,10 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
 
 /* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the
  * crossing. */
-static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_set *x) {
+static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *region, sli_set *b,
+                           sli_set *x) {
     q->S = S;
+    q->region = region;
     q->nb = b->count;
     q->nx = x->count;
     sli_set_fill(S, b, &q->forward, &q->b_place);
@@ -14755,12 +15093,15 @@ static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_s
 }
 
 static void sli_query_stats(const sli_query *q, sl_stats *stats) {
+    const sl_int boundary = q->region == NULL ? 0 : q->region->fence.n_rows;
     stats->b_supernodes = q->forward.count;
-    stats->b_columns = q->forward.columns;
+    stats->b_columns = q->forward.columns - boundary;
     stats->b_entries = q->forward.entries;
     stats->x_supernodes = q->backward.count;
-    stats->x_columns = q->backward.columns;
+    stats->x_columns = q->backward.columns - boundary;
     stats->x_entries = q->backward.entries;
+    stats->plan_in_region = q->region != NULL;
+    stats->plan_region_entries = sli_query_region_entries(q);
 }
 
 static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
@@ -14776,6 +15117,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_plan *P = NULL;
     sli_query query;
+    const sl_region *region = opt == NULL ? NULL : opt->region;
     sli_set b, x;
     sl_status status;
     int pass;
@@ -14785,6 +15127,9 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     }
     *out = NULL;
     status = sli_allocator_is_whole(opt) ? sli_check_sets(S, bset, nb, xset, nx) : SL_ERR_ARGUMENT;
+    if (status == SL_OK && region != NULL && region->S != S) {
+        status = SL_ERR_STATE;
+    }
     if (status != SL_OK) {
         return status;
     }
@@ -14796,8 +15141,19 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         sli_set_layout_seeds(&x, &seeds);
         status = pass == 0 ? sli_block_alloc(&seeds, &a) : SL_OK;
     }
-    status = status == SL_OK ? sli_set_measure(S, &b, &query.forward, stats) : status;
-    status = status == SL_OK ? sli_set_measure(S, &x, &query.backward, stats) : status;
+    status = status == SL_OK ? sli_set_sort(S, &b, stats) : status;
+    status = status == SL_OK ? sli_set_sort(S, &x, stats) : status;
+    if (status == SL_OK && region != NULL && sli_set_is_within(S, &b, &region->fence) &&
+        sli_set_is_within(S, &x, &region->fence)) {
+        sli_set_enclose(S, &b, &region->fence);
+        sli_set_enclose(S, &x, &region->fence);
+    } else {
+        region = NULL;
+    }
+    if (status == SL_OK) {
+        sli_set_measure(S, &b, &query.forward);
+        sli_set_measure(S, &x, &query.backward);
+    }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         P = (sl_plan *)sli_take(&kept, 1, sizeof(sl_plan));
         sli_set_layout_reach(&b, &kept, &query.forward);
@@ -14805,7 +15161,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
     }
     if (status == SL_OK) {
-        sli_query_fill(&query, S, &b, &x);
+        sli_query_fill(&query, S, region, &b, &x);
         P->allocator = a;
         P->bytes = kept.used;
         P->query = query;
@@ -14873,11 +15229,13 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         b.used = 0;
         sli_set_layout_seeds(bset, &b);
         sli_set_layout_seeds(xset, &b);
-        status = sli_set_measure(S, bset, &q.forward, stats);
-        status = status == SL_OK ? sli_set_measure(S, xset, &q.backward, stats) : status;
+        status = sli_set_sort(S, bset, stats);
+        status = status == SL_OK ? sli_set_sort(S, xset, stats) : status;
         if (status != SL_OK) {
             return status;
         }
+        sli_set_measure(S, bset, &q.forward);
+        sli_set_measure(S, xset, &q.backward);
         sli_set_layout_reach(bset, &b, &q.forward);
         sli_set_layout_reach(xset, &b, &q.backward);
         bytes = b.used;
@@ -14887,7 +15245,7 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
             }
             continue; /* the reaches would run over the end: nothing is written yet */
         }
-        sli_query_fill(&q, S, bset, xset);
+        sli_query_fill(&q, S, NULL, bset, xset);
         vectors = nrhs > 0 ? sli_vectors_bytes(&q, nrhs) : 0;
         if (vectors > SIZE_MAX - bytes) {
             return SL_ERR_TOO_LARGE;
@@ -15562,7 +15920,10 @@ typedef struct sli_inverse_block {
     const sl_factor *F;
     double *Z;
     size_t kept_stride, passing_stride; /* of Z, from one request of a side to the next */
-    int is_symmetric;                   /* both sides are one: kept serves as passing */
+    void (*put)(void *to, sl_int row, sl_int column,
+                double z); /* takes entries in place of Z; or NULL */
+    void *to;
+    int is_symmetric; /* both sides are one: kept serves as passing */
     sli_requests kept, passing;
     sli_swept sweeps[SLI_KEPT], pass;
     double *weighed; /* of the group that passes by */
@@ -15617,6 +15978,10 @@ static void sli_block_write(const sli_inverse_block *q, const sli_swept *a, cons
             const sl_int low = a == b ? sli_min(lane, other) : lane;
             const sl_int high = a == b ? sli_max(lane, other) : other;
             const double sum = sums[SLI_LANES_MAX * low + high];
+            if (q->put != NULL) {
+                q->put(q->to, from, to, sum);
+                continue;
+            }
             q->Z[(size_t)from * q->kept_stride + (size_t)to * q->passing_stride] = sum;
             if (q->is_symmetric) {
                 q->Z[(size_t)to * q->kept_stride + (size_t)from * q->passing_stride] = sum;
@@ -15689,6 +16054,20 @@ static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *st
     return SL_OK;
 }
 
+/* Every entry between some rows, in range, handed over by their numbers; those of two groups once, in either order. */
+static sl_status sli_inverse_among(const sl_factor *F, const sl_int *rows, sl_int count,
+                                   void (*put)(void *to, sl_int row, sl_int column, double z),
+                                   void *to, sl_work *W) {
+    sli_inverse_block q;
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.put = put;
+    q.to = to;
+    q.is_symmetric = 1;
+    q.kept = q.passing = sli_requests_of(F, rows, rows, count);
+    return count == 0 ? SL_OK : sli_block_answer(&q, W, NULL);
+}
+
 SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,
                                   sl_int n_rows, const sl_int *columns, sl_int n_columns,
                                   sl_work *W, sl_stats *stats) {
@@ -15754,7 +16133,8 @@ SLI_INLINE sli_layout sli_request_layout(const sl_request *r) {
 
 /* What one block of 8 right-hand sides reads, and one for the call itself. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
-    return 1.0 + (double)q->forward.entries + (double)q->backward.entries;
+    return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
+           (double)sli_query_region_entries(q);
 }
 
 /* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from
@@ -15801,7 +16181,7 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
         if (status != SL_OK) {
             return status;
         }
-        if (q.S != b->F->S) {
+        if (!sli_query_fits(&q, b->F)) {
             return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
@@ -15902,6 +16282,8 @@ typedef struct sli_descent {
 struct sl_selected {
     sl_allocator allocator;
     const sl_symbolic *S; /* borrowed */
+    const sl_factor *F;   /* Z is its inverse, and .. */
+    uint64_t generation;  /* .. of these numbers of it */
     sl_int count;         /* supernodes */
     sl_int *supers;       /* count, ascending */
     sl_off *begin;        /* count + 1: the panels, in doubles */
@@ -16126,6 +16508,8 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     }
     if (status == SL_OK) {
         sli_selected_sweep(Z, F, &Z->descent, fronts, scratch);
+        Z->F = F;
+        Z->generation = F->generation;
     }
     return status;
 }
@@ -16325,6 +16709,457 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 
 #endif
 /* end src/impl/selected.h */
+/* begin src/impl/region.h */
+/* region.h: regions: which subtrees to keep whole, and the inverse on what bounds them */
+#ifndef SLI_REGION_H
+#define SLI_REGION_H
+
+/* The supernodes inside and the boundary while they are chosen, over the compiled reach of the set. A row
+ * is in the boundary if it is asked for, or below a supernode inside, and not inside itself. */
+typedef struct sli_choice {
+    const sl_symbolic *S;
+    uint64_t *seeds, *scratch; /* count: columns of the set, ascending */
+    sl_int count;
+    size_t most; /* bytes that a region with a boundary may have */
+    sli_reach reach;
+    sli_step *steps;          /* of the reach */
+    sl_int *rows;             /* reach.n_rows */
+    sl_off *rows_begin;       /* reach.count + 1 */
+    uint64_t *order, *sorted; /* reach.count: steps by the size of their subtrees; scratch */
+    sl_int *children;         /* reach.count: of each step, in the reach */
+    sl_int *inside;           /* the same, those of them that are inside; */
+    unsigned char *is_inside; /* is the step itself? */
+    sl_int *wanted;           /* reach.columns: how many want each row in the boundary */
+    sl_int n_roots, boundary; /* as it stands */
+    sl_int n_inside;
+    double cost; /* of L inside */
+} sli_choice;
+
+/* What a solve takes, in doubles read of L: those inside twice, and for the boundary a square. Half of that is
+ * stored and read once from afar; counted so, patches of 2000 vertices would be solved 4 percent faster with a fifth
+ * more bytes. A cost for each supernode moves the choice by less than what can be measured. */
+SLI_INLINE double sli_choice_step(const sli_step *s) {
+    return 2.0 * (double)sli_entries_from(s->width, s->below, s->first_tile);
+}
+
+SLI_INLINE double sli_choice_cost(const sli_choice *c) {
+    return c->cost + (double)c->boundary * ((double)c->boundary + 2.0 * SLI_REGION_COLUMNS);
+}
+
+static void sli_region_layout(sl_region *R, sli_block *b) {
+    const sl_int rows = R->fence.n_rows;
+    sl_off size = 0;
+    sl_int first;
+    (void)sli_take(b, 1, sizeof(sl_region));
+    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
+    R->rows = SLI_TAKE(b, sl_int, rows);
+    R->asked = SLI_TAKE(b, sl_int, rows);
+    R->places = SLI_TAKE(b, sl_int, rows);
+    R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
+    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+    }
+    R->Z = SLI_TAKE(b, double, size);
+    R->bytes = b->used;
+}
+
+/* Does a region of what is chosen keep within its bytes? */
+static int sli_choice_fits(const sli_choice *c) {
+    sli_block b = {NULL, 0, 0};
+    sl_region R;
+    if (c->boundary == 0 || c->most == 0) {
+        return 1;
+    }
+    if ((double)c->boundary * (double)c->boundary * (0.5 * sizeof(double)) > (double)c->most) {
+        return 0; /* the sum over its chunks would take long to say so */
+    }
+    R.fence.n_rows = c->boundary;
+    R.fence.n_roots = c->n_roots;
+    sli_region_layout(&R, &b);
+    return !b.overflow && b.used <= c->most;
+}
+
+/* A step whose children in the reach all are inside goes in. */
+static void sli_choice_enter(sli_choice *c, sl_int k) {
+    const sli_step *step = &c->steps[k];
+    const sl_int *rows = c->rows + c->rows_begin[k];
+    sl_int i;
+    for (i = 0; i < sli_step_columns(step); i++) {
+        c->boundary -= c->wanted[step->base + i] > 0;
+    }
+    for (i = 0; i < step->below; i++) {
+        c->boundary += c->wanted[rows[i]]++ == 0;
+    }
+    c->n_roots += 1 - c->inside[k];
+    c->n_inside++;
+    c->is_inside[k] = 1;
+    c->cost += sli_choice_step(step);
+    if (step->up != -1) {
+        c->inside[step->up]++;
+    }
+}
+
+/* A step whose parent is outside comes out again. */
+static void sli_choice_leave(sli_choice *c, sl_int k) {
+    const sli_step *step = &c->steps[k];
+    const sl_int *rows = c->rows + c->rows_begin[k];
+    sl_int i;
+    if (step->up != -1) {
+        c->inside[step->up]--;
+    }
+    c->cost -= sli_choice_step(step);
+    c->is_inside[k] = 0;
+    c->n_inside--;
+    c->n_roots -= 1 - c->inside[k];
+    for (i = 0; i < step->below; i++) {
+        c->boundary -= --c->wanted[rows[i]] == 0;
+    }
+    for (i = 0; i < sli_step_columns(step); i++) {
+        c->boundary += c->wanted[step->base + i] > 0;
+    }
+}
+
+/* All supernodes go in, those with small subtrees first, and come out again to where the cost was least. */
+static void sli_choice_sweep(sli_choice *c) {
+    const sl_int count = c->reach.count;
+    sl_int k, best = 0;
+    double least = sli_choice_fits(c) ? sli_choice_cost(c) : HUGE_VAL;
+    for (k = 0; k < count; k++) {
+        double cost;
+        sli_choice_enter(c, sli_value(c->order[k]));
+        cost = sli_choice_cost(c);
+        if (cost < least && sli_choice_fits(c)) {
+            least = cost;
+            best = k + 1;
+        }
+    }
+    if (least == HUGE_VAL) {
+        best = count;
+    }
+    for (k = count; k > best; k--) {
+        sli_choice_leave(c, sli_value(c->order[k - 1]));
+    }
+}
+
+/* Most times that the rim is looked over. */
+#define SLI_REGION_PASSES 8
+
+/* Single supernodes at the rim go in or out while that makes the cost less. */
+static void sli_choice_improve(sli_choice *c) {
+    sl_int pass, k;
+    int is_better = 1;
+    for (pass = 0; pass < SLI_REGION_PASSES && is_better; pass++) {
+        is_better = 0;
+        for (k = 0; k < c->reach.count; k++) {
+            const sl_int up = c->steps[k].up;
+            const double before = sli_choice_cost(c);
+            if (!c->is_inside[k] && c->inside[k] == c->children[k]) {
+                sli_choice_enter(c, k);
+                if (sli_choice_cost(c) < before && sli_choice_fits(c)) {
+                    is_better = 1;
+                } else {
+                    sli_choice_leave(c, k);
+                }
+            } else if (c->is_inside[k] && (up == -1 || !c->is_inside[up])) {
+                sli_choice_leave(c, k);
+                if (sli_choice_cost(c) < before && sli_choice_fits(c)) {
+                    is_better = 1;
+                } else {
+                    sli_choice_enter(c, k);
+                }
+            }
+        }
+    }
+}
+
+static void sli_choice_layout_reach(sli_choice *c, sli_block *b) {
+    const uint64_t count = (uint64_t)c->reach.count;
+    c->steps = SLI_TAKE(b, sli_step, count);
+    c->rows = SLI_TAKE(b, sl_int, c->reach.n_rows);
+    c->rows_begin = SLI_TAKE(b, sl_off, count + 1);
+    c->order = SLI_TAKE(b, uint64_t, count);
+    c->sorted = SLI_TAKE(b, uint64_t, count);
+    c->children = SLI_TAKE(b, sl_int, count);
+    c->inside = SLI_TAKE(b, sl_int, count);
+    c->is_inside = SLI_TAKE(b, unsigned char, count);
+    c->wanted = SLI_TAKE(b, sl_int, c->reach.columns);
+}
+
+/* Nothing inside: the set is the boundary. */
+static void sli_choice_begin(sli_choice *c) {
+    const sl_symbolic *S = c->S;
+    sl_int k, at = 0;
+    sli_reach_fill(S, c->seeds, c->count, c->steps, c->rows, &c->reach);
+    memset(c->children, 0, (size_t)c->reach.count * sizeof *c->children);
+    memset(c->inside, 0, (size_t)c->reach.count * sizeof *c->inside);
+    memset(c->is_inside, 0, (size_t)c->reach.count);
+    memset(c->wanted, 0, (size_t)c->reach.columns * sizeof *c->wanted);
+    c->rows_begin[0] = 0;
+    for (k = 0; k < c->reach.count; k++) {
+        const sl_int s = S->super_of[c->steps[k].column];
+        c->rows_begin[k + 1] = c->rows_begin[k] + c->steps[k].below;
+        c->order[k] = sli_keyed(S->super_first[s + 1] - S->super_first[S->descendant[s]], k);
+        if (c->steps[k].up != -1) {
+            c->children[c->steps[k].up]++;
+        }
+    }
+    sli_sort(c->order, c->reach.count, c->sorted);
+    c->n_roots = c->n_inside = 0;
+    c->boundary = c->count;
+    c->cost = 0.0;
+    for (k = 0; k < c->count; k++) {
+        c->wanted[sli_reach_place(&c->reach, &at, sli_key(c->seeds[k]))] = 1;
+    }
+}
+
+/* Rows of A as columns of L, ascending, each once. NULL: all. */
+static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *stats) {
+    const sl_symbolic *S = c->S;
+    sl_int k, once = 0;
+    sl_status status = SL_OK;
+    if (set == NULL) {
+        for (k = 0; k < c->count; k++) {
+            c->seeds[k] = sli_keyed(k, 0);
+        }
+        return SL_OK;
+    }
+    status = sli_selected_sort(S, set, c->count, c->seeds, c->scratch, stats);
+    for (k = 0; k < c->count && status == SL_OK; k++) {
+        if (k == 0 || c->seeds[k] != c->seeds[k - 1]) {
+            c->seeds[once++] = c->seeds[k];
+        }
+    }
+    c->count = once;
+    return status;
+}
+
+/* The object, all but its numbers. */
+static void sli_region_take(sl_region *R, const sli_choice *c) {
+    const sl_symbolic *S = c->S;
+    const sl_int n = R->fence.n_rows;
+    sl_int k, i, n_roots = 0, n_rows = 0;
+    R->inside = 0;
+    for (k = 0; k < c->reach.count; k++) {
+        const sli_step *step = &c->steps[k];
+        const sl_int s = S->super_of[step->column];
+        if (c->is_inside[k]) {
+            if (step->up == -1 || !c->is_inside[step->up]) {
+                R->roots[n_roots++] = s;
+                R->inside += S->super_first[s + 1] - S->super_first[S->descendant[s]];
+            }
+            continue;
+        }
+        for (i = 0; i < sli_step_columns(step); i++) {
+            if (c->wanted[step->base + i] > 0) {
+                R->rows[n_rows++] = step->column + i;
+            }
+        }
+    }
+    SLI_ASSERT(n_roots == R->fence.n_roots && n_rows == n);
+    R->fence.roots = R->roots;
+    R->fence.rows = R->rows;
+    R->begin[0] = 0;
+    for (k = 0; k < n; k++) {
+        R->asked[k] = S->perm[R->rows[k]];
+        R->places[k] = n + k;
+    }
+    for (k = 0; k < n; k += SLI_REGION_COLUMNS) {
+        sl_off *begin = &R->begin[k / SLI_REGION_COLUMNS];
+        const sl_int width = sli_min(SLI_REGION_COLUMNS, n - k);
+        begin[1] = begin[0] + sli_panel_size(width, n - k);
+    }
+    memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n)] * sizeof *R->Z);
+}
+
+static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const sl_int *set,
+                                   sl_int count, const sl_options *opt, const sl_allocator *a,
+                                   sl_stats *stats) {
+    sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sli_choice c;
+    sl_region draft;
+    sl_status status = SL_OK;
+    int pass;
+    memset(&c, 0, sizeof c);
+    memset(&draft, 0, sizeof draft);
+    c.S = S;
+    c.count = set == NULL ? S->n : count;
+    c.most = opt == NULL ? 0 : opt->region_bytes;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
+        c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
+        status = pass == 0 ? sli_block_alloc(&seeds, a) : SL_OK;
+    }
+    status = status == SL_OK ? sli_choice_sort(&c, set, stats) : status;
+    if (status == SL_OK) {
+        sli_reach_measure(S, c.seeds, c.count, &c.reach);
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_choice_layout_reach(&c, &rest);
+        status = pass == 0 ? sli_block_alloc(&rest, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_choice_begin(&c);
+        sli_choice_sweep(&c);
+        sli_choice_improve(&c);
+        draft.allocator = *a;
+        draft.S = S;
+        draft.fence.n_roots = c.n_roots;
+        draft.fence.n_rows = c.boundary;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_region_layout(&draft, &kept);
+        status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_region_take(&draft, &c);
+        *out = (sl_region *)(void *)kept.base;
+        **out = draft;
+    }
+    sli_free(a, rest.base);
+    sli_free(a, seeds.base);
+    return status;
+}
+
+/* Keeps the entry of two rows of the boundary, in its lower triangle. */
+static void sli_region_put(void *to, sl_int row, sl_int column, double z) {
+    sl_region *R = (sl_region *)to;
+    const sl_int low = sli_min(row, column), high = sli_max(row, column);
+    const sl_int first = low - low % SLI_REGION_COLUMNS;
+    const sl_int width = sli_min(SLI_REGION_COLUMNS, R->fence.n_rows - first);
+    R->Z[R->begin[first / SLI_REGION_COLUMNS] +
+         sli_panel_at(width, width + high - first, low - first)] = low == high ? -0.5 * z : -z;
+}
+
+/* All entries out of a selected inverse; 0, and nothing done, where it has not got them. */
+static int sli_region_copy(sl_region *R, const sl_selected *Z) {
+    const sl_int *rows = R->fence.rows;
+    sl_int i, j;
+    int pass;
+    for (pass = 0; pass < 2; pass++) {
+        for (j = 0; j < R->fence.n_rows; j++) {
+            for (i = j; i < R->fence.n_rows; i++) {
+                const sl_off at = sli_selected_at(Z, rows[i], rows[j]);
+                if (at == -1) {
+                    return 0;
+                }
+                if (pass == 1) {
+                    sli_region_put(R, i, j, Z->Z[at]);
+                }
+            }
+        }
+    }
+    return 1;
+}
+
+/* The numbers. F and Z fit. */
+static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
+                                 sl_work *W) {
+    const double started = sli_seconds();
+    sl_work own = sli_work_own(F);
+    sl_status status = SL_OK;
+    const int is_copied = Z != NULL && sli_region_copy(R, Z);
+    if (!is_copied) { /* fails before it writes anything, or not at all */
+        own.allocator = R->allocator;
+        status = sli_inverse_among(F, R->asked, R->fence.n_rows, sli_region_put, R,
+                                   W == NULL ? &own : W);
+        sli_free(&own.allocator, own.block);
+    }
+    if (status == SL_OK) {
+        R->F = F;
+        R->generation = F->generation;
+        R->is_copied = is_copied;
+        R->seconds = sli_seconds() - started;
+    }
+    return status;
+}
+
+/* Is Z, where there is one, of what F holds? */
+static sl_status sli_region_check(const sl_factor *F, const sl_selected *Z) {
+    return F->is_good && (Z == NULL || (Z->F == F && Z->generation == F->generation))
+               ? SL_OK
+               : SL_ERR_STATE;
+}
+
+SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
+                                  sl_int count, const sl_selected *Z, const sl_options *opt,
+                                  sl_stats *stats) {
+    const double started = sli_seconds();
+    const sl_allocator a = sli_allocator(opt);
+    sl_region *R = NULL;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (F == NULL || (set != NULL && count < 0) || !sli_allocator_is_whole(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_region_check(F, Z);
+    status = status == SL_OK ? sli_region_choose(&R, F->S, set, count, opt, &a, stats) : status;
+    if (status == SL_OK) {
+        status = sli_region_fill(R, F, Z, NULL);
+        R->seconds = sli_seconds() - started;
+    }
+    if (status == SL_OK) {
+        sl_region_stats(R, stats);
+        *out = R;
+    } else {
+        sl_region_free(R);
+    }
+    return status;
+}
+
+SL_API sl_status sl_region_refill(sl_region *R, const sl_factor *F, const sl_selected *Z,
+                                  sl_work *W) {
+    sl_status status;
+    if (R == NULL || F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (F->S != R->S) {
+        return SL_ERR_STATE;
+    }
+    status = sli_region_check(F, Z);
+    if (status == SL_OK) {
+        status = sli_region_fill(R, F, Z, W);
+    }
+    return status;
+}
+
+SL_API void sl_region_free(sl_region *R) {
+    if (R != NULL) {
+        const sl_allocator a = R->allocator;
+        sli_free(&a, R);
+    }
+}
+
+SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (R != NULL && stats != NULL) {
+        stats->region_rows = R->inside + R->fence.n_rows;
+        stats->region_boundary = R->fence.n_rows;
+        stats->region_subtrees = R->fence.n_roots;
+        stats->region_entries = R->begin[sli_region_chunks(R->fence.n_rows)];
+        stats->region_is_copied = R->is_copied;
+        stats->seconds_region = R->seconds;
+        stats->bytes_region = R->bytes;
+    }
+}
+
+SL_API sl_region_view_t sl_region_view(const sl_region *R) {
+    sl_region_view_t v = {NULL, 0, NULL, 0, NULL};
+    if (R != NULL) {
+        v.symbolic = R->S;
+        v.n_roots = R->fence.n_roots;
+        v.roots = R->fence.roots;
+        v.n_boundary = R->fence.n_rows;
+        v.boundary = R->asked;
+    }
+    return v;
+}
+
+#endif
+/* end src/impl/region.h */
 /* last: takes every internal macro away again */
 /* begin src/impl/leave.h */
 /* leave.h: takes every internal macro away again */
@@ -16375,6 +17210,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_LANES_MAX
 #undef SLI_REQUESTS_MAX
 #undef SLI_KEPT
+#undef SLI_REGION_COLUMNS
+#undef SLI_REGION_PASSES
 #undef SLI_ZEROS_SMALL
 /* end src/impl/leave.h */
 #endif

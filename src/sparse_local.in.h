@@ -16,6 +16,7 @@ extern "C" {
 #include "public/inverse.h"
 #include "public/batch.h"
 #include "public/selected.h"
+#include "public/region.h"
 #ifdef __cplusplus
 }
 #endif
@@ -63,6 +64,7 @@ extern "C" {
 #include "impl/leftlooking.h"
 #include "impl/factor.h"
 #include "impl/factor_ask.h"
+#include "impl/region_parts.h"
 #include "impl/work.h"
 #include "impl/sweep.h"
 #include "impl/solve.h"
@@ -73,6 +75,7 @@ extern "C" {
 #include "impl/inverse_block.h"
 #include "impl/batch.h"
 #include "impl/selected.h"
+#include "impl/region.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"
 #endif

@@ -259,4 +259,20 @@ static inline gen_matrix_t gen_matrix(gen_kind_t kind, sl_int size, int sign, ui
     return M;
 }
 
+/* The pattern that `edges` has a bit a pair of rows for, with values that keep every pivot away from 0: mixed signs, rows dominated by their diagonal. */
+static inline gen_matrix_t gen_pattern(sl_int n, unsigned edges, uint64_t seed) {
+    gen_list_t t = gen_list(n);
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int i = j + 1; i < n; i++, edges >>= 1) {
+            if (edges & 1u) {
+                gen_add(&t, i, j, gen_real(&seed));
+            }
+        }
+    }
+    gen_dominate(&t, 0, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style((int)(seed % 3)), seed);
+    gen_list_free(&t);
+    return M;
+}
+
 #endif

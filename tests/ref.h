@@ -133,6 +133,27 @@ static inline double *ref_inverse(sl_int n, const double *M) {
     return Z;
 }
 
+/* The same, its rows and columns scaled by powers of 2 for a diagonal near 1 while it is computed: what a badly scaled
+ * matrix loses otherwise is the reference's. */
+static inline double *ref_scaled_inverse(sl_int n, const double *M) {
+    double *C = test_reals((size_t)n * (size_t)n), *Z;
+    int *power = (int *)test_array((size_t)n, sizeof(int));
+    for (sl_int k = 0; k < n; k++) {
+        (void)frexp(AT(M, k, k), &power[k]);
+        power[k] = -power[k] / 2;
+    }
+    for (sl_int k = 0; k < n * n; k++) {
+        C[k] = ldexp(M[k], power[k % n] + power[k / n]);
+    }
+    Z = ref_inverse(n, C);
+    for (sl_int k = 0; k < n * n; k++) {
+        Z[k] = ldexp(Z[k], power[k % n] + power[k / n]);
+    }
+    free(power);
+    free(C);
+    return Z;
+}
+
 /* Pattern of L, diagonal included, by playing elimination on a symmetric pattern; M becomes it (lower triangle). */
 static inline void ref_fill(sl_int n, char *M) {
     for (sl_int k = 0; k < n; k++) {

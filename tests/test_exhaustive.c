@@ -4,22 +4,6 @@
 
 enum { MOST = 5 };
 
-/* Values that keep every pivot away from 0: mixed signs, rows dominated by their diagonal. */
-static gen_matrix_t pattern(sl_int n, unsigned edges, uint64_t seed) {
-    gen_list_t t = gen_list(n);
-    for (sl_int j = 0; j < n; j++) {
-        for (sl_int i = j + 1; i < n; i++, edges >>= 1) {
-            if (edges & 1u) {
-                gen_add(&t, i, j, gen_real(&seed));
-            }
-        }
-    }
-    gen_dominate(&t, 0, &seed);
-    gen_matrix_t M = gen_store(&t, gen_style((int)(seed % 3)), seed);
-    gen_list_free(&t);
-    return M;
-}
-
 /* members of a set as rows, ascending or descending: the order must not matter */
 static sl_int members(unsigned set, sl_int n, sl_int *rows) {
     sl_int count = 0;
@@ -89,7 +73,7 @@ static void every_pattern_and_every_set(void **state) {
     SL_CHECK(sl_work_create(&W, NULL));
     for (sl_int n = 0; n <= MOST; n++) {
         for (unsigned edges = 0; edges < 1u << (n * (n - 1) / 2); edges++) {
-            gen_matrix_t M = pattern(n, edges, edges + 1000u * (unsigned)n);
+            gen_matrix_t M = gen_pattern(n, edges, edges + 1000u * (unsigned)n);
             double *D = ref_dense(&M.view), *Z = ref_inverse(n, D);
             for (int which = 0; which < 4; which++) {
                 sl_options opt = options_none();

@@ -24,29 +24,6 @@ static double allowed(sl_int n, const double *Z, sl_int i, sl_int j, int is_defi
         }                                                                                          \
     } while (0)
 
-/* The dense inverse, its rows and columns scaled by powers of 2 for a diagonal near 1 while it is computed: what the
- * scaled kind loses otherwise is the reference's. */
-static double *scaled_inverse(sl_int n, double *M) {
-    int *power = (int *)test_array((size_t)n, sizeof(int));
-    for (sl_int k = 0; k < n; k++) {
-        (void)frexp(AT(M, k, k), &power[k]);
-        power[k] = -power[k] / 2;
-    }
-    for (sl_int j = 0; j < n; j++) {
-        for (sl_int i = 0; i < n; i++) {
-            AT(M, i, j) = ldexp(AT(M, i, j), power[i] + power[j]);
-        }
-    }
-    double *Z = ref_inverse(n, M);
-    for (sl_int j = 0; j < n; j++) {
-        for (sl_int i = 0; i < n; i++) {
-            AT(Z, i, j) = ldexp(AT(Z, i, j), power[i] + power[j]);
-        }
-    }
-    free(power);
-    return Z;
-}
-
 static void random_rows(sl_int *rows, sl_int count, sl_int n, uint64_t *seed) {
     for (sl_int k = 0; k < count; k++) {
         rows[k] = gen_below(seed, n);
@@ -162,7 +139,7 @@ static void every_kind_on_every_instruction_set(void **state) {
                 problem_t y = problem_make((gen_kind_t)kind, 60, round ? -1 : 1, 0, &opt);
                 sl_int n = y.M.view.n_cols;
                 int definite = kind != GEN_KKT;
-                double *M = ref_dense(&y.M.view), *Z = scaled_inverse(n, M),
+                double *M = ref_dense(&y.M.view), *Z = ref_scaled_inverse(n, M),
                        *all = test_reals((size_t)n);
                 SL_CHECK(sl_work_create(&W, NULL));
                 for (sl_int count = 0; count <= 20; count++) {

@@ -27,7 +27,8 @@ SLI_INLINE sli_layout sli_request_layout(const sl_request *r) {
 
 /* What one block of 8 right-hand sides reads, and one for the call itself. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
-    return 1.0 + (double)q->forward.entries + (double)q->backward.entries;
+    return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
+           (double)sli_query_region_entries(q);
 }
 
 /* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from
@@ -74,7 +75,7 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
         if (status != SL_OK) {
             return status;
         }
-        if (q.S != b->F->S) {
+        if (!sli_query_fits(&q, b->F)) {
             return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;

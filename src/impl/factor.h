@@ -120,6 +120,12 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     return failure->status;
 }
 
+/* Before the numbers change: whatever was made of them is out of date, even if this fails. */
+static void sli_factor_begin(sl_factor *F) {
+    F->is_good = 0;
+    F->generation++;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
     sli_failure failure;
@@ -128,7 +134,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    F->is_good = 0;
+    sli_factor_begin(F);
     status = sli_factor_check(F->S, A);
     if (status != SL_OK) {
         return status;
@@ -196,7 +202,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         return status;
     }
     memset(&failure, 0, sizeof failure);
-    F->is_good = 0;
+    sli_factor_begin(F);
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
     (void)sli_left_looking_all(F, A, seeds, count, &failure);
     sli_free(&F->allocator, b.base);

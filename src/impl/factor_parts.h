@@ -24,10 +24,11 @@ struct sl_factor {
     double null_tolerance;
     sl_definiteness definiteness;
     sl_method method;
-    int is_good;    /* L and D hold a factor */
-    double *L;      /* the panels */
-    double *D;      /* n pivots */
-    double *buffer; /* kernel scratch, for each worker */
+    int is_good;         /* L and D hold a factor */
+    uint64_t generation; /* of the numbers: how often they were begun anew */
+    double *L;           /* the panels */
+    double *D;           /* n pivots */
+    double *buffer;      /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
     sl_threads threads;
     sli_schedule schedule;

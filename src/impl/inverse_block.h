@@ -60,7 +60,10 @@ typedef struct sli_inverse_block {
     const sl_factor *F;
     double *Z;
     size_t kept_stride, passing_stride; /* of Z, from one request of a side to the next */
-    int is_symmetric;                   /* both sides are one: kept serves as passing */
+    void (*put)(void *to, sl_int row, sl_int column,
+                double z); /* takes entries in place of Z; or NULL */
+    void *to;
+    int is_symmetric; /* both sides are one: kept serves as passing */
     sli_requests kept, passing;
     sli_swept sweeps[SLI_KEPT], pass;
     double *weighed; /* of the group that passes by */
@@ -115,6 +118,10 @@ static void sli_block_write(const sli_inverse_block *q, const sli_swept *a, cons
             const sl_int low = a == b ? sli_min(lane, other) : lane;
             const sl_int high = a == b ? sli_max(lane, other) : other;
             const double sum = sums[SLI_LANES_MAX * low + high];
+            if (q->put != NULL) {
+                q->put(q->to, from, to, sum);
+                continue;
+            }
             q->Z[(size_t)from * q->kept_stride + (size_t)to * q->passing_stride] = sum;
             if (q->is_symmetric) {
                 q->Z[(size_t)to * q->kept_stride + (size_t)from * q->passing_stride] = sum;
@@ -185,6 +192,20 @@ static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *st
     }
     sli_block_fill(q, stats);
     return SL_OK;
+}
+
+/* Every entry between some rows, in range, handed over by their numbers; those of two groups once, in either order. */
+static sl_status sli_inverse_among(const sl_factor *F, const sl_int *rows, sl_int count,
+                                   void (*put)(void *to, sl_int row, sl_int column, double z),
+                                   void *to, sl_work *W) {
+    sli_inverse_block q;
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.put = put;
+    q.to = to;
+    q.is_symmetric = 1;
+    q.kept = q.passing = sli_requests_of(F, rows, rows, count);
+    return count == 0 ? SL_OK : sli_block_answer(&q, W, NULL);
 }
 
 SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,

@@ -15,6 +15,9 @@ struct sl_plan {
 typedef struct sli_set {
     const sl_int *rows;
     sl_int count;
+    sl_int
+        inside; /* seeds that the reach starts from; those after them are in the fence's boundary */
+    const sli_fence *fence; /* NULL: none */
     uint64_t
         *seeds; /* count: its columns of L ascending, each with its place in the caller's order */
     uint64_t *scratch; /* count */
@@ -46,12 +49,12 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
     }
 }
 
-/* Sorts a set by column of L; refuses rows out of range or given twice. Then counts its reach. */
-static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *R,
-                                 sl_stats *stats) {
+/* Sorts a set by column of L; refuses rows out of range or given twice. */
+static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stats) {
     sl_int k;
+    set->inside = set->count;
+    set->fence = NULL;
     if (set->rows == NULL) {
-        *R = sli_reach_all(S);
         return SL_OK;
     }
     for (k = 0; k < set->count; k++) {
@@ -67,8 +70,46 @@ static sl_status sli_set_measure(const sl_symbolic *S, sli_set *set, sli_reach *
             return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[sli_key(set->seeds[k])], -1, 0.0);
         }
     }
-    sli_reach_measure(S, set->seeds, set->count, R);
     return SL_OK;
+}
+
+/* Is every row of a sorted set in a fence? Of all rows nobody asks. */
+static int sli_set_is_within(const sl_symbolic *S, const sli_set *set, const sli_fence *fence) {
+    sl_int k;
+    for (k = 0; set->rows != NULL && k < set->count; k++) {
+        const sl_int column = sli_key(set->seeds[k]);
+        if (sli_fence_find(S, fence, S->super_of[column]) == -1 &&
+            sli_fence_boundary(fence, column) == -1) {
+            return 0;
+        }
+    }
+    return set->rows != NULL;
+}
+
+/* Puts a set behind a fence that it is in: the seeds in its boundary behind the others, both ascending. */
+static void sli_set_enclose(const sl_symbolic *S, sli_set *set, const sli_fence *fence) {
+    sl_int k, inside = 0, rest = 0;
+    for (k = 0; k < set->count; k++) {
+        if (sli_fence_find(S, fence, S->super_of[sli_key(set->seeds[k])]) != -1) {
+            set->seeds[inside++] = set->seeds[k];
+        } else {
+            set->scratch[rest++] = set->seeds[k];
+        }
+    }
+    for (k = 0; k < rest; k++) {
+        set->seeds[inside + k] = set->scratch[k];
+    }
+    set->inside = inside;
+    set->fence = fence;
+}
+
+/* Counts the reach of a sorted set. */
+static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach *R) {
+    if (set->rows == NULL) {
+        *R = sli_reach_all(S);
+    } else {
+        sli_reach_measure_within(S, set->fence, set->seeds, set->inside, R);
+    }
 }
 
 /* Fills the reach and the place of each of the caller's rows in its vector. */
@@ -78,9 +119,14 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
         *place = S->iperm;
         return;
     }
-    sli_reach_fill(S, set->seeds, set->count, set->steps, set->compact, R);
-    for (k = 0; k < set->count; k++) {
+    sli_reach_fill_within(S, set->fence, set->seeds, set->inside, set->steps, set->compact, R);
+    for (k = 0; k < set->inside; k++) {
         set->place[sli_value(set->seeds[k])] = sli_reach_place(R, &at, sli_key(set->seeds[k]));
+    }
+    for (; k < set->count; k++) {
+        set->place[sli_value(set->seeds[k])] =
+            R->columns - set->fence->n_rows +
+            sli_fence_boundary(set->fence, sli_key(set->seeds[k]));
     }
     *place = set->place;
 }
@@ -101,8 +147,10 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
 
 /* Compiles both sets, laid out and measured. Equal reaches share one vector, which spares the
  * crossing. */
-static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_set *x) {
+static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *region, sli_set *b,
+                           sli_set *x) {
     q->S = S;
+    q->region = region;
     q->nb = b->count;
     q->nx = x->count;
     sli_set_fill(S, b, &q->forward, &q->b_place);
@@ -111,12 +159,15 @@ static void sli_query_fill(sli_query *q, const sl_symbolic *S, sli_set *b, sli_s
 }
 
 static void sli_query_stats(const sli_query *q, sl_stats *stats) {
+    const sl_int boundary = q->region == NULL ? 0 : q->region->fence.n_rows;
     stats->b_supernodes = q->forward.count;
-    stats->b_columns = q->forward.columns;
+    stats->b_columns = q->forward.columns - boundary;
     stats->b_entries = q->forward.entries;
     stats->x_supernodes = q->backward.count;
-    stats->x_columns = q->backward.columns;
+    stats->x_columns = q->backward.columns - boundary;
     stats->x_entries = q->backward.entries;
+    stats->plan_in_region = q->region != NULL;
+    stats->plan_region_entries = sli_query_region_entries(q);
 }
 
 static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
@@ -132,6 +183,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_plan *P = NULL;
     sli_query query;
+    const sl_region *region = opt == NULL ? NULL : opt->region;
     sli_set b, x;
     sl_status status;
     int pass;
@@ -141,6 +193,9 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     }
     *out = NULL;
     status = sli_allocator_is_whole(opt) ? sli_check_sets(S, bset, nb, xset, nx) : SL_ERR_ARGUMENT;
+    if (status == SL_OK && region != NULL && region->S != S) {
+        status = SL_ERR_STATE;
+    }
     if (status != SL_OK) {
         return status;
     }
@@ -152,8 +207,19 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         sli_set_layout_seeds(&x, &seeds);
         status = pass == 0 ? sli_block_alloc(&seeds, &a) : SL_OK;
     }
-    status = status == SL_OK ? sli_set_measure(S, &b, &query.forward, stats) : status;
-    status = status == SL_OK ? sli_set_measure(S, &x, &query.backward, stats) : status;
+    status = status == SL_OK ? sli_set_sort(S, &b, stats) : status;
+    status = status == SL_OK ? sli_set_sort(S, &x, stats) : status;
+    if (status == SL_OK && region != NULL && sli_set_is_within(S, &b, &region->fence) &&
+        sli_set_is_within(S, &x, &region->fence)) {
+        sli_set_enclose(S, &b, &region->fence);
+        sli_set_enclose(S, &x, &region->fence);
+    } else {
+        region = NULL;
+    }
+    if (status == SL_OK) {
+        sli_set_measure(S, &b, &query.forward);
+        sli_set_measure(S, &x, &query.backward);
+    }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         P = (sl_plan *)sli_take(&kept, 1, sizeof(sl_plan));
         sli_set_layout_reach(&b, &kept, &query.forward);
@@ -161,7 +227,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
     }
     if (status == SL_OK) {
-        sli_query_fill(&query, S, &b, &x);
+        sli_query_fill(&query, S, region, &b, &x);
         P->allocator = a;
         P->bytes = kept.used;
         P->query = query;
@@ -229,11 +295,13 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         b.used = 0;
         sli_set_layout_seeds(bset, &b);
         sli_set_layout_seeds(xset, &b);
-        status = sli_set_measure(S, bset, &q.forward, stats);
-        status = status == SL_OK ? sli_set_measure(S, xset, &q.backward, stats) : status;
+        status = sli_set_sort(S, bset, stats);
+        status = status == SL_OK ? sli_set_sort(S, xset, stats) : status;
         if (status != SL_OK) {
             return status;
         }
+        sli_set_measure(S, bset, &q.forward);
+        sli_set_measure(S, xset, &q.backward);
         sli_set_layout_reach(bset, &b, &q.forward);
         sli_set_layout_reach(xset, &b, &q.backward);
         bytes = b.used;
@@ -243,7 +311,7 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
             }
             continue; /* the reaches would run over the end: nothing is written yet */
         }
-        sli_query_fill(&q, S, bset, xset);
+        sli_query_fill(&q, S, NULL, bset, xset);
         vectors = nrhs > 0 ? sli_vectors_bytes(&q, nrhs) : 0;
         if (vectors > SIZE_MAX - bytes) {
             return SL_ERR_TOO_LARGE;

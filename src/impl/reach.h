@@ -31,6 +31,33 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
     return R;
 }
 
+/* Where paths end before the roots of the tree: a forest of whole subtrees, and a boundary that holds
+ * at least all rows of L below it. Of a reach inside it the boundary is the end of the vector. */
+typedef struct sli_fence {
+    sl_int n_roots;
+    const sl_int *roots; /* ascending: the supernodes that the subtrees hang from */
+    sl_int n_rows;
+    const sl_int *rows; /* ascending: the boundary, columns of L */
+} sli_fence;
+
+/* The subtree that holds supernode s, or -1. */
+SLI_INLINE sl_int sli_fence_find(const sl_symbolic *S, const sli_fence *fence, sl_int s) {
+    const sl_int at = sli_lower_bound(fence->roots, fence->n_roots, s);
+    return at < fence->n_roots && S->descendant[fence->roots[at]] <= s ? at : -1;
+}
+
+/* The place of a column in the boundary, or -1. */
+SLI_INLINE sl_int sli_fence_boundary(const sli_fence *fence, sl_int column) {
+    const sl_int at = sli_lower_bound(fence->rows, fence->n_rows, column);
+    return at < fence->n_rows && fence->rows[at] == column ? at : -1;
+}
+
+/* One past the last supernode of the paths from s on, which is inside; fence NULL: the whole tree. */
+SLI_INLINE sl_int sli_fence_end(const sl_symbolic *S, const sli_fence *fence, sl_int s) {
+    return fence == NULL ? S->n_supers
+                         : fence->roots[sli_lower_bound(fence->roots, fence->n_roots, s)] + 1;
+}
+
 /* The supernode where the climb from the k-th seed must stop: the next one that holds a seed. In a
  * postorder the first ancestor at or after it is on the next seed's own path, so that paths join
  * without a mark on any column. */
@@ -53,14 +80,9 @@ SLI_INLINE sl_off sli_entries_from(sl_int width, sl_int below, sl_int first_tile
            (sl_off)SLI_TILE * SLI_TILE * first_tile * (sli_tiles(width + below) - first_tile);
 }
 
-/* Adds what column k brings to a reach: the supernodes of its path up to where it meets the path of
- * the nearest column of the reach before it or behind it; -1 for none. Exact are supernodes, rows,
- * height and width; columns are those of whole supernodes, and entries leave out that k may enter
- * what it shares at an earlier tile. O(supernodes added). */
-static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
-                          sli_reach *R) {
-    const sl_int low = before < 0 ? -1 : S->super_of[before];
-    const sl_int high = behind < 0 ? S->n_supers : S->super_of[behind];
+/* Adds the supernodes of column k's path below supernode `high` that have no descendant at or before
+ * `low`. */
+static void sli_reach_climb(const sl_symbolic *S, sl_int k, sl_int low, sl_int high, sli_reach *R) {
     sl_int s = S->super_of[k];
     while (s != -1 && s < high && S->descendant[s] > low) {
         const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
@@ -76,21 +98,40 @@ static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int 
     }
 }
 
-/* Counts the supernodes and rows of the reach of seeds, columns of L, ascending. O(reach). */
-static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                              sli_reach *R) {
-    sl_int k;
-    memset(R, 0, sizeof *R);
-    for (k = 0; k < count; k++) {
-        sli_reach_add(S, sli_key(seeds[k]), k > 0 ? sli_key(seeds[k - 1]) : -1, -1, R);
-    }
+/* Adds what column k brings to a reach: the supernodes of its path up to where it meets the path of
+ * the nearest column of the reach before it or behind it; -1 for none. Exact are supernodes, rows,
+ * height and width; columns are those of whole supernodes, and entries leave out that k may enter
+ * what it shares at an earlier tile. O(supernodes added). */
+static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
+                          sli_reach *R) {
+    sli_reach_climb(S, k, before < 0 ? -1 : S->super_of[before],
+                    behind < 0 ? S->n_supers : S->super_of[behind], R);
 }
 
-/* Adds supernode s, which a seed or children on the waiting list enter. The list is threaded
- * through `up` of the steps whose parent has not come yet; its top waits for the smallest
- * supernode. */
+/* Counts the supernodes and rows of the reach of seeds, columns of L, ascending, inside a fence or, where
+ * that is NULL, to the roots. O(reach). */
+static void sli_reach_measure_within(const sl_symbolic *S, const sli_fence *fence,
+                                     const uint64_t *seeds, sl_int count, sli_reach *R) {
+    sl_int k, low = -1;
+    memset(R, 0, sizeof *R);
+    for (k = 0; k < count; k++) {
+        const sl_int s = S->super_of[sli_key(seeds[k])];
+        sli_reach_climb(S, sli_key(seeds[k]), low, sli_fence_end(S, fence, s), R);
+        low = s;
+    }
+    R->columns += fence == NULL ? 0 : fence->n_rows;
+}
+
+static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                              sli_reach *R) {
+    sli_reach_measure_within(S, NULL, seeds, count, R);
+}
+
+/* Adds supernode s, which a seed or children on the waiting list enter; its parent is not in the reach
+ * unless it is below supernode `end`. The list is threaded through `up` of the steps whose parent has
+ * not come yet; its top waits for the smallest supernode. */
 static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
-                            sl_int *waiting) {
+                            sl_int end, sl_int *waiting) {
     const sl_int first = S->super_first[s];
     sli_step *step = &steps[at];
     sl_int column = seed;
@@ -107,7 +148,7 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     step->width = S->super_first[s + 1] - first;
     step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
     step->up = -1;
-    if (S->super_parent[s] != -1) {
+    if (S->super_parent[s] != -1 && S->super_parent[s] < end) {
         step->up = *waiting;
         *waiting = at;
     }
@@ -128,15 +169,13 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
 
 #define SLI_CLIMB 8 /* ancestors that cost about what a look-up among a few thousand steps costs */
 
-/* Rows of a step to places in the vector: the rows ascend, and so do the ancestors that own them.
- * The owner of the next row is mostly a few ancestors up; where it is not, climbing on would make a
- * tree of one long branch quadratic, so that it is looked up among all `count` steps. */
-static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int count, sl_int at,
-                             sl_int *places) {
-    const sl_int *rows = S->rows + S->rows_begin[S->super_of[steps[at].column]];
-    const sl_int below = steps[at].below;
+/* The first `inside` rows of a step to places in the vector: the rows ascend, and so do the ancestors
+ * that own them. The owner of the next row is mostly a few ancestors up; where it is not, climbing on
+ * would make a tree of one long branch quadratic, so that it is looked up among all `count` steps. */
+static void sli_reach_places(const sl_int *rows, sl_int inside, const sli_step *steps, sl_int count,
+                             sl_int at, sl_int *places) {
     sl_int i = 0;
-    while (i < below) {
+    while (i < inside) {
         sl_int end, shift, climbed = 0;
         do {
             at = climbed++ < SLI_CLIMB ? steps[at].up
@@ -144,24 +183,36 @@ static void sli_reach_places(const sl_symbolic *S, const sli_step *steps, sl_int
             end = steps[at].column + sli_step_columns(&steps[at]);
         } while (rows[i] >= end);
         shift = steps[at].base - steps[at].column;
-        for (; i < below && rows[i] < end; i++) {
+        for (; i < inside && rows[i] < end; i++) {
             places[i] = rows[i] + shift;
         }
     }
 }
 
-/* Compiles the reach of seeds; sli_reach_measure tells the room it takes. O(reach), times a
- * logarithm where rows skip many ancestors. */
-static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                           sli_step *steps, sl_int *rows, sli_reach *R) {
-    sl_int k = 0, at = 0, waiting = -1, s, next;
+/* Rows of a boundary that begins at `base` to places in the vector: both ascend. */
+static void sli_fence_places(const sli_fence *fence, sl_int base, const sl_int *rows, sl_int count,
+                             sl_int *places) {
+    sl_int i, at = 0;
+    for (i = 0; i < count; i++) {
+        at += sli_lower_bound(fence->rows + at, fence->n_rows - at, rows[i]);
+        places[i] = base + at;
+    }
+}
+
+/* Compiles the reach of seeds; sli_reach_measure_within tells the room it takes. O(reach), times a
+ * logarithm where rows skip many ancestors and for rows in the boundary. */
+static void sli_reach_fill_within(const sl_symbolic *S, const sli_fence *fence,
+                                  const uint64_t *seeds, sl_int count, sli_step *steps,
+                                  sl_int *rows, sli_reach *R) {
+    sl_int k = 0, at = 0, waiting = -1, s, next, end;
     memset(R, 0, sizeof *R);
     while (k < count) {
         sl_int seed = sli_key(seeds[k]);
         s = S->super_of[seed];
-        next = sli_next_seed(S, seeds, count, &k);
+        end = sli_fence_end(S, fence, s);
+        next = sli_min(sli_next_seed(S, seeds, count, &k), end);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
-            sli_reach_enter(S, steps, at++, s, seed, &waiting);
+            sli_reach_enter(S, steps, at++, s, seed, end, &waiting);
             seed = INT32_MAX;
         }
     }
@@ -175,11 +226,25 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
         R->entries += sli_entries_from(step->width, step->below, step->first_tile);
     }
     for (at = 0; at < R->count; at++) {
-        sli_reach_places(S, steps, R->count, at, rows + R->n_rows);
-        R->n_rows += steps[at].below;
+        const sl_int own = S->super_of[steps[at].column], below = steps[at].below;
+        const sl_int *from = S->rows + S->rows_begin[own];
+        sl_int inside = below;
+        if (fence != NULL) {
+            inside = sli_lower_bound(from, below, S->super_first[sli_fence_end(S, fence, own)]);
+            sli_fence_places(fence, R->columns, from + inside, below - inside,
+                             rows + R->n_rows + inside);
+        }
+        sli_reach_places(from, inside, steps, R->count, at, rows + R->n_rows);
+        R->n_rows += below;
     }
+    R->columns += fence == NULL ? 0 : fence->n_rows;
     R->steps = steps;
     R->rows = rows;
+}
+
+static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                           sli_step *steps, sl_int *rows, sli_reach *R) {
+    sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
 }
 
 /* The place of a column in the reach's vector. *at, 0 at first, remembers the step for the next

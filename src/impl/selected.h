@@ -22,6 +22,8 @@ typedef struct sli_descent {
 struct sl_selected {
     sl_allocator allocator;
     const sl_symbolic *S; /* borrowed */
+    const sl_factor *F;   /* Z is its inverse, and .. */
+    uint64_t generation;  /* .. of these numbers of it */
     sl_int count;         /* supernodes */
     sl_int *supers;       /* count, ascending */
     sl_off *begin;        /* count + 1: the panels, in doubles */
@@ -246,6 +248,8 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     }
     if (status == SL_OK) {
         sli_selected_sweep(Z, F, &Z->descent, fronts, scratch);
+        Z->F = F;
+        Z->generation = F->generation;
     }
     return status;
 }

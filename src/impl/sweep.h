@@ -4,6 +4,7 @@
 
 #include "reach.h"
 #include "factor_parts.h"
+#include "region_parts.h"
 #include "work.h"
 
 /* A compiled question: the reach of b, the reach of x, and where the caller's rows stand in their
@@ -15,6 +16,8 @@ typedef struct sli_query {
     sli_reach forward, backward;
     const sl_int *b_place; /* nb */
     const sl_int *x_place; /* nx */
+    const sl_region
+        *region; /* both reaches end there, and its boundary is the end of their vectors; or NULL */
 } sli_query;
 
 /* Everything known and everything wanted: the full solve. */
@@ -25,7 +28,18 @@ static sli_query sli_query_all(const sl_symbolic *S) {
     q.is_shared = 1;
     q.forward = q.backward = sli_reach_all(S);
     q.b_place = q.x_place = S->iperm;
+    q.region = NULL;
     return q;
+}
+
+/* Doubles of a region's inverse that an answer reads. */
+SLI_INLINE sl_off sli_query_region_entries(const sli_query *q) {
+    return q->region == NULL ? 0 : q->region->begin[sli_region_chunks(q->region->fence.n_rows)];
+}
+
+/* Can the query be answered by what F holds? */
+SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
+    return F->is_good && F->S == q->S && (q->region == NULL || sli_region_fits(q->region, F));
 }
 
 /* The kernel for the next block of nrhs right-hand sides, and how many lanes it has. */
@@ -38,17 +52,20 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
 
 /* The vectors and scratch of one block, cut from a workspace. */
 typedef struct sli_vectors {
-    double *y, *x, *scratch;
+    double *y, *x, *product, *scratch;
 } sli_vectors;
 
 static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q, sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_scratch_size(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_scratch_size(q->backward.tallest, q->backward.widest, lanes);
+    const size_t across = q->region == NULL ? 0 : sli_region_scratch(q->region, lanes);
+    const size_t most = forward > backward ? forward : backward;
     v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
     v->x =
         q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
-    v->scratch = SLI_TAKE(b, double, forward > backward ? forward : backward);
+    v->product = SLI_TAKE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
+    v->scratch = SLI_TAKE(b, double, most > across ? most : across);
 }
 
 /* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if they cannot be counted. One and
@@ -160,6 +177,14 @@ static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lan
     }
 }
 
+/* The boundary of the query's region: u at the end of y, Z u at the end of x. */
+static void sli_cross_region(const sl_factor *F, const sli_query *q, int kind,
+                             const sli_vectors *v) {
+    const ptrdiff_t n = q->region->fence.n_rows;
+    sli_region_apply(q->region, F->kernels, kind, v->y + ((q->forward.columns - n) << kind),
+                     v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
+}
+
 /* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good.
  */
 static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
@@ -180,6 +205,9 @@ static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_den
                                   v.scratch);
         if (!q->is_shared) {
             sli_cross(q, v.y, v.x, lanes);
+        }
+        if (q->region != NULL) {
+            sli_cross_region(F, q, kind, &v);
         }
         F->kernels->backward[kind](q->backward.count, q->backward.steps,
                                    q->backward.rows + q->backward.n_rows, F->L, F->D, v.x,
@@ -230,7 +258,7 @@ static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, si
     if (status != SL_OK) {
         return status;
     }
-    if (!F->is_good || F->S != q->S) {
+    if (!sli_query_fits(q, F)) {
         return SL_ERR_STATE;
     }
     return sli_answer(F, q, X, sli_dense_of(layout, ldx), B, sli_dense_of(layout, ldb), nrhs, W);

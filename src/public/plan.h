@@ -14,9 +14,10 @@
  *  bset   [in]   nb rows of A in 0..n-1, any order, none twice; NULL (with nb ignored): all n. b is 0 elsewhere.
  *  xset   [in]   nx rows of A in 0..n-1, any order, none twice; NULL (with nx ignored): all n.
  *                An empty set is a pointer that is not NULL with nb or nx = 0; nothing is read there.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  the plan group; error_row: an index out of range or given twice; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  opt    [in]   allocator, region; may be NULL. Where both sets are inside the region the sweeps end at its boundary,
+ *                and nothing above it is looked at; where they are not, or one is NULL, the plan is the same as without.
+ *  stats  [out]  the plan group, plan_in_region; error_row: an index out of range or given twice; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
  *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
  *  Threads  reads S; the plan is immutable and may be shared.
@@ -35,7 +36,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 
 /** Solves A x = b on the plan's sets: exactly what the full solve gives there.
  *
- *  For the same instruction set and nrhs the result equals sl_factor_solve's bit for bit (the sign of a zero aside).
+ *  For the same instruction set and nrhs the result equals sl_factor_solve's bit for bit (the sign of a zero aside);
+ *  in a region, to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
  *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of xset; may be B itself
@@ -43,9 +45,9 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     2 (b_entries + x_entries) flops a right-hand side; nothing O(n); no allocation once W has grown.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or, in a region, other
+ *           numbers than those it was made or refilled of; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
  */

@@ -122,6 +122,10 @@ typedef struct sl_options {
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
+    const struct sl_region *
+        region; /* of sl_plan_create: where its sweeps may end; borrowed, must outlive the plan; NULL: none */
+    size_t
+        region_bytes; /* of sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -177,6 +181,19 @@ typedef struct sl_stats {
     sl_off z_entries;        /* doubles kept for them */
     double seconds_selected; /* processor seconds, those of all threads summed up */
     size_t bytes_selected;
+
+    /* sl_region_create, sl_region_refill */
+    sl_int region_rows;     /* rows of A that a plan may use, the boundary included */
+    sl_int region_boundary; /* rows of the boundary */
+    sl_int region_subtrees; /* subtrees of supernodes inside it */
+    sl_off region_entries;  /* doubles kept of the inverse */
+    int region_is_copied;   /* 1: out of a selected inverse; else by forward sweeps */
+    double seconds_region;  /* processor seconds */
+    size_t bytes_region;
+
+    /* sl_plan_create */
+    int plan_in_region; /* the sweeps end at the boundary of options.region; else at the roots */
+    sl_off plan_region_entries; /* doubles of the region's inverse that a solve reads; 0 without */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -185,5 +202,6 @@ typedef struct sl_factor sl_factor;     /* numbers over a symbolic: L and D */
 typedef struct sl_plan sl_plan;         /* reach of a b-set and of an x-set; immutable */
 typedef struct sl_work sl_work;         /* scratch of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
+typedef struct sl_region sl_region;     /* where local solves may stop below the root of the tree */
 
 #endif

@@ -1,0 +1,140 @@
+/* region.h: regions taken apart: the rows that they hold, what their parts promise, and solves in them against a dense
+ * inverse */
+#ifndef SL_TEST_REGION_H
+#define SL_TEST_REGION_H
+
+#include "problem.h"
+
+/* 1 for the columns of L in the subtrees, 2 for those in the boundary; n of them. */
+static inline char *region_marks(const sl_region *R) {
+    sl_region_view_t r = sl_region_view(R);
+    sl_symbolic_view_t v = sl_symbolic_view(r.symbolic);
+    char *mark = (char *)test_array((size_t)v.n, 1);
+    for (sl_int k = 0; k < r.n_roots; k++) { /* down from each root, child by child */
+        char *in = (char *)test_array((size_t)v.n_supers, 1);
+        in[r.roots[k]] = 1;
+        for (sl_int s = r.roots[k]; s >= 0; s--) {
+            in[s] = (char)(in[s] || (v.super_parent[s] != -1 && v.super_parent[s] <= r.roots[k] &&
+                                     in[v.super_parent[s]]));
+            for (sl_int c = v.super_first[s]; in[s] && c < v.super_first[s + 1]; c++) {
+                mark[c] = (char)(mark[c] + 1);
+            }
+        }
+        free(in);
+    }
+    for (sl_int k = 0; k < r.n_boundary; k++) {
+        mark[v.iperm[r.boundary[k]]] = (char)(mark[v.iperm[r.boundary[k]]] + 2);
+    }
+    return mark;
+}
+
+/* NULL, or which promise of a region for a set is broken. */
+static inline const char *check_region(const sl_region *R, const sl_int *set, sl_int count) {
+    sl_region_view_t r = sl_region_view(R);
+    sl_symbolic_view_t v = sl_symbolic_view(r.symbolic);
+    char *mark = region_marks(R);
+    const char *wrong = NULL;
+    for (sl_int k = 0; k < v.n && !wrong; k++) {
+        wrong = mark[k] > 2 ? "subtrees and boundary overlap" : NULL;
+    }
+    for (sl_int k = 0; k < count && !wrong; k++) {
+        wrong = !mark[v.iperm[set[k]]] ? "a row of the set is outside" : NULL;
+    }
+    for (sl_int k = 1; k < r.n_roots && !wrong; k++) {
+        wrong = r.roots[k] <= r.roots[k - 1] ? "roots do not ascend" : NULL;
+    }
+    for (sl_int s = 0; s < v.n_supers && !wrong; s++) {
+        for (sl_off q = v.rows_begin[s]; q < v.rows_begin[s + 1] && !wrong; q++) {
+            wrong = mark[v.super_first[s]] == 1 && !mark[v.rows[q]]
+                        ? "a row below a subtree is not in the boundary"
+                        : NULL;
+        }
+    }
+    free(mark);
+    return wrong;
+}
+
+/* The rows of A inside; returns how many. */
+static inline sl_int region_rows(const sl_region *R, sl_int *rows) {
+    sl_symbolic_view_t v = sl_symbolic_view(sl_region_view(R).symbolic);
+    char *mark = region_marks(R);
+    sl_int count = 0;
+    for (sl_int k = v.n; k-- > 0;) {
+        if (mark[k]) {
+            rows[count++] = v.perm[k];
+        }
+    }
+    free(mark);
+    return count;
+}
+
+/* An entry of x passes within c n eps times sum over b of |b(j)| times a norm of the inverse around (i, j):
+ * sqrt(|Z(i,i) Z(j,j)|) where the matrix is definite, which bounds what the sweeps add up, or the largest entry where
+ * it is not. c is 100: PASS_C as for a solve, and 10 for the conditions of the generated matrices. */
+static inline double region_allowed(sl_int n, const double *Z, sl_int i, sl_int j, double largest) {
+    return 10 * pass_figure(n) *
+           (largest > 0 ? largest : sqrt(fabs(AT(Z, i, i)) * fabs(AT(Z, j, j))));
+}
+
+static inline double region_largest(sl_int n, const double *Z) {
+    double largest = 0;
+    for (sl_int k = 0; k < n * n; k++) {
+        largest = fabs(Z[k]) > largest ? fabs(Z[k]) : largest;
+    }
+    return largest;
+}
+
+/* Solves with random b on bset in a region, both layouts, against the dense inverse Z; largest 0: definite. The plan
+ * must be in the region. */
+static inline void region_solves(const sl_region *R, const sl_factor *F, sl_int n, const double *Z,
+                                 double largest, const sl_int *bset, sl_int nb, const sl_int *xset,
+                                 sl_int nx, sl_int nrhs, uint64_t seed, sl_work *W) {
+    const sl_symbolic *S = sl_factor_view(F).symbolic;
+    size_t ldb = (size_t)nb + 1, ldx = (size_t)nx + 2, columns = (size_t)nrhs;
+    double *B = test_reals(ldb * columns), *X = test_reals(ldx * columns + 1);
+    double *across = test_reals((size_t)nb * columns), *out = test_reals((size_t)nx * columns);
+    sl_options opt = options_none();
+    sl_plan *P = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    opt.region = R;
+    gen_reals(B, ldb * columns, seed);
+    X[ldx * columns] = 4321.5;
+    SL_CHECK(sl_plan_create(&P, S, bset, nb, xset, nx, &opt, &stats));
+    assert_int_equal(stats.plan_in_region, 1);
+    SL_CHECK(sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W));
+    for (size_t r = 0; r < columns; r++) {
+        for (sl_int i = 0; i < nx; i++) {
+            double sum = 0, bound = 0;
+            for (sl_int j = 0; j < nb; j++) {
+                const double b = B[(size_t)j + r * ldb];
+                sum += AT(Z, xset[i], bset[j]) * b;
+                bound += fabs(b) * region_allowed(n, Z, xset[i], bset[j], largest);
+            }
+            const double error = fabs(X[(size_t)i + r * ldx] - sum);
+            if (!(error <= bound)) {
+                print_error("x(%ld) of %ld rows, boundary %ld: error %.3g, allowed %.3g\n",
+                            (long)xset[i], (long)n, (long)sl_region_view(R).n_boundary, error,
+                            bound);
+                fail();
+            }
+        }
+        for (sl_int j = 0; j < nb; j++) {
+            across[(size_t)j * columns + r] = B[(size_t)j + r * ldb];
+        }
+    }
+    assert_true(X[ldx * columns] == 4321.5);
+    SL_CHECK(sl_plan_solve_interleaved(P, F, out, columns, across, columns, nrhs, W));
+    for (size_t r = 0; r < columns; r++) {
+        for (sl_int i = 0; i < nx; i++) {
+            assert_true(out[(size_t)i * columns + r] == X[(size_t)i + r * ldx]);
+        }
+    }
+    sl_plan_free(P);
+    free(B);
+    free(X);
+    free(across);
+    free(out);
+}
+
+#endif

@@ -1,0 +1,331 @@
+/* test_region.c: solves in regions against dense inverses and against full solves */
+#include "region.h"
+
+enum { MOST = 5 };
+
+/* Bytes of a region that has so many rows in its boundary, at most one subtree a row, and a bit more: so that the
+ * bound asks for boundaries of that length or less. */
+static size_t bytes_for(const sl_factor *F, sl_int boundary) {
+    const sl_symbolic *S = sl_factor_view(F).symbolic;
+    sl_int n = sl_symbolic_view(S).n, *rows = test_ints((size_t)n);
+    sl_region *R = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    for (sl_int k = 0; k < n; k++) {
+        rows[k] = k;
+    }
+    SL_CHECK(sl_region_create(&R, F, rows, boundary, NULL, NULL, &stats));
+    sl_region_free(R);
+    free(rows);
+    return stats.bytes_region;
+}
+
+/* Every pattern of up to 5 rows without relaxation, every set, every bound that makes another boundary; then every b-set
+ * and x-set inside for up to 3 rows, else all of what is inside. */
+static void every_small_pattern(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    long in_both = 0, regions = 0;
+    for (sl_int n = 1; n <= MOST; n++) {
+        for (unsigned edges = 0; edges < 1u << (n * (n - 1) / 2); edges++) {
+            gen_matrix_t M = gen_pattern(n, edges, edges + 7);
+            sl_options opt = options_none();
+            sl_symbolic *S = NULL;
+            sl_factor *F = NULL;
+            sl_work *W = NULL;
+            opt.isa = isas.isa[edges % (unsigned)isas.count];
+            opt.relaxation = SL_RELAXATION_NONE;
+            opt.ordering = SL_ORDERING_NATURAL;
+            SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+            SL_CHECK(sl_work_create(&W, NULL));
+            double *A = ref_dense(&M.view), *Z = ref_inverse(n, A), largest = region_largest(n, Z);
+            for (unsigned members = 0; members < 1u << n; members++) {
+                sl_int set[MOST], count = 0, before = -1;
+                for (sl_int k = 0; k < n; k++) {
+                    if (members >> k & 1u) {
+                        set[count++] = k;
+                    }
+                }
+                for (sl_int most = 0; most <= count; most++) {
+                    sl_region *R = NULL;
+                    sl_int inside[MOST];
+                    opt.region_bytes = most == 0 ? 1 : bytes_for(F, most);
+                    SL_CHECK(sl_region_create(&R, F, set, count, NULL, &opt, NULL));
+                    NOTHING_WRONG(check_region(R, set, count));
+                    sl_region_view_t r = sl_region_view(R);
+                    if (r.n_boundary == before) {
+                        sl_region_free(R);
+                        continue;
+                    }
+                    before = r.n_boundary;
+                    regions++;
+                    in_both += r.n_roots > 0 && r.n_boundary > 0;
+                    const sl_int all = region_rows(R, inside);
+                    region_solves(R, F, n, Z, largest, inside, all, inside, all, 1, edges, W);
+                    for (unsigned q = 0; n <= 3 && q < 1u << (2 * all); q++) {
+                        sl_int b[MOST], x[MOST], nb = 0, nx = 0;
+                        for (sl_int k = 0; k < all; k++) {
+                            if (q >> k & 1u) {
+                                b[nb++] = inside[k];
+                            }
+                            if (q >> (all + k) & 1u) {
+                                x[nx++] = inside[k];
+                            }
+                        }
+                        region_solves(R, F, n, Z, largest, b, nb, x, nx, 1 + (sl_int)(q % 3), q, W);
+                    }
+                    sl_region_free(R);
+                }
+            }
+            free(A);
+            free(Z);
+            sl_work_free(W);
+            sl_factor_free(F);
+            sl_symbolic_free(S);
+            gen_matrix_free(&M);
+        }
+    }
+    print_message("%ld regions, %ld with subtrees and a boundary\n", regions, in_both);
+    assert_true(in_both > 1000);
+}
+
+/* A row and what is within some steps of it. */
+static sl_int ball(sl_int n, const double *M, sl_int seed, int steps, sl_int *set) {
+    char *in = (char *)test_array((size_t)n, 1);
+    sl_int count = 1, done = 0;
+    set[0] = seed;
+    in[seed] = 1;
+    for (; steps > 0; steps--) {
+        for (sl_int end = count; done < end; done++) {
+            for (sl_int i = 0; i < n; i++) {
+                if (!in[i] && AT(M, i, set[done]) != 0.0) {
+                    in[i] = 1;
+                    set[count++] = i;
+                }
+            }
+        }
+    }
+    free(in);
+    return count;
+}
+
+/* Balls, random rows, a few, all, one and none, with and without a bound, every number of lanes; b and x random parts
+ * of what is inside. */
+static void every_kind_on_every_instruction_set(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    uint64_t seed = 3;
+    long in_both = 0;
+    for (int kind = GEN_NONE; kind < GEN_REGULAR; kind++) {
+        for (int which = 0; which < isas.count; which++) {
+            sl_options opt = options_none();
+            sl_work *W = NULL;
+            opt.isa = isas.isa[which];
+            opt.relaxation = which % 2 ? SL_RELAXATION_DEFAULT : SL_RELAXATION_NONE;
+            problem_t y = problem_make((gen_kind_t)kind, 120, which % 2 ? -1 : 1, 0, &opt);
+            sl_int n = y.M.view.n_cols, *set = test_ints((size_t)n + 1),
+                   *inside = test_ints((size_t)n + 1), *part = test_ints((size_t)n + 1);
+            double *M = ref_dense(&y.M.view), *Z = ref_scaled_inverse(n, M);
+            double largest = kind == GEN_KKT ? region_largest(n, Z) : 0;
+            SL_CHECK(sl_work_create(&W, NULL));
+            for (int shape = 0; shape < 16; shape++) {
+                sl_int count = n == 0       ? 0
+                               : shape == 0 ? 0
+                               : shape == 1 ? n
+                               : shape < 10 ? ball(n, M, gen_below(&seed, n), shape / 2, set)
+                                            : 1 + gen_below(&seed, n);
+                if (shape == 1 || shape >= 10) {
+                    gen_set(set, count, n, gen_bits(&seed));
+                }
+                for (int bound = 0; bound < 3; bound++) {
+                    sl_region *R = NULL;
+                    sl_stats stats;
+                    memset(&stats, 0, sizeof stats);
+                    opt.region_bytes = bound == 0   ? 0
+                                       : bound == 1 ? 600 + (size_t)gen_below(&seed, 8000)
+                                                    : 1;
+                    SL_CHECK(sl_region_create(&R, y.F, set, count, NULL, &opt, &stats));
+                    NOTHING_WRONG(check_region(R, set, count));
+                    assert_true(opt.region_bytes == 0 || stats.region_boundary == 0 ||
+                                stats.bytes_region <= opt.region_bytes);
+                    in_both += stats.region_boundary > 0 && stats.region_subtrees > 0;
+                    const sl_int all = region_rows(R, inside);
+                    assert_int_equal(all, stats.region_rows);
+                    static const sl_int nrhs[] = {1, 2, 3, 5, 8, 11, 0};
+                    for (int q = 0; q < 7; q++) {
+                        const sl_int nb = all == 0 ? 0 : gen_below(&seed, all + 1),
+                                     nx = q == 1     ? nb
+                                          : all == 0 ? 0
+                                                     : gen_below(&seed, all + 1);
+                        sl_int *places = test_ints((size_t)all + 1);
+                        gen_permutation(places, all, gen_bits(&seed));
+                        for (sl_int k = 0; k < all; k++) {
+                            part[k] = inside[places[k]];
+                        }
+                        region_solves(R, y.F, n, Z, largest, part, nb,
+                                      q == 1 ? part : part + all - nx, nx, nrhs[q], gen_bits(&seed),
+                                      q % 3 ? W : NULL);
+                        free(places);
+                    }
+                    sl_region_free(R);
+                }
+            }
+            sl_work_free(W);
+            free(set);
+            free(inside);
+            free(part);
+            free(M);
+            free(Z);
+            problem_free(&y);
+        }
+    }
+    print_message("%ld regions with subtrees and a boundary\n", in_both);
+    assert_true(in_both > 100);
+}
+
+/* A grid large enough for paths of many supernodes: squares at random places and across the first separator, their
+ * plans against full solves; what the plan reads does not reach the root. */
+static void squares_of_a_grid_equal_full_solves(void **state) {
+    (void)state;
+    enum { SIDE = 150, N = SIDE * SIDE, SMALL = 24, COUNT = SMALL * SMALL };
+    isa_list_t isas = isas_present();
+    uint64_t seed = 12;
+    for (int which = 0; which < isas.count; which++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[which];
+        problem_t y = problem_make(GEN_GRID2, N, 1, 0, &opt);
+        sl_selected *all = NULL;
+        assert_int_equal(y.M.view.n_cols, N);
+        SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+        for (int place = 0; place < 8; place++) {
+            const sl_int top = place == 0 ? (SIDE - SMALL) / 2 : gen_below(&seed, SIDE - SMALL),
+                         left = place == 0 ? top : gen_below(&seed, SIDE - SMALL);
+            sl_int set[COUNT];
+            double *full = test_reals(3 * N), *B = test_reals(3 * COUNT),
+                   *X = test_reals(3 * COUNT), *Y = test_reals(3 * COUNT), largest = 0;
+            sl_region *R = NULL;
+            sl_plan *P = NULL;
+            sl_stats stats;
+            memset(&stats, 0, sizeof stats);
+            for (sl_int k = 0; k < COUNT; k++) {
+                set[k] = (top + k / SMALL) * SIDE + left + k % SMALL;
+            }
+            gen_reals(B, 3 * COUNT, gen_bits(&seed));
+            for (sl_int k = 0; k < 3 * COUNT; k++) {
+                full[N * (k / COUNT) + set[k % COUNT]] = B[k];
+            }
+            SL_CHECK(sl_factor_solve(y.F, full, N, full, N, 3, NULL));
+            for (sl_int k = 0; k < 3 * N; k++) {
+                largest = fabs(full[k]) > largest ? fabs(full[k]) : largest;
+            }
+            SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, NULL, &stats));
+            sl_plan_free(P);
+            const sl_off without = stats.b_entries;
+            SL_CHECK(sl_region_create(&R, y.F, set, COUNT, NULL, NULL, &stats));
+            assert_int_equal(stats.region_is_copied, 0);
+            NOTHING_WRONG(check_region(R, set, COUNT));
+            opt.region = R;
+            SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, &opt, &stats));
+            assert_int_equal(stats.plan_in_region, 1);
+            assert_int_equal(stats.plan_region_entries, stats.region_entries);
+            assert_true(stats.b_entries + stats.x_entries + stats.plan_region_entries < without);
+            SL_CHECK(sl_plan_solve(P, y.F, X, COUNT, B, COUNT, 3, NULL));
+            for (sl_int k = 0; k < 3 * COUNT; k++) { /* the tree's height times a small factor */
+                assert_true(fabs(X[k] - full[N * (k / COUNT) + set[k % COUNT]]) <=
+                            1000 * DBL_EPSILON * largest);
+            }
+            /* the same out of a selected inverse where that has all, or in spite of it where not */
+            SL_CHECK(sl_region_refill(R, y.F, all, NULL));
+            SL_CHECK(sl_plan_solve(P, y.F, Y, COUNT, B, COUNT, 3, NULL));
+            for (sl_int k = 0; k < 3 * COUNT; k++) {
+                assert_true(fabs(X[k] - Y[k]) <= 1000 * DBL_EPSILON * largest);
+            }
+            sl_plan_free(P);
+            sl_region_free(R);
+            SL_CHECK(sl_region_create(&R, y.F, set, 1, all, NULL, &stats)); /* a vertex */
+            assert_int_equal(stats.region_boundary, 1);
+            assert_int_equal(stats.region_is_copied, 1);
+            opt.region = R;
+            SL_CHECK(sl_plan_create(&P, y.S, set, 1, set, 1, &opt, NULL));
+            SL_CHECK(sl_plan_solve(P, y.F, X, 1, B, 1, 1, NULL));
+            SL_CHECK(sl_selected_diagonal(all, Y, set, 1, NULL));
+            assert_true(fabs(X[0] - B[0] * Y[0]) <= 4 * DBL_EPSILON * fabs(X[0]));
+            sl_plan_free(P);
+            sl_region_free(R);
+            free(full);
+            free(B);
+            free(X);
+            free(Y);
+        }
+        sl_selected_free(all);
+        problem_free(&y);
+    }
+}
+
+/* Null pivots skipped: in a region a solve gives what the full solve gives, null rows inside or not. */
+static void semidefinite(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    uint64_t seed = 4;
+    for (int which = 0; which < isas.count; which++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[which];
+        opt.definiteness = SL_SEMIDEFINITE;
+        problem_t y = problem_make(GEN_SINGULAR, 400, 1, 0, &opt);
+        sl_int n = y.M.view.n_cols, null = -1, nulls = 0;
+        double *full = test_reals((size_t)n);
+        SL_CHECK(sl_factor_null_rows(y.F, &null, 1, &nulls));
+        assert_int_equal(nulls, 1);
+        for (int round = 0; round < 20; round++) {
+            sl_int set[60], inside[400];
+            double b[400], x[400], sum = 0, largest = 0;
+            sl_region *R = NULL;
+            sl_plan *P = NULL;
+            sl_stats stats;
+            memset(&stats, 0, sizeof stats);
+            for (sl_int k = 0; k < 60; k++) {
+                set[k] = round < 10 ? (20 * round + k) % n : gen_below(&seed, n);
+            }
+            set[7] = round % 2 ? null : set[7];
+            SL_CHECK(sl_region_create(&R, y.F, set, 60, NULL, &opt, &stats));
+            const sl_int all = region_rows(R, inside);
+            gen_reals(b, 400, gen_bits(&seed));
+            for (sl_int k = 1; k < all; k++) {
+                sum += b[k];
+            }
+            b[0] = -sum; /* consistent */
+            memset(full, 0, (size_t)n * sizeof *full);
+            for (sl_int k = 0; k < all; k++) {
+                full[inside[k]] = b[k];
+            }
+            SL_CHECK(sl_factor_solve(y.F, full, (size_t)n, full, (size_t)n, 1, NULL));
+            opt.region = R;
+            SL_CHECK(sl_plan_create(&P, y.S, inside, all, inside, all, &opt, &stats));
+            assert_int_equal(stats.plan_in_region, 1);
+            SL_CHECK(sl_plan_solve(P, y.F, x, (size_t)all, b, (size_t)all, 1, NULL));
+            for (sl_int k = 0; k < n; k++) {
+                largest = fabs(full[k]) > largest ? fabs(full[k]) : largest;
+            }
+            /* the terms of u cancel down to x: Z of a vertex beside the null row is some log n, x sums 400 of them */
+            for (sl_int k = 0; k < all; k++) {
+                assert_true(fabs(x[k] - full[inside[k]]) <= 1e4 * DBL_EPSILON * largest);
+                assert_true(inside[k] != null || fabs(x[k]) < 1e-300);
+            }
+            sl_plan_free(P);
+            sl_region_free(R);
+        }
+        free(full);
+        problem_free(&y);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_small_pattern),
+        cmocka_unit_test(every_kind_on_every_instruction_set),
+        cmocka_unit_test(squares_of_a_grid_equal_full_solves),
+        cmocka_unit_test(semidefinite),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
