@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: f619218d16d91354
+ * FNV-1a of all that follows this comment, license aside: 200fca88fc8a586b
  *
  * Contents
  *         (what a user reads)
@@ -66,19 +66,19 @@
  *  14066  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
  *  14366  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
  *  14481  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14571  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14631  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14895  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14937  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  14583  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14643  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14905  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14947  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15303  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15543  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15862  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16110  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16265  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16712  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15350  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15590  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15909  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16157  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16312  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16759  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  17164  impl/leave.h               takes every internal macro away again
+ *  17211  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14544,10 +14544,18 @@ SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
     return sli_scratch_size(SLI_REGION_COLUMNS + R->fence.n_rows, SLI_REGION_COLUMNS, lanes);
 }
 
-/* x := Z_SS u, interleaved; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
+/* What a plan has to do with a boundary: 1 for each chunk with a row that its forward sweep may leave a number in, or
+ * that its backward sweep reads. */
+typedef struct sli_shore {
+    const unsigned char *b, *x; /* chunks each */
+    sl_off entries;             /* doubles of the inverse in those of either kind */
+} sli_shore;
+
+/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
  * way back, where the vector begins one boundary later, its columns are the result and its rows u. */
-static void sli_region_apply(const sl_region *R, const sli_kernels *kernels, int kind,
-                             const double *u, double *x, double *vectors, double *scratch) {
+static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
+                             int kind, const double *u, double *x, double *vectors,
+                             double *scratch) {
     static const double one[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const sl_int n = R->fence.n_rows;
     const size_t size = (size_t)n << kind;
@@ -14560,8 +14568,12 @@ static void sli_region_apply(const sl_region *R, const sli_kernels *kernels, int
     memcpy(vectors + 2 * size, u, size * sizeof(double));
     for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
         const sli_step step = sli_region_step(R, first);
-        kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
-        kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+        if (shore->b[first / SLI_REGION_COLUMNS]) {
+            kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
+        }
+        if (shore->x[first / SLI_REGION_COLUMNS]) {
+            kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+        }
     }
     memcpy(x, vectors + size, size * sizeof(double));
 }
@@ -14642,6 +14654,7 @@ typedef struct sli_query {
     sli_reach forward, backward;
     const sl_int *b_place; /* nb */
     const sl_int *x_place; /* nx */
+    sli_shore shore;       /* of the region */
     const sl_region
         *region; /* both reaches end there, and its boundary is the end of their vectors; or NULL */
 } sli_query;
@@ -14655,12 +14668,8 @@ static sli_query sli_query_all(const sl_symbolic *S) {
     q.forward = q.backward = sli_reach_all(S);
     q.b_place = q.x_place = S->iperm;
     q.region = NULL;
+    q.shore.entries = 0;
     return q;
-}
-
-/* Doubles of a region's inverse that an answer reads. */
-SLI_INLINE sl_off sli_query_region_entries(const sli_query *q) {
-    return q->region == NULL ? 0 : q->region->begin[sli_region_chunks(q->region->fence.n_rows)];
 }
 
 /* Can the query be answered by what F holds? */
@@ -14807,7 +14816,8 @@ static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lan
 static void sli_cross_region(const sl_factor *F, const sli_query *q, int kind,
                              const sli_vectors *v) {
     const ptrdiff_t n = q->region->fence.n_rows;
-    sli_region_apply(q->region, F->kernels, kind, v->y + ((q->forward.columns - n) << kind),
+    sli_region_apply(q->region, &q->shore, F->kernels, kind,
+                     v->y + ((q->forward.columns - n) << kind),
                      v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
@@ -14957,7 +14967,8 @@ typedef struct sli_set {
     uint64_t *scratch; /* count */
     sl_int *place;     /* count */
     sli_step *steps;
-    sl_int *compact; /* the steps' rows */
+    sl_int *compact;      /* the steps' rows */
+    unsigned char *shore; /* chunks of the fence's boundary */
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -14980,6 +14991,8 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
         set->place = SLI_TAKE(b, sl_int, set->count);
         set->steps = SLI_TAKE(b, sli_step, R->count);
         set->compact = SLI_TAKE(b, sl_int, R->n_rows);
+        set->shore = SLI_TAKE(b, unsigned char,
+                              set->fence == NULL ? 0 : sli_region_chunks(set->fence->n_rows));
     }
 }
 
@@ -15046,6 +15059,34 @@ static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach 
     }
 }
 
+/* Marks the chunks of the boundary that a compiled set has to do with: those of its own rows, and of rows below its
+ * subtrees, which are those below their roots. */
+static void sli_set_mark(sli_set *set, const sli_reach *R) {
+    const sl_int n = set->fence->n_rows, base = R->columns - n;
+    const sl_int *rows = R->rows;
+    sl_int k, i;
+    memset(set->shore, 0, (size_t)sli_region_chunks(n));
+    for (k = set->inside; k < set->count; k++) {
+        set->shore[(set->place[sli_value(set->seeds[k])] - base) / SLI_REGION_COLUMNS] = 1;
+    }
+    for (k = 0; k < R->count; k++) {
+        for (i = 0; R->steps[k].up == -1 && i < R->steps[k].below; i++) {
+            set->shore[(rows[i] - base) / SLI_REGION_COLUMNS] = 1;
+        }
+        rows += R->steps[k].below;
+    }
+}
+
+/* Doubles of the region's inverse in the chunks that either set marks. */
+static sl_off sli_shore_entries(const sl_region *R, const sli_set *b, const sli_set *x) {
+    sl_off sum = 0;
+    sl_int k;
+    for (k = 0; k < sli_region_chunks(R->fence.n_rows); k++) {
+        sum += b->shore[k] || x->shore[k] ? R->begin[k + 1] - R->begin[k] : 0;
+    }
+    return sum;
+}
+
 /* Fills the reach and the place of each of the caller's rows in its vector. */
 static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **place) {
     sl_int k, at = 0;
@@ -15061,6 +15102,9 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
         set->place[sli_value(set->seeds[k])] =
             R->columns - set->fence->n_rows +
             sli_fence_boundary(set->fence, sli_key(set->seeds[k]));
+    }
+    if (set->fence != NULL) {
+        sli_set_mark(set, R);
     }
     *place = set->place;
 }
@@ -15090,6 +15134,9 @@ static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *
     sli_set_fill(S, b, &q->forward, &q->b_place);
     sli_set_fill(S, x, &q->backward, &q->x_place);
     q->is_shared = sli_reach_equal(&q->forward, &q->backward);
+    q->shore.b = b->shore;
+    q->shore.x = x->shore;
+    q->shore.entries = region == NULL ? 0 : sli_shore_entries(region, b, x);
 }
 
 static void sli_query_stats(const sli_query *q, sl_stats *stats) {
@@ -15101,7 +15148,7 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
     stats->x_columns = q->backward.columns - boundary;
     stats->x_entries = q->backward.entries;
     stats->plan_in_region = q->region != NULL;
-    stats->plan_region_entries = sli_query_region_entries(q);
+    stats->plan_region_entries = q->shore.entries;
 }
 
 static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
@@ -16134,7 +16181,7 @@ SLI_INLINE sli_layout sli_request_layout(const sl_request *r) {
 /* What one block of 8 right-hand sides reads, and one for the call itself. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
     return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
-           (double)sli_query_region_entries(q);
+           (double)q->shore.entries;
 }
 
 /* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from

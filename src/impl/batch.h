@@ -28,7 +28,7 @@ SLI_INLINE sli_layout sli_request_layout(const sl_request *r) {
 /* What one block of 8 right-hand sides reads, and one for the call itself. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
     return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
-           (double)sli_query_region_entries(q);
+           (double)q->shore.entries;
 }
 
 /* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from

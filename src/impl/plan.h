@@ -23,7 +23,8 @@ typedef struct sli_set {
     uint64_t *scratch; /* count */
     sl_int *place;     /* count */
     sli_step *steps;
-    sl_int *compact; /* the steps' rows */
+    sl_int *compact;      /* the steps' rows */
+    unsigned char *shore; /* chunks of the fence's boundary */
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -46,6 +47,8 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
         set->place = SLI_TAKE(b, sl_int, set->count);
         set->steps = SLI_TAKE(b, sli_step, R->count);
         set->compact = SLI_TAKE(b, sl_int, R->n_rows);
+        set->shore = SLI_TAKE(b, unsigned char,
+                              set->fence == NULL ? 0 : sli_region_chunks(set->fence->n_rows));
     }
 }
 
@@ -112,6 +115,34 @@ static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach 
     }
 }
 
+/* Marks the chunks of the boundary that a compiled set has to do with: those of its own rows, and of rows below its
+ * subtrees, which are those below their roots. */
+static void sli_set_mark(sli_set *set, const sli_reach *R) {
+    const sl_int n = set->fence->n_rows, base = R->columns - n;
+    const sl_int *rows = R->rows;
+    sl_int k, i;
+    memset(set->shore, 0, (size_t)sli_region_chunks(n));
+    for (k = set->inside; k < set->count; k++) {
+        set->shore[(set->place[sli_value(set->seeds[k])] - base) / SLI_REGION_COLUMNS] = 1;
+    }
+    for (k = 0; k < R->count; k++) {
+        for (i = 0; R->steps[k].up == -1 && i < R->steps[k].below; i++) {
+            set->shore[(rows[i] - base) / SLI_REGION_COLUMNS] = 1;
+        }
+        rows += R->steps[k].below;
+    }
+}
+
+/* Doubles of the region's inverse in the chunks that either set marks. */
+static sl_off sli_shore_entries(const sl_region *R, const sli_set *b, const sli_set *x) {
+    sl_off sum = 0;
+    sl_int k;
+    for (k = 0; k < sli_region_chunks(R->fence.n_rows); k++) {
+        sum += b->shore[k] || x->shore[k] ? R->begin[k + 1] - R->begin[k] : 0;
+    }
+    return sum;
+}
+
 /* Fills the reach and the place of each of the caller's rows in its vector. */
 static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **place) {
     sl_int k, at = 0;
@@ -127,6 +158,9 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
         set->place[sli_value(set->seeds[k])] =
             R->columns - set->fence->n_rows +
             sli_fence_boundary(set->fence, sli_key(set->seeds[k]));
+    }
+    if (set->fence != NULL) {
+        sli_set_mark(set, R);
     }
     *place = set->place;
 }
@@ -156,6 +190,9 @@ static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *
     sli_set_fill(S, b, &q->forward, &q->b_place);
     sli_set_fill(S, x, &q->backward, &q->x_place);
     q->is_shared = sli_reach_equal(&q->forward, &q->backward);
+    q->shore.b = b->shore;
+    q->shore.x = x->shore;
+    q->shore.entries = region == NULL ? 0 : sli_shore_entries(region, b, x);
 }
 
 static void sli_query_stats(const sli_query *q, sl_stats *stats) {
@@ -167,7 +204,7 @@ static void sli_query_stats(const sli_query *q, sl_stats *stats) {
     stats->x_columns = q->backward.columns - boundary;
     stats->x_entries = q->backward.entries;
     stats->plan_in_region = q->region != NULL;
-    stats->plan_region_entries = sli_query_region_entries(q);
+    stats->plan_region_entries = q->shore.entries;
 }
 
 static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,

@@ -67,10 +67,18 @@ SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
     return sli_scratch_size(SLI_REGION_COLUMNS + R->fence.n_rows, SLI_REGION_COLUMNS, lanes);
 }
 
-/* x := Z_SS u, interleaved; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
+/* What a plan has to do with a boundary: 1 for each chunk with a row that its forward sweep may leave a number in, or
+ * that its backward sweep reads. */
+typedef struct sli_shore {
+    const unsigned char *b, *x; /* chunks each */
+    sl_off entries;             /* doubles of the inverse in those of either kind */
+} sli_shore;
+
+/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
  * way back, where the vector begins one boundary later, its columns are the result and its rows u. */
-static void sli_region_apply(const sl_region *R, const sli_kernels *kernels, int kind,
-                             const double *u, double *x, double *vectors, double *scratch) {
+static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
+                             int kind, const double *u, double *x, double *vectors,
+                             double *scratch) {
     static const double one[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const sl_int n = R->fence.n_rows;
     const size_t size = (size_t)n << kind;
@@ -83,8 +91,12 @@ static void sli_region_apply(const sl_region *R, const sli_kernels *kernels, int
     memcpy(vectors + 2 * size, u, size * sizeof(double));
     for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
         const sli_step step = sli_region_step(R, first);
-        kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
-        kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+        if (shore->b[first / SLI_REGION_COLUMNS]) {
+            kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
+        }
+        if (shore->x[first / SLI_REGION_COLUMNS]) {
+            kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+        }
     }
     memcpy(x, vectors + size, size * sizeof(double));
 }

@@ -16,6 +16,7 @@ typedef struct sli_query {
     sli_reach forward, backward;
     const sl_int *b_place; /* nb */
     const sl_int *x_place; /* nx */
+    sli_shore shore;       /* of the region */
     const sl_region
         *region; /* both reaches end there, and its boundary is the end of their vectors; or NULL */
 } sli_query;
@@ -29,12 +30,8 @@ static sli_query sli_query_all(const sl_symbolic *S) {
     q.forward = q.backward = sli_reach_all(S);
     q.b_place = q.x_place = S->iperm;
     q.region = NULL;
+    q.shore.entries = 0;
     return q;
-}
-
-/* Doubles of a region's inverse that an answer reads. */
-SLI_INLINE sl_off sli_query_region_entries(const sli_query *q) {
-    return q->region == NULL ? 0 : q->region->begin[sli_region_chunks(q->region->fence.n_rows)];
 }
 
 /* Can the query be answered by what F holds? */
@@ -181,7 +178,8 @@ static void sli_cross(const sli_query *q, const double *y, double *x, sl_int lan
 static void sli_cross_region(const sl_factor *F, const sli_query *q, int kind,
                              const sli_vectors *v) {
     const ptrdiff_t n = q->region->fence.n_rows;
-    sli_region_apply(q->region, F->kernels, kind, v->y + ((q->forward.columns - n) << kind),
+    sli_region_apply(q->region, &q->shore, F->kernels, kind,
+                     v->y + ((q->forward.columns - n) << kind),
                      v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
