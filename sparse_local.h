@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 200fca88fc8a586b
+ * FNV-1a of all that follows this comment, license aside: 80f4635c72409803
  *
  * Contents
  *         (what a user reads)
@@ -17,68 +17,68 @@
  *   1051  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1139  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1230  impl/status.h              status codes in words, and the error fields of stats
- *   1286  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1411  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1486  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1523  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1140  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1231  impl/status.h              status codes in words, and the error fields of stats
+ *   1287  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1412  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1487  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1524  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1557  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1822  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1960  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1990  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3161  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3207  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3344  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3559  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3825  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3987  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4259  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4310  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4455  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5268  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6547  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8720  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10950  impl/select.h              the kernel table for an instruction set
+ *   1558  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1823  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1961  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1991  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3162  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3208  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3345  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3560  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3826  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3988  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4260  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4311  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4456  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5269  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6548  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8721  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10951  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10983  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11411  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11484  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10984  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11412  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11485  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11838  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11877  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12024  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12138  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12282  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12367  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12440  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12606  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12682  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12723  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12916  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13202  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11839  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11878  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12025  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12139  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12283  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12368  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12441  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12607  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12683  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12724  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12917  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13203  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13500  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13633  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13719  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13979  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14066  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14366  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14481  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14583  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14643  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14905  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14947  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13501  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13634  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13720  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13980  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14067  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14367  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14482  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  14584  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14644  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14906  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14948  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15350  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15590  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15909  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16157  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16312  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16759  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15351  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15591  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15910  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16158  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16313  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16760  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  17211  impl/leave.h               takes every internal macro away again
+ *  17260  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1073,8 +1073,9 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
  *                begun to be, plans in the region are refused until sl_region_refill.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
- *  Z      [in]   a selected inverse of what F holds now, read where it has all that is needed, or NULL. Otherwise the
- *                entries come from forward sweeps, as those of sl_inverse_block.
+ *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
+ *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
+ *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. What exceeds region_bytes is not taken for a region. One
  *                without a boundary, which is a solve to the roots of the tree, is always possible.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
@@ -16789,8 +16790,12 @@ SLI_INLINE double sli_choice_step(const sli_step *s) {
     return 2.0 * (double)sli_entries_from(s->width, s->below, s->first_tile);
 }
 
+SLI_INLINE double sli_choice_boundary(sl_int boundary) {
+    return (double)boundary * ((double)boundary + 2.0 * SLI_REGION_COLUMNS);
+}
+
 SLI_INLINE double sli_choice_cost(const sli_choice *c) {
-    return c->cost + (double)c->boundary * ((double)c->boundary + 2.0 * SLI_REGION_COLUMNS);
+    return c->cost + sli_choice_boundary(c->boundary);
 }
 
 static void sli_region_layout(sl_region *R, sli_block *b) {
@@ -16811,19 +16816,23 @@ static void sli_region_layout(sl_region *R, sli_block *b) {
 }
 
 /* Does a region of what is chosen keep within its bytes? */
-static int sli_choice_fits(const sli_choice *c) {
+static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t most) {
     sli_block b = {NULL, 0, 0};
     sl_region R;
-    if (c->boundary == 0 || c->most == 0) {
+    if (boundary == 0 || most == 0) {
         return 1;
     }
-    if ((double)c->boundary * (double)c->boundary * (0.5 * sizeof(double)) > (double)c->most) {
+    if ((double)boundary * (double)boundary * (0.5 * sizeof(double)) > (double)most) {
         return 0; /* the sum over its chunks would take long to say so */
     }
-    R.fence.n_rows = c->boundary;
-    R.fence.n_roots = c->n_roots;
+    R.fence.n_rows = boundary;
+    R.fence.n_roots = n_roots;
     sli_region_layout(&R, &b);
-    return !b.overflow && b.used <= c->most;
+    return !b.overflow && b.used <= most;
+}
+
+SLI_INLINE int sli_choice_fits(const sli_choice *c) {
+    return sli_region_bytes_fit(c->boundary, c->n_roots, c->most);
 }
 
 /* A step whose children in the reach all are inside goes in. */
@@ -16916,6 +16925,42 @@ static void sli_choice_improve(sli_choice *c) {
                 }
             }
         }
+    }
+}
+
+/* How many times the cost may be if the inverse then can be read: on grids of 1e5 and 1e6 vertices 37 and 21 of 100
+ * patches of 2000 take it, are solved in 1.3 times the time, and made in a third and a thirtieth (bench region). */
+#define SLI_REGION_DETOUR 2.0
+
+/* The subtree of one supernode that holds the whole set, where it costs little more than what is chosen: the rows
+ * below it are among themselves on the pattern of L, so that a selected inverse has their part. */
+static void sli_choice_one(sli_choice *c) {
+    const sl_symbolic *S = c->S;
+    double inside = 0.0, least = SLI_REGION_DETOUR * sli_choice_cost(c);
+    sl_int k, first, last, best = -1;
+    if (c->count == 0) {
+        return;
+    }
+    first = S->super_of[sli_key(c->seeds[0])];
+    last = S->super_of[sli_key(c->seeds[c->count - 1])];
+    for (k = 0; k < c->reach.count; k++) {
+        const sli_step *step = &c->steps[k];
+        const sl_int s = S->super_of[step->column];
+        inside += sli_choice_step(step);
+        if (s >= last && S->descendant[s] <= first &&
+            inside + sli_choice_boundary(step->below) <= least &&
+            sli_region_bytes_fit(step->below, 1, c->most)) {
+            least = inside + sli_choice_boundary(step->below);
+            best = k;
+        }
+    }
+    for (k = c->reach.count - 1; k >= 0 && best >= 0; k--) {
+        if (c->is_inside[k]) {
+            sli_choice_leave(c, k);
+        }
+    }
+    for (k = 0; k <= best; k++) {
+        sli_choice_enter(c, k);
     }
 }
 
@@ -17019,8 +17064,8 @@ static void sli_region_take(sl_region *R, const sli_choice *c) {
 }
 
 static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const sl_int *set,
-                                   sl_int count, const sl_options *opt, const sl_allocator *a,
-                                   sl_stats *stats) {
+                                   sl_int count, int may_copy, const sl_options *opt,
+                                   const sl_allocator *a, sl_stats *stats) {
     sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sli_choice c;
     sl_region draft;
@@ -17048,6 +17093,9 @@ static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const 
         sli_choice_begin(&c);
         sli_choice_sweep(&c);
         sli_choice_improve(&c);
+        if (may_copy && c.boundary > 1) {
+            sli_choice_one(&c);
+        }
         draft.allocator = *a;
         draft.S = S;
         draft.fence.n_roots = c.n_roots;
@@ -17143,7 +17191,8 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
         return SL_ERR_ARGUMENT;
     }
     status = sli_region_check(F, Z);
-    status = status == SL_OK ? sli_region_choose(&R, F->S, set, count, opt, &a, stats) : status;
+    status = status == SL_OK ? sli_region_choose(&R, F->S, set, count, Z != NULL, opt, &a, stats)
+                             : status;
     if (status == SL_OK) {
         status = sli_region_fill(R, F, Z, NULL);
         R->seconds = sli_seconds() - started;
@@ -17259,6 +17308,7 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_KEPT
 #undef SLI_REGION_COLUMNS
 #undef SLI_REGION_PASSES
+#undef SLI_REGION_DETOUR
 #undef SLI_ZEROS_SMALL
 /* end src/impl/leave.h */
 #endif

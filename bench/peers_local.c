@@ -9,11 +9,14 @@
 /* cholmod_solve2 gives x on the reach of Bset alone, so its Bset is the wanted set, which holds b's; it takes one
  * right-hand side, so several go one after the other. Where a full solve is quicker for CHOLMOD, the row of that name
  * says so: its time is that of the step before. */
-enum { VERTICES = 128, VERTICES_BRIEF = 32, PATCHES = 5 };
+enum { VERTICES = 128, VERTICES_BRIEF = 32, PATCHES = 5, LARGEST_REGION = 10000 };
 
 typedef struct local_match {
     match *m;
     bench_queries *q;
+    bench_queries inside; /* the same questions, each in a region for its xset; count 0: none */
+    sl_region **regions;  /* count */
+    double entries;       /* mean doubles of L and of the inverse read there */
     int next;
     double **b; /* of each query: for each right-hand side nx values on xset, which holds bset */
 } local_match;
@@ -57,8 +60,42 @@ static double *widened(const bench_query *one, size_t nrhs, sl_int *place) {
     return b;
 }
 
+/* Plans in regions beside those to the roots, where the sets are not larger than what one makes a region for. */
+static void enclose(local_match *l) {
+    const bench_queries *q = l->q;
+    sl_options options;
+    memset(&options, 0, sizeof options);
+    l->inside = *q;
+    l->inside.count = q->all[0].nx <= LARGEST_REGION ? q->count : 0;
+    l->inside.all = bench_alloc((size_t)q->count, sizeof *l->inside.all);
+    l->regions = bench_alloc((size_t)q->count, sizeof(sl_region *));
+    for (int k = 0; k < l->inside.count; k++) {
+        bench_query *one = &l->inside.all[k];
+        *one = q->all[k];
+        bench_must(
+            sl_region_create(&l->regions[k], q->system->F, one->xset, one->nx, NULL, NULL, NULL),
+            "region");
+        options.region = l->regions[k];
+        bench_must(sl_plan_create(&one->plan, q->system->S, one->bset, one->nb, one->xset, one->nx,
+                                  &options, &one->reach),
+                   "plan in a region");
+        l->entries += ((double)one->reach.b_entries + (double)one->reach.x_entries +
+                       2 * (double)one->reach.plan_region_entries) /
+                      q->count;
+    }
+}
+
+static void leave_regions(local_match *l) {
+    for (int k = 0; k < l->inside.count; k++) {
+        sl_plan_free(l->inside.all[k].plan);
+        sl_region_free(l->regions[k]);
+    }
+    free(l->inside.all);
+    free(l->regions);
+}
+
 /* CHOLMOD's last right-hand side of the first few queries against ours, which has the bits of a full solve; and ours
- * with AVX2, whose own full solve it must equal. */
+ * with AVX2, whose own full solve it must equal. The same with plans in regions. */
 static int check_local(bench_run *run, local_match *l, bench_queries *narrow, const char *what) {
     bench_queries *q = l->q;
     double worst = 0;
@@ -75,25 +112,30 @@ static int check_local(bench_run *run, local_match *l, bench_queries *narrow, co
             theirs[p] = l->m->answer[one->xset[p]];
         }
         worst = fmax(worst, difference(theirs, one->X + ((size_t)q->nrhs - 1) * nx, nx));
+        if (l->inside.count > 0) { /* answers stand where those of the other plan stood */
+            bench_call_plan_solve(&l->inside);
+            worst = fmax(worst, difference(theirs, one->X + ((size_t)q->nrhs - 1) * nx, nx));
+        }
         free(theirs);
     }
-    l->next = q->next = 0;
+    l->next = q->next = l->inside.next = 0;
     return bench_expect(run, worst < 1e-9, "%s, %s: CHOLMOD's answer is %.2g away", q->system->name,
                         what, worst);
 }
 
 static void local_step(bench_run *run, bench_report *report, match *m, bench_queries *q,
                        const char *what) {
-    local_match l = {m, q, 0, bench_alloc((size_t)q->count, sizeof *l.b)};
+    local_match l = {.m = m, .q = q, .b = bench_alloc((size_t)q->count, sizeof *l.b)};
     bench_queries narrow = *q; /* the same plans, another factor */
     narrow.system = &m->narrow;
     for (int k = 0; k < q->count; k++) {
         l.b[k] = widened(&q->all[k], (size_t)q->nrhs, m->system->place);
     }
+    enclose(&l);
     if (check_local(run, &l, m->narrow.F ? &narrow : NULL, what)) {
         const sl_stats reach = bench_queries_reach(q);
         const bench_sample full = m->best_full[q->nrhs];
-        entry entries[5] = {{.method = "ours", .call = bench_call_plan_solve, .state = q},
+        entry entries[6] = {{.method = "ours", .call = bench_call_plan_solve, .state = q},
                             {.method = "ours, one shot", .call = bench_call_one_shot, .state = q}};
         int ours = 2, count;
         if (m->narrow.F) {
@@ -101,6 +143,10 @@ static void local_step(bench_run *run, bench_report *report, match *m, bench_que
                                       .call = bench_call_plan_solve,
                                       .state = &narrow,
                                       .isa = SL_ISA_AVX2};
+        }
+        if (l.inside.count > 0) {
+            entries[ours++] = (entry){
+                .method = "ours, in region", .call = bench_call_plan_solve, .state = &l.inside};
         }
         entries[ours] = (entry){
             .method = "CHOLMOD solve2 Bset", .call = cholmod_local_call, .state = &l, .foreign = 1};
@@ -113,8 +159,12 @@ static void local_step(bench_run *run, bench_report *report, match *m, bench_que
             entries[c].batch = q->count < 8 ? 8 : q->count;
             entries[c].entries = c < ours ? (double)reach.b_entries + (double)reach.x_entries : 0;
         }
+        if (l.inside.count > 0) {
+            entries[ours - 1].entries = l.entries;
+        }
         peers_race(run->seconds / 2, report, m, what, q->nrhs, entries, count, &reach, 0);
     }
+    leave_regions(&l);
     for (int k = 0; k < q->count; k++) {
         free(l.b[k]);
     }

@@ -57,24 +57,32 @@ static scene *scene_make(const bench_system *system, sl_int size) {
     return t;
 }
 
+/* A question whose plan ends in a region. */
+static const bench_query *add_inside(bench_queries *q, const sl_region *R, const sl_int *set,
+                                     sl_int size) {
+    sl_options options;
+    memset(&options, 0, sizeof options);
+    options.region = R;
+    bench_queries_add(q, set, size, set, size);
+    bench_query *one = &q->all[q->count - 1];
+    sl_plan_free(one->plan);
+    bench_must(
+        sl_plan_create(&one->plan, q->system->S, set, size, set, size, &options, &one->reach),
+        "plan in a region");
+    bench_must(one->reach.plan_in_region ? SL_OK : SL_ERR_STATE, "a plan inside its region");
+    return one;
+}
+
 static void scene_ask(scene *t, const one_case *c) {
     t->plain = bench_queries_create(t->system, PLACES, c->nrhs);
     t->inside = bench_queries_create(t->system, PLACES, c->nrhs);
     t->entries = 0;
     for (int k = 0; k < PLACES; k++) {
         const sl_int *set = c->one ? &t->vertices[k] : t->sets[k], size = c->one ? 1 : t->sizes[k];
-        sl_options options;
-        memset(&options, 0, sizeof options);
-        options.region = t->regions[k];
         bench_queries_add(t->plain, set, size, set, size);
-        bench_queries_add(t->inside, set, size, set, size);
-        bench_query *one = &t->inside->all[k];
-        sl_plan_free(one->plan);
-        bench_must(
-            sl_plan_create(&one->plan, t->system->S, set, size, set, size, &options, &one->reach),
-            "plan in a region");
-        t->entries += (double)one->reach.plan_region_entries / PLACES;
-        bench_must(one->reach.plan_in_region ? SL_OK : SL_ERR_STATE, "a plan inside its region");
+        t->entries +=
+            (double)add_inside(t->inside, t->regions[k], set, size)->reach.plan_region_entries /
+            PLACES;
     }
 }
 
@@ -181,6 +189,62 @@ static void report_case(bench_report *report, const scene *t, const one_case *c,
         samples[PLAIN_AGAIN].median / samples[INSIDE_AGAIN].median);
 }
 
+/* The places whose region comes out of a selected inverse, where there is one: making it so and by sweeps, each once, and
+ * solving in both. */
+static void time_copies(bench_run *run, bench_report *report, const scene *t, const char *what) {
+    enum { SWEPT, COPIED, IN_SWEPT, IN_COPIED, ROWS };
+    static const char *const methods[ROWS] = {"region create", "region create, selected",
+                                              "plan in region", "plan in region, selected"};
+    bench_queries *q[2] = {bench_queries_create(t->system, PLACES, 1),
+                           bench_queries_create(t->system, PLACES, 1)};
+    sl_region *R[2][PLACES];
+    double seconds[2][PLACES];
+    sl_selected *Z;
+    int count = 0;
+    bench_must(sl_selected_create(&Z, t->system->F, NULL, 0, NULL, NULL), "selected inverse");
+    for (int k = 0; k < PLACES; k++) {
+        sl_stats stats;
+        for (int copied = 1; copied >= 0; copied--) {
+            const double start = bench_now();
+            bench_must(sl_region_create(&R[copied][count], t->system->F, t->sets[k], t->sizes[k],
+                                        copied ? Z : NULL, NULL, &stats),
+                       "region");
+            seconds[copied][count] = bench_now() - start;
+            if (copied && !stats.region_is_copied) {
+                sl_region_free(R[copied][count]);
+                break;
+            }
+            add_inside(q[copied], R[copied][count], t->sets[k], t->sizes[k]);
+            count += !copied;
+        }
+    }
+    sl_selected_free(Z);
+    bench_report_note(report,
+                      "%-14s   with a selected inverse, %d of %d regions come out of it:", "",
+                      count, PLACES);
+    if (count > 0) {
+        const bench_contender solves[2] = {{bench_call_plan_solve, q[0], count, NULL},
+                                           {bench_call_plan_solve, q[1], count, NULL}};
+        bench_sample samples[ROWS] = {bench_sample_of(seconds[0], count),
+                                      bench_sample_of(seconds[1], count)};
+        bench_race(samples + IN_SWEPT, solves, 2, run->seconds / 8);
+        for (int k = 0; k < ROWS; k++) {
+            bench_row row = {.what = what,
+                             .method = methods[k],
+                             .nrhs = k / 2,
+                             .time = samples[k],
+                             .baseline = samples[k / 2 * 2].median};
+            bench_report_row(report, t->system, &row);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        bench_queries_free(q[k]);
+        for (int r = 0; r < count; r++) {
+            sl_region_free(R[k][r]);
+        }
+    }
+}
+
 static void time_case(bench_run *run, bench_report *report, scene *t, int which, growth *g) {
     const one_case *c = &cases[which];
     scene_ask(t, c);
@@ -194,11 +258,15 @@ static void time_case(bench_run *run, bench_report *report, scene *t, int which,
         bench_sample samples[WAYS];
         const int ways = c->in_patch && (c->one || c->nrhs > 1) ? CREATE : WAYS;
         for (int k = 0; k < ways; k++) {
+            t->calls = t->next = 0;
             bench_race(samples + k, contenders + k, 1, run->seconds / 8);
         }
         report_case(report, t, c, samples, ways);
         g->plain[which][g->count] = samples[PLAIN].median;
         g->inside[which][g->count] = samples[INSIDE].median;
+        if (ways == WAYS) {
+            time_copies(run, report, t, c->name);
+        }
     }
     scene_forget(t);
 }

@@ -24,8 +24,9 @@
  *                begun to be, plans in the region are refused until sl_region_refill.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
- *  Z      [in]   a selected inverse of what F holds now, read where it has all that is needed, or NULL. Otherwise the
- *                entries come from forward sweeps, as those of sl_inverse_block.
+ *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
+ *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
+ *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. What exceeds region_bytes is not taken for a region. One
  *                without a boundary, which is a solve to the roots of the tree, is always possible.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
