@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 80f4635c72409803
+ * FNV-1a of all that follows this comment, license aside: 3c1850053aa8801c
  *
  * Contents
  *         (what a user reads)
@@ -66,19 +66,19 @@
  *  14067  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
  *  14367  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
  *  14482  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14584  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14644  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14906  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14948  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  14585  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14645  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14907  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14949  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15351  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15591  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15910  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16158  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16313  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16760  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15352  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15592  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15911  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16159  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16314  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16761  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  17260  impl/leave.h               takes every internal macro away again
+ *  17258  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1076,14 +1076,14 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
  *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
  *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
  *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
- *  opt    [in]   allocator, region_bytes; may be NULL. What exceeds region_bytes is not taken for a region. One
- *                without a boundary, which is a solve to the roots of the tree, is always possible.
+ *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
+ *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
  *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
- *           4 (boundary)^2 bytes kept, and 8 a row.
+ *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
  *  Threads  reads F and Z.
  *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
  *  Example  tests/test_region.c
@@ -14552,8 +14552,9 @@ typedef struct sli_shore {
     sl_off entries;             /* doubles of the inverse in those of either kind */
 } sli_shore;
 
-/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
- * way back, where the vector begins one boundary later, its columns are the result and its rows u. */
+/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its
+ * rows the result; on the way back, where the vector begins one boundary later, its columns are the result and its
+ * rows u. */
 static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
                              int kind, const double *u, double *x, double *vectors,
                              double *scratch) {
@@ -16779,8 +16780,7 @@ typedef struct sli_choice {
     unsigned char *is_inside; /* is the step itself? */
     sl_int *wanted;           /* reach.columns: how many want each row in the boundary */
     sl_int n_roots, boundary; /* as it stands */
-    sl_int n_inside;
-    double cost; /* of L inside */
+    double cost;              /* of L inside */
 } sli_choice;
 
 /* What a solve takes, in doubles read of L: those inside twice, and for the boundary a square. Half of that is
@@ -16815,7 +16815,7 @@ static void sli_region_layout(sl_region *R, sli_block *b) {
     R->bytes = b->used;
 }
 
-/* Does a region of what is chosen keep within its bytes? */
+/* Does a region of so many rows and subtrees keep within its bytes? */
 static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t most) {
     sli_block b = {NULL, 0, 0};
     sl_region R;
@@ -16847,7 +16847,6 @@ static void sli_choice_enter(sli_choice *c, sl_int k) {
         c->boundary += c->wanted[rows[i]]++ == 0;
     }
     c->n_roots += 1 - c->inside[k];
-    c->n_inside++;
     c->is_inside[k] = 1;
     c->cost += sli_choice_step(step);
     if (step->up != -1) {
@@ -16865,7 +16864,6 @@ static void sli_choice_leave(sli_choice *c, sl_int k) {
     }
     c->cost -= sli_choice_step(step);
     c->is_inside[k] = 0;
-    c->n_inside--;
     c->n_roots -= 1 - c->inside[k];
     for (i = 0; i < step->below; i++) {
         c->boundary -= --c->wanted[rows[i]] == 0;
@@ -16996,7 +16994,7 @@ static void sli_choice_begin(sli_choice *c) {
         }
     }
     sli_sort(c->order, c->reach.count, c->sorted);
-    c->n_roots = c->n_inside = 0;
+    c->n_roots = 0;
     c->boundary = c->count;
     c->cost = 0.0;
     for (k = 0; k < c->count; k++) {

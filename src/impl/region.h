@@ -22,8 +22,7 @@ typedef struct sli_choice {
     unsigned char *is_inside; /* is the step itself? */
     sl_int *wanted;           /* reach.columns: how many want each row in the boundary */
     sl_int n_roots, boundary; /* as it stands */
-    sl_int n_inside;
-    double cost; /* of L inside */
+    double cost;              /* of L inside */
 } sli_choice;
 
 /* What a solve takes, in doubles read of L: those inside twice, and for the boundary a square. Half of that is
@@ -58,7 +57,7 @@ static void sli_region_layout(sl_region *R, sli_block *b) {
     R->bytes = b->used;
 }
 
-/* Does a region of what is chosen keep within its bytes? */
+/* Does a region of so many rows and subtrees keep within its bytes? */
 static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t most) {
     sli_block b = {NULL, 0, 0};
     sl_region R;
@@ -90,7 +89,6 @@ static void sli_choice_enter(sli_choice *c, sl_int k) {
         c->boundary += c->wanted[rows[i]]++ == 0;
     }
     c->n_roots += 1 - c->inside[k];
-    c->n_inside++;
     c->is_inside[k] = 1;
     c->cost += sli_choice_step(step);
     if (step->up != -1) {
@@ -108,7 +106,6 @@ static void sli_choice_leave(sli_choice *c, sl_int k) {
     }
     c->cost -= sli_choice_step(step);
     c->is_inside[k] = 0;
-    c->n_inside--;
     c->n_roots -= 1 - c->inside[k];
     for (i = 0; i < step->below; i++) {
         c->boundary -= --c->wanted[rows[i]] == 0;
@@ -239,7 +236,7 @@ static void sli_choice_begin(sli_choice *c) {
         }
     }
     sli_sort(c->order, c->reach.count, c->sorted);
-    c->n_roots = c->n_inside = 0;
+    c->n_roots = 0;
     c->boundary = c->count;
     c->cost = 0.0;
     for (k = 0; k < c->count; k++) {

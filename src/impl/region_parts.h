@@ -74,8 +74,9 @@ typedef struct sli_shore {
     sl_off entries;             /* doubles of the inverse in those of either kind */
 } sli_shore;
 
-/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its rows the result; on the
- * way back, where the vector begins one boundary later, its columns are the result and its rows u. */
+/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its
+ * rows the result; on the way back, where the vector begins one boundary later, its columns are the result and its
+ * rows u. */
 static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
                              int kind, const double *u, double *x, double *vectors,
                              double *scratch) {

@@ -27,14 +27,14 @@
  *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
  *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
  *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
- *  opt    [in]   allocator, region_bytes; may be NULL. What exceeds region_bytes is not taken for a region. One
- *                without a boundary, which is a solve to the roots of the tree, is always possible.
+ *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
+ *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
  *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
- *           4 (boundary)^2 bytes kept, and 8 a row.
+ *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
  *  Threads  reads F and Z.
  *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
  *  Example  tests/test_region.c
