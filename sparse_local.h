@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 3c1850053aa8801c
+ * FNV-1a of all that follows this comment, license aside: 8a92332821c01946
  *
  * Contents
  *         (what a user reads)
@@ -66,19 +66,19 @@
  *  14067  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
  *  14367  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
  *  14482  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14585  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14645  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14907  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14949  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  14586  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14646  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14908  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14950  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15352  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15592  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15911  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16159  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16314  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16761  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15353  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15593  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15912  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16160  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16315  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16762  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  17258  impl/leave.h               takes every internal macro away again
+ *  17259  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14558,7 +14558,7 @@ typedef struct sli_shore {
 static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
                              int kind, const double *u, double *x, double *vectors,
                              double *scratch) {
-    static const double one[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const sl_int n = R->fence.n_rows;
     const size_t size = (size_t)n << kind;
     sl_int first;
@@ -14574,7 +14574,8 @@ static void sli_region_apply(const sl_region *R, const sli_shore *shore, const s
             kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
         }
         if (shore->x[first / SLI_REGION_COLUMNS]) {
-            kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+            kernels->backward[kind](1, &step, R->places + n, R->Z, sli_ones, vectors + size,
+                                    scratch);
         }
     }
     memcpy(x, vectors + size, size * sizeof(double));

@@ -80,7 +80,7 @@ typedef struct sli_shore {
 static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
                              int kind, const double *u, double *x, double *vectors,
                              double *scratch) {
-    static const double one[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const sl_int n = R->fence.n_rows;
     const size_t size = (size_t)n << kind;
     sl_int first;
@@ -96,7 +96,8 @@ static void sli_region_apply(const sl_region *R, const sli_shore *shore, const s
             kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
         }
         if (shore->x[first / SLI_REGION_COLUMNS]) {
-            kernels->backward[kind](1, &step, R->places + n, R->Z, one, vectors + size, scratch);
+            kernels->backward[kind](1, &step, R->places + n, R->Z, sli_ones, vectors + size,
+                                    scratch);
         }
     }
     memcpy(x, vectors + size, size * sizeof(double));
