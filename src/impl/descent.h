@@ -1,0 +1,188 @@
+/* descent.h: the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait */
+#ifndef SLI_DESCENT_H
+#define SLI_DESCENT_H
+
+#include "reach.h"
+#include "schedule.h"
+
+/* A front is made of its parent's, which therefore stays until the lowest of its children, the last, has taken its part.
+ * Subtrees are tasks of one worker each. In a task the fronts of even and of odd depth have a stack each, which grow
+ * towards each other: when a front is made, its parent's is the top of the other stack, or is above the task. Fronts
+ * above all tasks, which come first, stay until the end; one worker has none, its task is everything. */
+typedef struct sli_descent {
+    const sl_symbolic *S;
+    sli_forest forest;     /* of the supernodes of the list */
+    sl_int *supers;        /* count: ascending */
+    sl_int *up, *low;      /* count: the forest's own, unless it is that of the analysis */
+    sli_schedule plan;     /* waiting: of the fronts */
+    sl_off scratch;        /* doubles for the kernels, for each worker */
+    sli_planning planning; /* of more than one worker */
+} sli_descent;
+
+/* Doubles of the front of the k-th supernode: whole row tiles of all its columns. */
+SLI_INLINE sl_off sli_descent_front(const sli_descent *d, sl_int k) {
+    const sli_step *step = &d->S->steps[d->supers[k]];
+    const sl_int h = step->width + step->below;
+    return (sl_off)sli_square_offset(h, sli_tiles(h));
+}
+
+/* A list of count supernodes, n_supers being all, by so many workers at most. */
+static sli_descent sli_descent_of(const sl_symbolic *S, sl_int count, sl_int workers) {
+    sli_descent d;
+    memset(&d, 0, sizeof d);
+    d.S = S;
+    d.forest.count = count;
+    d.plan.workers = sli_min(workers, sli_max(count, 1));
+    return d;
+}
+
+static void sli_descent_layout(sli_descent *d, sli_block *b) {
+    const sl_int count = d->forest.count, some = count < d->S->n_supers ? count : 0;
+    d->supers = SLI_TAKE(b, sl_int, count);
+    d->up = SLI_TAKE(b, sl_int, some);
+    d->low = SLI_TAKE(b, sl_int, some);
+    sli_schedule_layout(&d->plan, b, count);
+}
+
+/* What only the planning of several workers needs. */
+static void sli_descent_layout_planning(sli_descent *d, sli_block *b) {
+    const sl_int workers = d->plan.workers;
+    if (workers > 1) {
+        sli_planning_layout(&d->planning, b, d->forest.count, workers);
+    }
+}
+
+/* The supernodes of the reach of seeds, columns of L in ascending order. */
+static void sli_descent_reach(sli_descent *d, const uint64_t *seeds, sl_int n_seeds) {
+    const sl_symbolic *S = d->S;
+    sl_int k = 0, at = 0, s, next;
+    while (k < n_seeds) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, n_seeds, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            d->supers[at++] = s;
+        }
+    }
+    SLI_ASSERT(at == d->forest.count);
+}
+
+/* Parents and first descendants within a list. A supernode's parent is the next one of the chain of ancestors at hand
+ * that is not below it, as the list is in postorder and closed under the parent relation. */
+static void sli_descent_tree(sli_descent *d) {
+    const sl_symbolic *S = d->S;
+    const sl_int count = d->forest.count;
+    sl_int k, up = -1;
+    d->forest.parent = S->super_parent;
+    d->forest.low = S->descendant;
+    if (count == S->n_supers) {
+        return;
+    }
+    for (k = count - 1; k >= 0; k--) {
+        const sl_int parent = S->super_parent[d->supers[k]];
+        while (up != -1 && d->supers[up] != parent) {
+            up = d->up[up];
+        }
+        d->up[k] = up;
+        d->low[k] = k;
+        up = k;
+    }
+    for (k = 0; k < count; k++) {
+        if (d->up[k] != -1) {
+            d->low[d->up[k]] = sli_min(d->low[d->up[k]], d->low[k]);
+        }
+    }
+    d->forest.parent = d->up;
+    d->forest.low = d->low;
+}
+
+/* Where the fronts of a task begin, from a place on; returns how many doubles they take. Until that is known the second
+ * stack counts from its end, in numbers below 0. */
+static sl_off sli_descent_stacks(sli_descent *d, sl_int first, sl_int last, sl_off from) {
+    const sl_int *up = d->forest.parent, *low = d->forest.low;
+    sl_off *begin = d->plan.waiting_begin, top[2] = {0, 0}, most = 0;
+    sl_int k;
+    for (k = last; k >= first; k--) {
+        const int is_root = k == last || up[k] == -1, side = is_root ? 0 : begin[up[k]] >= 0;
+        const sl_off size = sli_descent_front(d, k);
+        begin[k] = side == 0 ? top[0] : -(top[1] + size);
+        top[side] += size;
+        most = top[0] + top[1] > most ? top[0] + top[1] : most;
+        if (!is_root && low[up[k]] == low[k]) {
+            top[1 - side] -= sli_descent_front(d, up[k]);
+        }
+        if (low[k] == k) {
+            top[side] -= size;
+        }
+    }
+    for (k = first; k <= last; k++) {
+        begin[k] += from + (begin[k] < 0 ? most : 0);
+    }
+    return most;
+}
+
+/* Scratch for any front of the list. */
+static sl_off sli_descent_scratch(const sli_descent *d) {
+    sl_int k, tallest = 0, widest = 0;
+    for (k = 0; k < d->forest.count; k++) {
+        const sli_step *step = &d->S->steps[d->supers[k]];
+        tallest = sli_max(tallest, step->width + step->below);
+        widest = sli_max(widest, step->width);
+    }
+    return sli_dual_scratch(tallest, widest);
+}
+
+/* Plans for a list, or, seeds being NULL, for all. The arrays have room. */
+static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_seeds) {
+    sli_schedule *p = &d->plan;
+    sl_int k, m;
+    if (seeds != NULL) {
+        sli_descent_reach(d, seeds, n_seeds);
+    }
+    for (k = 0; k < d->forest.count && seeds == NULL; k++) {
+        d->supers[k] = k;
+    }
+    sli_descent_tree(d);
+    for (k = 0; k < d->forest.count && p->workers > 1; k++) {
+        d->planning.flops[k] = sli_front_flops(&d->S->steps[d->supers[k]]);
+    }
+    sli_plan_tasks(p, &d->forest, &d->planning);
+    d->scratch = sli_descent_scratch(d);
+    p->waiting = 0;
+    for (m = 0; m < p->n_tops; m++) {
+        p->waiting_begin[p->top[m]] = p->waiting;
+        p->waiting += sli_descent_front(d, p->top[m]);
+    }
+    for (k = 0; k < p->workers; k++) {
+        sl_off most = 0;
+        for (m = 0; m < p->n_tasks; m++) {
+            if (p->worker[m] == k) {
+                const sl_off size = sli_descent_stacks(d, p->first[m], p->last[m], p->waiting);
+                most = size > most ? size : most;
+            }
+        }
+        p->waiting += most;
+    }
+}
+
+/* Where row stands in supernode s, which begins at or before it, or -1. */
+static sl_int sli_descent_row(const sl_symbolic *S, sl_int s, sl_int row) {
+    const sl_int *rows = S->rows + S->rows_begin[s];
+    const sl_int width = S->steps[s].width, below = S->steps[s].below, r = row - S->super_first[s];
+    sl_int i;
+    if (r < width) {
+        return r;
+    }
+    i = sli_lower_bound(rows, below, row);
+    return i < below && rows[i] == row ? width + i : -1;
+}
+
+static void sli_descent_stats(const sli_descent *d, sl_stats *stats) {
+    sl_int k;
+    stats->z_supernodes = d->forest.count;
+    stats->z_columns = 0;
+    for (k = 0; k < d->forest.count; k++) {
+        stats->z_columns += d->S->steps[d->supers[k]].width;
+    }
+}
+
+#endif
