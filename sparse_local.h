@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: d5f035ab2b0991e8
+ * FNV-1a of all that follows this comment, license aside: dfbfd8b662895bc1
  *
  * Contents
  *         (what a user reads)
@@ -11,75 +11,75 @@
  *    568  public/factor.h            the numbers: P A P' = L D L'
  *    674  public/solve.h             full solves, and the workspace that every solve writes to
  *    743  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    829  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    908  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    945  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    829  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *    923  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    960  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1052  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1143  impl/status.h              status codes in words, and the error fields of stats
- *   1199  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1324  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1399  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1436  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1069  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1160  impl/status.h              status codes in words, and the error fields of stats
+ *   1216  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1341  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1416  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1453  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1477  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1791  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1929  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1959  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3130  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3176  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3313  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3528  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3825  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3987  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4260  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4311  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4456  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5269  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6580  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8785  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11047  impl/select.h              the kernel table for an instruction set
+ *   1494  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1808  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1946  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1976  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3147  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3193  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3330  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3545  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3842  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4004  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4277  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4328  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4473  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5286  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6597  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8802  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11064  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11080  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11508  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11581  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11097  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11525  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11598  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11935  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11974  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12121  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12235  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12379  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12464  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12537  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12703  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12779  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12820  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13031  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13317  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11952  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11991  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12138  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12252  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12396  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12481  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12554  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12720  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12796  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12837  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13048  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13334  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13550  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13682  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13768  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14018  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14105  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14399  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14514  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14611  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14848  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14890  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13567  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13699  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13785  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14035  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14122  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14416  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14531  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14628  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14865  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14907  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15188  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  15375  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  15525  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15773  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15985  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  16271  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16491  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16645  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  16863  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  15205  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  15393  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  15543  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15791  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16003  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  16290  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16510  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16664  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  16882  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
  *         (last: takes every internal macro away again)
- *  16964  impl/leave.h               takes every internal macro away again
+ *  16983  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -363,7 +363,7 @@ typedef struct sl_stats {
     sl_off x_entries;
     size_t bytes_plan;
 
-    /* sl_selected_create */
+    /* sl_selected_create; the first three also sl_inverse_diagonal and sl_inverse_pairs, which keep none */
     sl_int z_supernodes; /* those whose part of the inverse was made */
     sl_int z_columns;
     sl_off z_entries;        /* doubles kept for them */
@@ -827,7 +827,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #endif
 /* end src/public/plan.h */
 /* begin src/public/inverse.h */
-/* inverse.h: entries, blocks and bilinear forms of the inverse, by forward sweeps alone */
+/* inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
 #ifndef SL_PUBLIC_INVERSE_H
 #define SL_PUBLIC_INVERSE_H
 
@@ -854,12 +854,26 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Example  tests/test_inverse.c
+ *
+ * Many entries are cheaper by selected inversion of the supernodes they reach (selected.h), of which only the fronts
+ * under way are kept, and not Z. sl_inverse_diagonal and sl_inverse_pairs count the operations of both and take the shorter
+ * way: selected inversion from some hundreds of near-by vertices of a mesh on, or some thousands far apart; for the
+ * whole diagonal always. stats say which (inverse_method), with z_supernodes and z_columns in place of the sweeps' numbers
+ * where it was that. It uses the threads that F was made with, a pool of the caller's then once for each call that runs
+ * at the same time; the bits do not depend on their number. W grows to the fronts under way, 8 (height)^2 bytes each, where
+ * height counts a supernode's columns and the rows below: those from the one at hand to its root that have children to
+ * come, for each thread; with several threads also all that stand above the subtrees that are shared out.
+ *
+ * A factor with null pivots that were skipped (SL_SEMIDEFINITE) has the inverse of the matrix without their rows and
+ * columns, and 0 in those: A Z A = A where A has no more null vectors than that.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
  *  rows   [in]   count rows of A in 0..n-1, any order, repeated or not; NULL (with count ignored): all n.
+ *  Source   [HDA17] 5; [ET75], [SelInv].
+ *  Example  tests/test_diagonal.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *out,
                                                     const sl_int *rows, sl_int count, sl_work *W,
@@ -868,7 +882,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *
 /** Entries of the inverse: out[k] = (A^-1)(rows[k], columns[k]).
  *
  *  out    [out]  count values.
- *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not.
+ *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not. Selected inversion comes in
+ *                 question only where all entries have a place in the pattern of L, as those of A have.
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out,
                                                  const sl_int *rows, const sl_int *columns,
@@ -959,13 +974,15 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
- *  opt    [in]   allocator; may be NULL. The instruction set is the factor's.
+ *  opt    [in]   allocator, and threads, which the object keeps; no threads there, or NULL: those that F was made with. The
+ *                instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
- *           bytes a supernode kept. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
- *           has children to come, where height counts its columns and the rows below.
- *  Threads  reads F; the object is immutable and may be shared.
+ *           bytes a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
+ *           has children to come, where height counts its columns and the rows below; with several threads for each of
+ *           them, and for all supernodes above the subtrees that are shared out.
+ *  Threads  reads F; the object is immutable and may be shared. What is computed does not depend on their number.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
  */
@@ -981,7 +998,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Where fresh memory is slow, twice as fast.
- *  Threads  nobody else may use Z meanwhile.
+ *  Threads  nobody else may use Z meanwhile; runs on those that Z was made with.
  *  Example  tests/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W);
@@ -15204,11 +15221,12 @@ typedef struct sli_descent {
     sli_planning planning; /* of more than one worker */
 } sli_descent;
 
-/* Doubles of the front of the k-th supernode: whole row tiles of all its columns. */
+/* Doubles of the front of the k-th supernode: whole row tiles of all its columns, and a tile, as columns that the last
+ * one has not are read along with those it has. */
 SLI_INLINE sl_off sli_descent_front(const sli_descent *d, sl_int k) {
     const sli_step *step = &d->S->steps[d->supers[k]];
     const sl_int h = step->width + step->below;
-    return (sl_off)sli_square_offset(h, sli_tiles(h));
+    return (sl_off)sli_square_offset(h, sli_tiles(h)) + SLI_TILE * SLI_TILE;
 }
 
 /* A list of count supernodes, n_supers being all, by so many workers at most. */
@@ -16003,12 +16021,13 @@ typedef struct sli_entries {
     sl_int *asked; /* supernodes + 1: the first of the sorted requests that each front answers */
 } sli_entries;
 
-/* Time of a front of w columns and h rows of the inverse in that of a forward sweep of one lane over one entry, as the
- * costs of lanes are: of itself, for each of h^2 numbers that are moved, for each of w h^2 products. */
-static const double sli_descent_cost[][3] = {{2000.0, 4.0, 0.3},  /* of any other */
-                                             {2000.0, 4.0, 0.3},  /* plain C */
-                                             {2000.0, 4.0, 0.3},  /* AVX2 */
-                                             {2000.0, 4.0, 0.3}}; /* AVX-512 */
+/* Time of a front of the inverse in that of a forward sweep of one lane over one entry, as the costs of lanes are: of
+ * itself, for each of the h^2 numbers that are moved, for each flop of the factorization's front, which is twice as
+ * many here. Measured on grids of 1e4 to 1e6 vertices and of 25^3 (Zen 5); NEON, which was not, as AVX2. */
+static const double sli_descent_cost[][3] = {{2000.0, 4.0, 0.35}, /* of any other */
+                                             {2000.0, 4.0, 2.2},  /* plain C */
+                                             {2000.0, 4.0, 0.35}, /* AVX2 */
+                                             {2000.0, 4.0, 0.2}}; /* AVX-512 */
 
 /* The whole diagonal needs no list of requests. */
 SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
@@ -16057,8 +16076,8 @@ static double sli_descent_time(const sli_entries *q, sl_int *supers) {
         s = S->super_of[sli_key(r->order[k])];
         next = sli_next_seed(S, r->order, r->count, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
-            const double w = S->steps[s].width, h = w + S->steps[s].below;
-            time += cost[0] + h * h * (cost[1] + cost[2] * w);
+            const double h = S->steps[s].width + S->steps[s].below;
+            time += cost[0] + cost[1] * h * h + cost[2] * sli_front_flops(&S->steps[s]);
             ++*supers;
         }
     }

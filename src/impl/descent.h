@@ -19,11 +19,12 @@ typedef struct sli_descent {
     sli_planning planning; /* of more than one worker */
 } sli_descent;
 
-/* Doubles of the front of the k-th supernode: whole row tiles of all its columns. */
+/* Doubles of the front of the k-th supernode: whole row tiles of all its columns, and a tile, as columns that the last
+ * one has not are read along with those it has. */
 SLI_INLINE sl_off sli_descent_front(const sli_descent *d, sl_int k) {
     const sli_step *step = &d->S->steps[d->supers[k]];
     const sl_int h = step->width + step->below;
-    return (sl_off)sli_square_offset(h, sli_tiles(h));
+    return (sl_off)sli_square_offset(h, sli_tiles(h)) + SLI_TILE * SLI_TILE;
 }
 
 /* A list of count supernodes, n_supers being all, by so many workers at most. */

@@ -178,7 +178,7 @@ typedef struct sl_stats {
     sl_off x_entries;
     size_t bytes_plan;
 
-    /* sl_selected_create */
+    /* sl_selected_create; the first three also sl_inverse_diagonal and sl_inverse_pairs, which keep none */
     sl_int z_supernodes; /* those whose part of the inverse was made */
     sl_int z_columns;
     sl_off z_entries;        /* doubles kept for them */
