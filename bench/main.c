@@ -32,6 +32,8 @@ static const question questions[] = {
     {"locality", "the same local question on meshes of growing size", bench_locality},
     {"selected", "the whole diagonal of the inverse beside a refactorization and single entries",
      bench_selected},
+    {"adf", "the auto-diffusion of every vertex: the diagonal of the inverse (section 5)",
+     bench_adf},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},
