@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: dfbfd8b662895bc1
+ * FNV-1a of all that follows this comment, license aside: 5d6e20f02fe99fdb
  *
  * Contents
  *         (what a user reads)
@@ -24,62 +24,62 @@
  *   1453  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
  *   1494  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1808  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1946  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1976  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3147  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3193  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3330  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3545  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3842  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4004  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4277  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4328  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4473  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5286  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6597  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8802  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11064  impl/select.h              the kernel table for an instruction set
+ *   1809  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1947  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1977  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3148  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3194  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3331  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3546  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3843  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4005  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4278  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4329  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4474  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5287  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6598  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8803  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11065  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11097  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11525  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11598  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11098  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11526  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11599  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11952  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11991  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12138  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12252  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12396  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12481  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12554  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12720  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12796  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12837  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13048  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13334  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11953  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11992  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12139  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12253  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12397  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12482  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12555  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12721  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12797  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12838  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13049  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13335  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13567  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13699  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13785  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14035  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14122  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14416  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14531  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14628  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14865  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14907  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13568  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13700  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13786  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14036  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14123  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14417  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14532  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14629  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14866  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14908  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15205  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  15393  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  15543  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15791  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16003  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  16290  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16510  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16664  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  16882  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  15206  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  15417  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  15569  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15817  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16029  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  16317  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16537  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16691  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  16909  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
  *         (last: takes every internal macro away again)
- *  16983  impl/leave.h               takes every internal macro away again
+ *  17010  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1700,6 +1700,7 @@ typedef struct sli_dual {
     const double *D;     /* .. its pivots */
     double *front;
     sl_int width, below;
+    sl_int first; /* groups of columns before this one are left out */
 } sli_dual;
 
 /* Where row tile t of a front of the inverse of h rows starts, in doubles. */
@@ -3825,7 +3826,7 @@ SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_p
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     sl_int j0;
-    for (j0 = sli_dual_last(f); j0 >= 0; j0 -= SLI_DUAL_COLUMNS) {
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
         const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
         const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
         SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
@@ -6092,7 +6093,7 @@ SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_p
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     sl_int j0;
-    for (j0 = sli_dual_last(f); j0 >= 0; j0 -= SLI_DUAL_COLUMNS) {
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
         const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
         const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
         SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
@@ -8297,7 +8298,7 @@ SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_p
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     sl_int j0;
-    for (j0 = sli_dual_last(f); j0 >= 0; j0 -= SLI_DUAL_COLUMNS) {
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
         const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
         const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
         SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
@@ -10559,7 +10560,7 @@ SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_p
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     sl_int j0;
-    for (j0 = sli_dual_last(f); j0 >= 0; j0 -= SLI_DUAL_COLUMNS) {
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
         const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
         const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
         SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
@@ -15216,6 +15217,8 @@ typedef struct sli_descent {
     sli_forest forest;     /* of the supernodes of the list */
     sl_int *supers;        /* count: ascending */
     sl_int *up, *low;      /* count: the forest's own, unless it is that of the analysis */
+    int is_partial;        /* groups of columns before the first that is needed are left out */
+    sl_int *first;         /* count: that column, in the supernode; NULL: 0 */
     sli_schedule plan;     /* waiting: of the fronts */
     sl_off scratch;        /* doubles for the kernels, for each worker */
     sli_planning planning; /* of more than one worker */
@@ -15244,6 +15247,7 @@ static void sli_descent_layout(sli_descent *d, sli_block *b) {
     d->supers = SLI_TAKE(b, sl_int, count);
     d->up = SLI_TAKE(b, sl_int, some);
     d->low = SLI_TAKE(b, sl_int, some);
+    d->first = d->is_partial ? SLI_TAKE(b, sl_int, count) : NULL;
     sli_schedule_layout(&d->plan, b, count);
 }
 
@@ -15260,13 +15264,30 @@ static void sli_descent_reach(sli_descent *d, const uint64_t *seeds, sl_int n_se
     const sl_symbolic *S = d->S;
     sl_int k = 0, at = 0, s, next;
     while (k < n_seeds) {
-        s = S->super_of[sli_key(seeds[k])];
+        sl_int column = sli_key(seeds[k]);
+        s = S->super_of[column];
         next = sli_next_seed(S, seeds, n_seeds, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
+            if (d->first != NULL) {
+                d->first[at] = sli_min(column - S->super_first[s], S->steps[s].width);
+            }
             d->supers[at++] = s;
+            column = INT32_MAX;
         }
     }
     SLI_ASSERT(at == d->forest.count);
+}
+
+/* Of a supernode those columns are needed that the set names, and the rows of children. */
+static void sli_descent_columns(sli_descent *d) {
+    const sl_symbolic *S = d->S;
+    sl_int k;
+    for (k = 0; k < d->forest.count; k++) {
+        const sl_int up = d->forest.parent[k];
+        if (up != -1) {
+            d->first[up] = sli_min(d->first[up], S->places[S->rows_begin[d->supers[k]]]);
+        }
+    }
 }
 
 /* Parents and first descendants within a list. A supernode's parent is the next one of the chain of ancestors at hand
@@ -15345,6 +15366,9 @@ static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_see
         d->supers[k] = k;
     }
     sli_descent_tree(d);
+    if (d->first != NULL) {
+        sli_descent_columns(d);
+    }
     for (k = 0; k < d->forest.count && p->workers > 1; k++) {
         d->planning.flops[k] = sli_front_flops(&d->S->steps[d->supers[k]]);
     }
@@ -15427,6 +15451,7 @@ static sli_dual sli_dual_of(const sli_descending *run, sl_int k) {
     f.front = run->fronts + run->d->plan.waiting_begin[k];
     f.width = step->width;
     f.below = step->below;
+    f.first = run->d->first == NULL ? 0 : run->d->first[k];
     return f;
 }
 
@@ -15514,7 +15539,8 @@ static void sli_dual_shared(sli_descending *run) {
     sl_int part;
     run->front = sli_dual_of(run, run->at);
     sli_parallel(run->threads, workers, sli_shared_gather, run);
-    for (run->group = sli_dual_last(&run->front); run->group >= 0; run->group -= SLI_DUAL_COLUMNS) {
+    for (run->group = sli_dual_last(&run->front); run->group + SLI_DUAL_COLUMNS > run->front.first;
+         run->group -= SLI_DUAL_COLUMNS) {
         for (part = 0; part < SLI_DUAL_PARTS; part++) {
             run->part = (sli_dual_part)part;
             sli_parallel(run->threads, workers, sli_shared_part, run);
@@ -16104,6 +16130,7 @@ static void sli_entries_choose(void *call) {
     }
     if (q->method == SL_INVERSE_SELECTED) {
         q->descent = sli_descent_of(q->F->S, supers, sli_workers(&q->F->threads));
+        q->descent.is_partial = !sli_entries_is_all(q);
     }
 }
 

@@ -122,6 +122,50 @@ static void the_shorter_way_is_taken(void **state) {
     }
 }
 
+/* Of wide supernodes the groups of columns before the first that is asked for are left out: the others have the same
+ * bits. Repetitions make the descent the shorter way for some of these lists. */
+static void late_columns_alone(void **state) {
+    (void)state;
+    enum { TIMES = 2560 };
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        for (int kind = 0; kind < 2; kind++) {
+            sl_options opt = options_none();
+            int calls = 0, descents = 0;
+            opt.isa = isas.isa[k];
+            opt.method = SL_METHOD_SUPERNODAL;
+            opt.ordering = kind ? SL_ORDERING_DEFAULT : SL_ORDERING_NATURAL;
+            opt.threads.count = 1 + kind;
+            opt.threads.run = run_threads;
+            opt.threads.context = &calls;
+            problem_t y = problem_make(kind ? GEN_GRID3 : GEN_DENSE, kind ? 3375 : 300, 1, 0, &opt);
+            sl_symbolic_view_t v = sl_symbolic_view(y.S);
+            sl_int n = v.n, root = v.n_supers - 1, width = n - v.super_first[root];
+            sl_int *rows = test_ints((size_t)(width * TIMES));
+            double *all = test_reals((size_t)n), *out = test_reals((size_t)(width * TIMES));
+            assert_true(width > 128);
+            assert_int_equal(diagonal(&y, all, NULL, 0, NULL), SL_INVERSE_SELECTED);
+            for (sl_int late = 1; late < width; late += late / 2 + 1) {
+                for (sl_int i = 0; i < late * TIMES; i++) {
+                    rows[i] = v.perm[n - late + i % late];
+                }
+                if (diagonal(&y, out, rows, late * TIMES, NULL) == SL_INVERSE_FORWARD) {
+                    continue;
+                }
+                descents += late < width - 128;
+                for (sl_int i = 0; i < late * TIMES; i++) {
+                    assert_true(out[i] == all[rows[i]]);
+                }
+            }
+            assert_true(descents > 0 || opt.isa == SL_ISA_SCALAR); /* whose products cost most */
+            free(rows);
+            free(all);
+            free(out);
+            problem_free(&y);
+        }
+    }
+}
+
 /* All entries of A's own pattern, either way round, by a descent; with one that has no place by sweeps. */
 static void entries_of_the_pattern(void **state) {
     (void)state;
@@ -283,8 +327,11 @@ static void null_rows_are_left_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_the_dense_inverse), cmocka_unit_test(the_shorter_way_is_taken),
-        cmocka_unit_test(entries_of_the_pattern),   cmocka_unit_test(memory),
+        cmocka_unit_test(equals_the_dense_inverse),
+        cmocka_unit_test(the_shorter_way_is_taken),
+        cmocka_unit_test(late_columns_alone),
+        cmocka_unit_test(entries_of_the_pattern),
+        cmocka_unit_test(memory),
         cmocka_unit_test(null_rows_are_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

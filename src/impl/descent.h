@@ -14,6 +14,8 @@ typedef struct sli_descent {
     sli_forest forest;     /* of the supernodes of the list */
     sl_int *supers;        /* count: ascending */
     sl_int *up, *low;      /* count: the forest's own, unless it is that of the analysis */
+    int is_partial;        /* groups of columns before the first that is needed are left out */
+    sl_int *first;         /* count: that column, in the supernode; NULL: 0 */
     sli_schedule plan;     /* waiting: of the fronts */
     sl_off scratch;        /* doubles for the kernels, for each worker */
     sli_planning planning; /* of more than one worker */
@@ -42,6 +44,7 @@ static void sli_descent_layout(sli_descent *d, sli_block *b) {
     d->supers = SLI_TAKE(b, sl_int, count);
     d->up = SLI_TAKE(b, sl_int, some);
     d->low = SLI_TAKE(b, sl_int, some);
+    d->first = d->is_partial ? SLI_TAKE(b, sl_int, count) : NULL;
     sli_schedule_layout(&d->plan, b, count);
 }
 
@@ -58,13 +61,30 @@ static void sli_descent_reach(sli_descent *d, const uint64_t *seeds, sl_int n_se
     const sl_symbolic *S = d->S;
     sl_int k = 0, at = 0, s, next;
     while (k < n_seeds) {
-        s = S->super_of[sli_key(seeds[k])];
+        sl_int column = sli_key(seeds[k]);
+        s = S->super_of[column];
         next = sli_next_seed(S, seeds, n_seeds, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
+            if (d->first != NULL) {
+                d->first[at] = sli_min(column - S->super_first[s], S->steps[s].width);
+            }
             d->supers[at++] = s;
+            column = INT32_MAX;
         }
     }
     SLI_ASSERT(at == d->forest.count);
+}
+
+/* Of a supernode those columns are needed that the set names, and the rows of children. */
+static void sli_descent_columns(sli_descent *d) {
+    const sl_symbolic *S = d->S;
+    sl_int k;
+    for (k = 0; k < d->forest.count; k++) {
+        const sl_int up = d->forest.parent[k];
+        if (up != -1) {
+            d->first[up] = sli_min(d->first[up], S->places[S->rows_begin[d->supers[k]]]);
+        }
+    }
 }
 
 /* Parents and first descendants within a list. A supernode's parent is the next one of the chain of ancestors at hand
@@ -143,6 +163,9 @@ static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_see
         d->supers[k] = k;
     }
     sli_descent_tree(d);
+    if (d->first != NULL) {
+        sli_descent_columns(d);
+    }
     for (k = 0; k < d->forest.count && p->workers > 1; k++) {
         d->planning.flops[k] = sli_front_flops(&d->S->steps[d->supers[k]]);
     }

@@ -37,6 +37,7 @@ static sli_dual sli_dual_of(const sli_descending *run, sl_int k) {
     f.front = run->fronts + run->d->plan.waiting_begin[k];
     f.width = step->width;
     f.below = step->below;
+    f.first = run->d->first == NULL ? 0 : run->d->first[k];
     return f;
 }
 
@@ -124,7 +125,8 @@ static void sli_dual_shared(sli_descending *run) {
     sl_int part;
     run->front = sli_dual_of(run, run->at);
     sli_parallel(run->threads, workers, sli_shared_gather, run);
-    for (run->group = sli_dual_last(&run->front); run->group >= 0; run->group -= SLI_DUAL_COLUMNS) {
+    for (run->group = sli_dual_last(&run->front); run->group + SLI_DUAL_COLUMNS > run->front.first;
+         run->group -= SLI_DUAL_COLUMNS) {
         for (part = 0; part < SLI_DUAL_PARTS; part++) {
             run->part = (sli_dual_part)part;
             sli_parallel(run->threads, workers, sli_shared_part, run);

@@ -104,6 +104,7 @@ static void sli_entries_choose(void *call) {
     }
     if (q->method == SL_INVERSE_SELECTED) {
         q->descent = sli_descent_of(q->F->S, supers, sli_workers(&q->F->threads));
+        q->descent.is_partial = !sli_entries_is_all(q);
     }
 }
 

@@ -209,6 +209,7 @@ typedef struct sli_dual {
     const double *D;     /* .. its pivots */
     double *front;
     sl_int width, below;
+    sl_int first; /* groups of columns before this one are left out */
 } sli_dual;
 
 /* Where row tile t of a front of the inverse of h rows starts, in doubles. */

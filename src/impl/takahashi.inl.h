@@ -280,7 +280,7 @@ SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_p
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
     sl_int j0;
-    for (j0 = sli_dual_last(f); j0 >= 0; j0 -= SLI_DUAL_COLUMNS) {
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
         const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
         const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
         SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
