@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 5d6e20f02fe99fdb
+ * FNV-1a of all that follows this comment, license aside: 359dcc5900d05652
  *
  * Contents
  *         (what a user reads)
@@ -70,16 +70,16 @@
  *  14908  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
  *  15206  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  15417  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  15569  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15817  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16029  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  16317  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16537  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16691  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  16909  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  15470  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  15642  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15890  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16102  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  16390  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16610  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16764  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  16982  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
  *         (last: takes every internal macro away again)
- *  17010  impl/leave.h               takes every internal macro away again
+ *  17083  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -848,7 +848,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
  *                   of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
- *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *  Cost     of sweeps 2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
  *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
  *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
  *  Threads  any number at once on one F, each with its own W.
@@ -862,7 +862,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
  * where it was that. It uses the threads that F was made with, a pool of the caller's then once for each call that runs
  * at the same time; the bits do not depend on their number. W grows to the fronts under way, 8 (height)^2 bytes each, where
  * height counts a supernode's columns and the rows below: those from the one at hand to its root that have children to
- * come, for each thread; with several threads also all that stand above the subtrees that are shared out.
+ * come; with several threads, for each of them, and the roots of the subtrees that are shared out, a few dozen.
  *
  * A factor with null pivots that were skipped (SL_SEMIDEFINITE) has the inverse of the matrix without their rows and
  * columns, and 0 in those: A Z A = A where A has no more null vectors than that.
@@ -978,10 +978,10 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *                instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
- *           bytes a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
- *           has children to come, where height counts its columns and the rows below; with several threads for each of
- *           them, and for all supernodes above the subtrees that are shared out.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28 bytes
+ *           a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at
+ *           hand to its root that has children to come, where height counts its columns and the rows below; with several
+ *           threads, for each of them, and for the roots of the subtrees that are shared out, a few dozen.
  *  Threads  reads F; the object is immutable and may be shared. What is computed does not depend on their number.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
@@ -15209,9 +15209,10 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #define SLI_DESCENT_H
 
 /* A front is made of its parent's, which therefore stays until the lowest of its children, the last, has taken its part.
- * Subtrees are tasks of one worker each. In a task the fronts of even and of odd depth have a stack each, which grow
- * towards each other: when a front is made, its parent's is the top of the other stack, or is above the task. Fronts
- * above all tasks, which come first, stay until the end; one worker has none, its task is everything. */
+ * Subtrees are tasks of one worker each, the fronts above them come first; one worker has one task, everything. In a task,
+ * and above the tasks, the fronts of even and of odd depth have a stack each, which grow towards each other: when
+ * a front is made, its parent's is the top of the other stack. The roots of tasks, which take their part as soon as the
+ * front above is done, have places of their own. */
 typedef struct sli_descent {
     const sl_symbolic *S;
     sli_forest forest;     /* of the supernodes of the list */
@@ -15319,29 +15320,95 @@ static void sli_descent_tree(sli_descent *d) {
     d->forest.low = d->low;
 }
 
-/* Where the fronts of a task begin, from a place on; returns how many doubles they take. Until that is known the second
- * stack counts from its end, in numbers below 0. */
-static sl_off sli_descent_stacks(sli_descent *d, sl_int first, sl_int last, sl_off from) {
+/* A front goes to the stack that its parent is not on, or to the first one. The second stack counts from its end, in
+ * numbers below 0, until the size of both is known. is_last: nobody else needs the parent; is_leaf: nobody needs this. */
+static void sli_descent_push(sli_descent *d, sli_stacks *stacks, sl_int k, int is_root, int is_last,
+                             int is_leaf) {
+    const sl_int up = d->forest.parent[k];
+    sl_off *begin = d->plan.waiting_begin, *top = stacks->top;
+    const int side = is_root ? 0 : begin[up] >= 0;
+    const sl_off size = sli_descent_front(d, k);
+    begin[k] = side == 0 ? top[0] : -(top[1] + size);
+    top[side] += size;
+    stacks->most = top[0] + top[1] > stacks->most ? top[0] + top[1] : stacks->most;
+    if (is_last) {
+        top[1 - side] -= sli_descent_front(d, up);
+    }
+    if (is_leaf) {
+        top[side] -= size;
+    }
+}
+
+SLI_INLINE void sli_descent_settle(sli_descent *d, const sli_stacks *stacks, sl_int k,
+                                   sl_off from) {
+    sl_off *begin = &d->plan.waiting_begin[k];
+    *begin += from + (*begin < 0 ? stacks->most : 0);
+}
+
+/* Where the fronts first .. last of a task begin, from a place on; returns how many doubles they take. Their parents are
+ * among them, or the task's root, or none. */
+static sl_off sli_descent_stack_task(sli_descent *d, sl_int first, sl_int last, sl_off from) {
     const sl_int *up = d->forest.parent, *low = d->forest.low;
-    sl_off *begin = d->plan.waiting_begin, top[2] = {0, 0}, most = 0;
+    sli_stacks stacks;
     sl_int k;
+    memset(&stacks, 0, sizeof stacks);
     for (k = last; k >= first; k--) {
-        const int is_root = k == last || up[k] == -1, side = is_root ? 0 : begin[up[k]] >= 0;
-        const sl_off size = sli_descent_front(d, k);
-        begin[k] = side == 0 ? top[0] : -(top[1] + size);
-        top[side] += size;
-        most = top[0] + top[1] > most ? top[0] + top[1] : most;
-        if (!is_root && low[up[k]] == low[k]) {
-            top[1 - side] -= sli_descent_front(d, up[k]);
-        }
-        if (low[k] == k) {
-            top[side] -= size;
-        }
+        const int is_root = up[k] == -1 || up[k] > last;
+        sli_descent_push(d, &stacks, k, is_root, !is_root && low[up[k]] == low[k], low[k] == k);
     }
     for (k = first; k <= last; k++) {
-        begin[k] += from + (begin[k] < 0 ? most : 0);
+        sli_descent_settle(d, &stacks, k, from);
     }
-    return most;
+    return stacks.most;
+}
+
+/* The same of the fronts above all tasks. */
+static sl_off sli_descent_stack_tops(sli_descent *d, sl_off from) {
+    const sli_schedule *p = &d->plan;
+    const sl_int *up = d->forest.parent;
+    sl_int *child = d->planning.side; /* the lowest that is above all tasks, or -1 */
+    sli_stacks stacks;
+    sl_int m;
+    memset(&stacks, 0, sizeof stacks);
+    for (m = p->n_tops - 1; m >= 0; m--) {
+        const sl_int k = p->top[m];
+        child[k] = -1;
+        if (up[k] != -1) {
+            child[up[k]] = k;
+        }
+    }
+    for (m = p->n_tops - 1; m >= 0; m--) {
+        const sl_int k = p->top[m];
+        sli_descent_push(d, &stacks, k, up[k] == -1, up[k] != -1 && child[up[k]] == k,
+                         child[k] == -1);
+    }
+    for (m = 0; m < p->n_tops; m++) {
+        sli_descent_settle(d, &stacks, p->top[m], from);
+    }
+    return stacks.most;
+}
+
+/* The same of everything. */
+static void sli_descent_place(sli_descent *d) {
+    sli_schedule *p = &d->plan;
+    const sl_int own = p->workers > 1; /* a task's root has a place of its own */
+    sl_int k, m;
+    p->waiting = p->n_tops > 0 ? sli_descent_stack_tops(d, 0) : 0;
+    for (m = 0; m < p->n_tasks && own; m++) {
+        p->waiting_begin[p->last[m]] = p->waiting;
+        p->waiting += sli_descent_front(d, p->last[m]);
+    }
+    for (k = 0; k < p->workers; k++) {
+        sl_off most = 0;
+        for (m = 0; m < p->n_tasks; m++) {
+            if (p->worker[m] == k) {
+                const sl_off size =
+                    sli_descent_stack_task(d, p->first[m], p->last[m] - own, p->waiting);
+                most = size > most ? size : most;
+            }
+        }
+        p->waiting += most;
+    }
 }
 
 /* Scratch for any front of the list. */
@@ -15358,7 +15425,7 @@ static sl_off sli_descent_scratch(const sli_descent *d) {
 /* Plans for a list, or, seeds being NULL, for all. The arrays have room. */
 static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_seeds) {
     sli_schedule *p = &d->plan;
-    sl_int k, m;
+    sl_int k;
     if (seeds != NULL) {
         sli_descent_reach(d, seeds, n_seeds);
     }
@@ -15374,21 +15441,7 @@ static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_see
     }
     sli_plan_tasks(p, &d->forest, &d->planning);
     d->scratch = sli_descent_scratch(d);
-    p->waiting = 0;
-    for (m = 0; m < p->n_tops; m++) {
-        p->waiting_begin[p->top[m]] = p->waiting;
-        p->waiting += sli_descent_front(d, p->top[m]);
-    }
-    for (k = 0; k < p->workers; k++) {
-        sl_off most = 0;
-        for (m = 0; m < p->n_tasks; m++) {
-            if (p->worker[m] == k) {
-                const sl_off size = sli_descent_stacks(d, p->first[m], p->last[m], p->waiting);
-                most = size > most ? size : most;
-            }
-        }
-        p->waiting += most;
-    }
+    sli_descent_place(d);
 }
 
 /* Where row stands in supernode s, which begins at or before it, or -1. */
@@ -15484,26 +15537,42 @@ static void sli_dual_prefetch(const sl_factor *F, sl_int s) {
     }
 }
 
-/* The whole of a front by one worker. */
-static void sli_dual_alone(const sli_descending *run, sl_int k, sl_int worker) {
-    const sli_dual f = sli_dual_of(run, k);
-    const sl_int tiles = sli_tiles(f.width + f.below);
-    sli_dual_gather(run, k, &f, 0, tiles);
+/* A front whose rows below are there: the rest of it, and the taker. */
+static void sli_dual_complete(const sli_descending *run, sl_int k, const sli_dual *f,
+                              sl_int worker) {
     if (k > 0) {
         sli_dual_prefetch(run->F, run->d->supers[k - 1]);
     }
-    run->F->kernels->takahashi(&f, run->scratch + (ptrdiff_t)(run->d->scratch * worker));
-    run->take(run->to, k, &f, 0, tiles);
+    run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->d->scratch * worker));
+    run->take(run->to, k, f, 0, sli_tiles(f->width + f->below));
 }
 
-/* Worker k's tasks. */
+/* Worker k's tasks, whose roots have taken their parts before. */
 static void sli_descend_tasks(void *data, sl_int k) {
     const sli_descending *run = (const sli_descending *)data;
     const sli_schedule *plan = &run->d->plan;
     sl_int m, s;
     for (m = 0; m < plan->n_tasks; m++) {
         for (s = plan->last[m]; s >= plan->first[m] && plan->worker[m] == k; s--) {
-            sli_dual_alone(run, s, k);
+            const sli_dual f = sli_dual_of(run, s);
+            if (s < plan->last[m]) {
+                sli_dual_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
+            }
+            sli_dual_complete(run, s, &f, k);
+        }
+    }
+}
+
+/* The children of the front at hand that are roots of tasks take their parts: every `workers`-th one from k on. */
+static void sli_descend_to_roots(const sli_descending *run, sl_int k, sl_int workers) {
+    const sli_schedule *plan = &run->d->plan;
+    const sl_int *low = run->d->forest.low;
+    sl_int c, place, count = 0;
+    for (c = run->at - 1; c >= low[run->at]; c = low[c] - 1) {
+        place = sli_lower_bound(plan->top, plan->n_tops, c);
+        if (plan->top[place] != c && count++ % workers == k) { /* run->at itself is a top */
+            const sli_dual f = sli_dual_of(run, c);
+            sli_dual_gather(run, c, &f, 0, sli_tiles(f.width + f.below));
         }
     }
 }
@@ -15525,12 +15594,13 @@ static void sli_shared_part(void *data, sl_int k) {
                           sli_part(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
-static void sli_shared_keep(void *data, sl_int k) {
+static void sli_shared_take(void *data, sl_int k) {
     const sli_descending *run = (const sli_descending *)data;
     const sl_int workers = run->d->plan.workers;
     const sl_int tiles = sli_tiles(run->front.width + run->front.below);
     run->take(run->to, run->at, &run->front, sli_part(0, tiles, k, workers, 0),
               sli_part(0, tiles, k + 1, workers, 0));
+    sli_descend_to_roots(run, k, workers);
 }
 
 /* The whole of a front by all workers: each row tile goes its own way, so that the bits are the same. */
@@ -15546,7 +15616,7 @@ static void sli_dual_shared(sli_descending *run) {
             sli_parallel(run->threads, workers, sli_shared_part, run);
         }
     }
-    sli_parallel(run->threads, workers, sli_shared_keep, run);
+    sli_parallel(run->threads, workers, sli_shared_take, run);
 }
 
 /* All fronts, parents before children. */
@@ -15558,7 +15628,10 @@ static void sli_descend(sli_descending *run) {
         if (2.0 * sli_front_flops(&run->d->S->steps[run->d->supers[run->at]]) >= SLI_SHARED_FLOPS) {
             sli_dual_shared(run);
         } else {
-            sli_dual_alone(run, run->at, 0);
+            const sli_dual f = sli_dual_of(run, run->at);
+            sli_dual_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
+            sli_dual_complete(run, run->at, &f, 0);
+            sli_descend_to_roots(run, 0, 1);
         }
     }
     sli_parallel(run->threads, plan->workers, sli_descend_tasks, run);

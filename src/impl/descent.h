@@ -6,9 +6,10 @@
 #include "schedule.h"
 
 /* A front is made of its parent's, which therefore stays until the lowest of its children, the last, has taken its part.
- * Subtrees are tasks of one worker each. In a task the fronts of even and of odd depth have a stack each, which grow
- * towards each other: when a front is made, its parent's is the top of the other stack, or is above the task. Fronts
- * above all tasks, which come first, stay until the end; one worker has none, its task is everything. */
+ * Subtrees are tasks of one worker each, the fronts above them come first; one worker has one task, everything. In a task,
+ * and above the tasks, the fronts of even and of odd depth have a stack each, which grow towards each other: when
+ * a front is made, its parent's is the top of the other stack. The roots of tasks, which take their part as soon as the
+ * front above is done, have places of their own. */
 typedef struct sli_descent {
     const sl_symbolic *S;
     sli_forest forest;     /* of the supernodes of the list */
@@ -116,29 +117,95 @@ static void sli_descent_tree(sli_descent *d) {
     d->forest.low = d->low;
 }
 
-/* Where the fronts of a task begin, from a place on; returns how many doubles they take. Until that is known the second
- * stack counts from its end, in numbers below 0. */
-static sl_off sli_descent_stacks(sli_descent *d, sl_int first, sl_int last, sl_off from) {
+/* A front goes to the stack that its parent is not on, or to the first one. The second stack counts from its end, in
+ * numbers below 0, until the size of both is known. is_last: nobody else needs the parent; is_leaf: nobody needs this. */
+static void sli_descent_push(sli_descent *d, sli_stacks *stacks, sl_int k, int is_root, int is_last,
+                             int is_leaf) {
+    const sl_int up = d->forest.parent[k];
+    sl_off *begin = d->plan.waiting_begin, *top = stacks->top;
+    const int side = is_root ? 0 : begin[up] >= 0;
+    const sl_off size = sli_descent_front(d, k);
+    begin[k] = side == 0 ? top[0] : -(top[1] + size);
+    top[side] += size;
+    stacks->most = top[0] + top[1] > stacks->most ? top[0] + top[1] : stacks->most;
+    if (is_last) {
+        top[1 - side] -= sli_descent_front(d, up);
+    }
+    if (is_leaf) {
+        top[side] -= size;
+    }
+}
+
+SLI_INLINE void sli_descent_settle(sli_descent *d, const sli_stacks *stacks, sl_int k,
+                                   sl_off from) {
+    sl_off *begin = &d->plan.waiting_begin[k];
+    *begin += from + (*begin < 0 ? stacks->most : 0);
+}
+
+/* Where the fronts first .. last of a task begin, from a place on; returns how many doubles they take. Their parents are
+ * among them, or the task's root, or none. */
+static sl_off sli_descent_stack_task(sli_descent *d, sl_int first, sl_int last, sl_off from) {
     const sl_int *up = d->forest.parent, *low = d->forest.low;
-    sl_off *begin = d->plan.waiting_begin, top[2] = {0, 0}, most = 0;
+    sli_stacks stacks;
     sl_int k;
+    memset(&stacks, 0, sizeof stacks);
     for (k = last; k >= first; k--) {
-        const int is_root = k == last || up[k] == -1, side = is_root ? 0 : begin[up[k]] >= 0;
-        const sl_off size = sli_descent_front(d, k);
-        begin[k] = side == 0 ? top[0] : -(top[1] + size);
-        top[side] += size;
-        most = top[0] + top[1] > most ? top[0] + top[1] : most;
-        if (!is_root && low[up[k]] == low[k]) {
-            top[1 - side] -= sli_descent_front(d, up[k]);
-        }
-        if (low[k] == k) {
-            top[side] -= size;
-        }
+        const int is_root = up[k] == -1 || up[k] > last;
+        sli_descent_push(d, &stacks, k, is_root, !is_root && low[up[k]] == low[k], low[k] == k);
     }
     for (k = first; k <= last; k++) {
-        begin[k] += from + (begin[k] < 0 ? most : 0);
+        sli_descent_settle(d, &stacks, k, from);
     }
-    return most;
+    return stacks.most;
+}
+
+/* The same of the fronts above all tasks. */
+static sl_off sli_descent_stack_tops(sli_descent *d, sl_off from) {
+    const sli_schedule *p = &d->plan;
+    const sl_int *up = d->forest.parent;
+    sl_int *child = d->planning.side; /* the lowest that is above all tasks, or -1 */
+    sli_stacks stacks;
+    sl_int m;
+    memset(&stacks, 0, sizeof stacks);
+    for (m = p->n_tops - 1; m >= 0; m--) {
+        const sl_int k = p->top[m];
+        child[k] = -1;
+        if (up[k] != -1) {
+            child[up[k]] = k;
+        }
+    }
+    for (m = p->n_tops - 1; m >= 0; m--) {
+        const sl_int k = p->top[m];
+        sli_descent_push(d, &stacks, k, up[k] == -1, up[k] != -1 && child[up[k]] == k,
+                         child[k] == -1);
+    }
+    for (m = 0; m < p->n_tops; m++) {
+        sli_descent_settle(d, &stacks, p->top[m], from);
+    }
+    return stacks.most;
+}
+
+/* The same of everything. */
+static void sli_descent_place(sli_descent *d) {
+    sli_schedule *p = &d->plan;
+    const sl_int own = p->workers > 1; /* a task's root has a place of its own */
+    sl_int k, m;
+    p->waiting = p->n_tops > 0 ? sli_descent_stack_tops(d, 0) : 0;
+    for (m = 0; m < p->n_tasks && own; m++) {
+        p->waiting_begin[p->last[m]] = p->waiting;
+        p->waiting += sli_descent_front(d, p->last[m]);
+    }
+    for (k = 0; k < p->workers; k++) {
+        sl_off most = 0;
+        for (m = 0; m < p->n_tasks; m++) {
+            if (p->worker[m] == k) {
+                const sl_off size =
+                    sli_descent_stack_task(d, p->first[m], p->last[m] - own, p->waiting);
+                most = size > most ? size : most;
+            }
+        }
+        p->waiting += most;
+    }
 }
 
 /* Scratch for any front of the list. */
@@ -155,7 +222,7 @@ static sl_off sli_descent_scratch(const sli_descent *d) {
 /* Plans for a list, or, seeds being NULL, for all. The arrays have room. */
 static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_seeds) {
     sli_schedule *p = &d->plan;
-    sl_int k, m;
+    sl_int k;
     if (seeds != NULL) {
         sli_descent_reach(d, seeds, n_seeds);
     }
@@ -171,21 +238,7 @@ static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_see
     }
     sli_plan_tasks(p, &d->forest, &d->planning);
     d->scratch = sli_descent_scratch(d);
-    p->waiting = 0;
-    for (m = 0; m < p->n_tops; m++) {
-        p->waiting_begin[p->top[m]] = p->waiting;
-        p->waiting += sli_descent_front(d, p->top[m]);
-    }
-    for (k = 0; k < p->workers; k++) {
-        sl_off most = 0;
-        for (m = 0; m < p->n_tasks; m++) {
-            if (p->worker[m] == k) {
-                const sl_off size = sli_descent_stacks(d, p->first[m], p->last[m], p->waiting);
-                most = size > most ? size : most;
-            }
-        }
-        p->waiting += most;
-    }
+    sli_descent_place(d);
 }
 
 /* Where row stands in supernode s, which begins at or before it, or -1. */

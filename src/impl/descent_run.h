@@ -70,26 +70,42 @@ static void sli_dual_prefetch(const sl_factor *F, sl_int s) {
     }
 }
 
-/* The whole of a front by one worker. */
-static void sli_dual_alone(const sli_descending *run, sl_int k, sl_int worker) {
-    const sli_dual f = sli_dual_of(run, k);
-    const sl_int tiles = sli_tiles(f.width + f.below);
-    sli_dual_gather(run, k, &f, 0, tiles);
+/* A front whose rows below are there: the rest of it, and the taker. */
+static void sli_dual_complete(const sli_descending *run, sl_int k, const sli_dual *f,
+                              sl_int worker) {
     if (k > 0) {
         sli_dual_prefetch(run->F, run->d->supers[k - 1]);
     }
-    run->F->kernels->takahashi(&f, run->scratch + (ptrdiff_t)(run->d->scratch * worker));
-    run->take(run->to, k, &f, 0, tiles);
+    run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->d->scratch * worker));
+    run->take(run->to, k, f, 0, sli_tiles(f->width + f->below));
 }
 
-/* Worker k's tasks. */
+/* Worker k's tasks, whose roots have taken their parts before. */
 static void sli_descend_tasks(void *data, sl_int k) {
     const sli_descending *run = (const sli_descending *)data;
     const sli_schedule *plan = &run->d->plan;
     sl_int m, s;
     for (m = 0; m < plan->n_tasks; m++) {
         for (s = plan->last[m]; s >= plan->first[m] && plan->worker[m] == k; s--) {
-            sli_dual_alone(run, s, k);
+            const sli_dual f = sli_dual_of(run, s);
+            if (s < plan->last[m]) {
+                sli_dual_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
+            }
+            sli_dual_complete(run, s, &f, k);
+        }
+    }
+}
+
+/* The children of the front at hand that are roots of tasks take their parts: every `workers`-th one from k on. */
+static void sli_descend_to_roots(const sli_descending *run, sl_int k, sl_int workers) {
+    const sli_schedule *plan = &run->d->plan;
+    const sl_int *low = run->d->forest.low;
+    sl_int c, place, count = 0;
+    for (c = run->at - 1; c >= low[run->at]; c = low[c] - 1) {
+        place = sli_lower_bound(plan->top, plan->n_tops, c);
+        if (plan->top[place] != c && count++ % workers == k) { /* run->at itself is a top */
+            const sli_dual f = sli_dual_of(run, c);
+            sli_dual_gather(run, c, &f, 0, sli_tiles(f.width + f.below));
         }
     }
 }
@@ -111,12 +127,13 @@ static void sli_shared_part(void *data, sl_int k) {
                           sli_part(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
-static void sli_shared_keep(void *data, sl_int k) {
+static void sli_shared_take(void *data, sl_int k) {
     const sli_descending *run = (const sli_descending *)data;
     const sl_int workers = run->d->plan.workers;
     const sl_int tiles = sli_tiles(run->front.width + run->front.below);
     run->take(run->to, run->at, &run->front, sli_part(0, tiles, k, workers, 0),
               sli_part(0, tiles, k + 1, workers, 0));
+    sli_descend_to_roots(run, k, workers);
 }
 
 /* The whole of a front by all workers: each row tile goes its own way, so that the bits are the same. */
@@ -132,7 +149,7 @@ static void sli_dual_shared(sli_descending *run) {
             sli_parallel(run->threads, workers, sli_shared_part, run);
         }
     }
-    sli_parallel(run->threads, workers, sli_shared_keep, run);
+    sli_parallel(run->threads, workers, sli_shared_take, run);
 }
 
 /* All fronts, parents before children. */
@@ -144,7 +161,10 @@ static void sli_descend(sli_descending *run) {
         if (2.0 * sli_front_flops(&run->d->S->steps[run->d->supers[run->at]]) >= SLI_SHARED_FLOPS) {
             sli_dual_shared(run);
         } else {
-            sli_dual_alone(run, run->at, 0);
+            const sli_dual f = sli_dual_of(run, run->at);
+            sli_dual_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
+            sli_dual_complete(run, run->at, &f, 0);
+            sli_descend_to_roots(run, 0, 1);
         }
     }
     sli_parallel(run->threads, plan->workers, sli_descend_tasks, run);

@@ -21,7 +21,7 @@
  *                   of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
- *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *  Cost     of sweeps 2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
  *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
  *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
  *  Threads  any number at once on one F, each with its own W.
@@ -35,7 +35,7 @@
  * where it was that. It uses the threads that F was made with, a pool of the caller's then once for each call that runs
  * at the same time; the bits do not depend on their number. W grows to the fronts under way, 8 (height)^2 bytes each, where
  * height counts a supernode's columns and the rows below: those from the one at hand to its root that have children to
- * come, for each thread; with several threads also all that stand above the subtrees that are shared out.
+ * come; with several threads, for each of them, and the roots of the subtrees that are shared out, a few dozen.
  *
  * A factor with null pivots that were skipped (SL_SEMIDEFINITE) has the inverse of the matrix without their rows and
  * columns, and 0 in those: A Z A = A where A has no more null vectors than that.

@@ -20,10 +20,10 @@
  *                instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
- *           bytes a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
- *           has children to come, where height counts its columns and the rows below; with several threads for each of
- *           them, and for all supernodes above the subtrees that are shared out.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28 bytes
+ *           a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at
+ *           hand to its root that has children to come, where height counts its columns and the rows below; with several
+ *           threads, for each of them, and for the roots of the subtrees that are shared out, a few dozen.
  *  Threads  reads F; the object is immutable and may be shared. What is computed does not depend on their number.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
