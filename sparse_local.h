@@ -1,84 +1,88 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 8a92332821c01946
+ * FNV-1a of all that follows this comment, license aside: 26564b8b9df86a81
  *
  * Contents
  *         (what a user reads)
- *     86  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    137  public/config.h            what a user may set before including the header, the version, and the integer types
- *    186  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    393  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    513  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    575  public/factor.h            the numbers: P A P' = L D L'
- *    681  public/solve.h             full solves, and the workspace that every solve writes to
- *    750  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    838  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    917  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    954  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1051  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *     90  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    141  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    190  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    407  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    527  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    589  public/factor.h            the numbers: P A P' = L D L'
+ *    695  public/solve.h             full solves, and the workspace that every solve writes to
+ *    764  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    852  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *    946  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    983  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1082  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1140  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1231  impl/status.h              status codes in words, and the error fields of stats
- *   1287  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1412  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1487  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1524  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1171  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1262  impl/status.h              status codes in words, and the error fields of stats
+ *   1318  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1443  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1518  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1555  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1558  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1823  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1961  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1991  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3162  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3208  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3345  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3560  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3826  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3988  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4260  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4311  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4456  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5269  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6548  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8721  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10951  impl/select.h              the kernel table for an instruction set
+ *   1596  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1911  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2049  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2079  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3250  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3296  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3433  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3648  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3945  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4107  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4380  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4431  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4576  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5389  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6700  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8905  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11167  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10984  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11412  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11485  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11200  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11628  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11701  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11839  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11878  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12025  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12139  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12283  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12368  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12441  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12607  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12683  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12724  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12917  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13203  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12055  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12094  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12241  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12355  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12499  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12584  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12657  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12823  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12899  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12940  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13151  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13437  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13501  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13634  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13720  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13980  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14067  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14367  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14482  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14586  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14646  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14908  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14950  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13735  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13868  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13954  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14204  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14291  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14591  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14706  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  14810  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14907  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15169  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15211  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15353  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15593  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15912  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16160  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16315  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16762  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15614  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  15878  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  16050  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  16298  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16510  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  16798  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  17039  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17194  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  17416  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  17516  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  17259  impl/leave.h               takes every internal macro away again
+ *  18013  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -269,6 +273,13 @@ typedef enum sl_definiteness {
     SL_SEMIDEFINITE  /* a null pivot is skipped and counted, its row of x is 0: raw Laplacians */
 } sl_definiteness;
 
+/** How entries of the inverse were computed. */
+typedef enum sl_inverse_method {
+    SL_INVERSE_NONE = 0, /* nothing was asked for */
+    SL_INVERSE_FORWARD,  /* forward sweeps of the rows asked for */
+    SL_INVERSE_SELECTED  /* selected inversion on their reach */
+} sl_inverse_method;
+
 /** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
@@ -359,7 +370,7 @@ typedef struct sl_stats {
     sl_off x_entries;
     size_t bytes_plan;
 
-    /* sl_selected_create */
+    /* sl_selected_create; the first three also sl_inverse_diagonal and sl_inverse_pairs, which keep none */
     sl_int z_supernodes; /* those whose part of the inverse was made */
     sl_int z_columns;
     sl_off z_entries;        /* doubles kept for them */
@@ -378,6 +389,9 @@ typedef struct sl_stats {
     /* sl_plan_create */
     int plan_in_region; /* the sweeps end at the boundary of options.region; else at the roots */
     sl_off plan_region_entries; /* doubles of the region's inverse that a solve reads; 0 without */
+
+    /* sl_inverse_diagonal, sl_inverse_pairs */
+    sl_inverse_method inverse_method; /* the one that was used */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -836,7 +850,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 #endif
 /* end src/public/plan.h */
 /* begin src/public/inverse.h */
-/* inverse.h: entries, blocks and bilinear forms of the inverse, by forward sweeps alone */
+/* inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
 #ifndef SL_PUBLIC_INVERSE_H
 #define SL_PUBLIC_INVERSE_H
 
@@ -857,18 +871,32 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
  *                   of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
- *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *  Cost     of sweeps 2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
  *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
  *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Example  tests/test_inverse.c
+ *
+ * Many entries are cheaper by selected inversion of the supernodes they reach (selected.h), of which only the fronts
+ * under way are kept, and not Z. sl_inverse_diagonal and sl_inverse_pairs count the operations of both and take the shorter
+ * way: selected inversion from some hundreds of near-by vertices of a mesh on, or some thousands far apart; for the
+ * whole diagonal always. stats say which (inverse_method), with z_supernodes and z_columns in place of the sweeps' numbers
+ * where it was that. It uses the threads that F was made with, a pool of the caller's then once for each call that runs
+ * at the same time; the bits do not depend on their number. W grows to the fronts under way, 8 (height)^2 bytes each, where
+ * height counts a supernode's columns and the rows below: those from the one at hand to its root that have children to
+ * come; with several threads, for each of them, and the roots of the subtrees that are shared out, a few dozen.
+ *
+ * A factor with null pivots that were skipped (SL_SEMIDEFINITE) has the inverse of the matrix without their rows and
+ * columns, and 0 in those: A Z A = A where A has no more null vectors than that.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
  *  rows   [in]   count rows of A in 0..n-1, any order, repeated or not; NULL (with count ignored): all n.
+ *  Source   [HDA17] 5; [ET75], [SelInv].
+ *  Example  tests/test_diagonal.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *out,
                                                     const sl_int *rows, sl_int count, sl_work *W,
@@ -877,7 +905,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *
 /** Entries of the inverse: out[k] = (A^-1)(rows[k], columns[k]).
  *
  *  out    [out]  count values.
- *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not.
+ *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not. Selected inversion comes in
+ *                 question only where all entries have a place in the pattern of L, as those of A have.
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out,
                                                  const sl_int *rows, const sl_int *columns,
@@ -968,13 +997,15 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
- *  opt    [in]   allocator; may be NULL. The instruction set is the factor's.
+ *  opt    [in]   allocator, and threads, which the object keeps; no threads there, or NULL: those that F was made with. The
+ *                instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
- *           bytes a supernode kept. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
- *           has children to come, where height counts its columns and the rows below.
- *  Threads  reads F; the object is immutable and may be shared.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28 bytes
+ *           a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at
+ *           hand to its root that has children to come, where height counts its columns and the rows below; with several
+ *           threads, for each of them, and for the roots of the subtrees that are shared out, a few dozen.
+ *  Threads  reads F; the object is immutable and may be shared. What is computed does not depend on their number.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
  */
@@ -990,7 +1021,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Where fresh memory is slow, twice as fast.
- *  Threads  nobody else may use Z meanwhile.
+ *  Threads  nobody else may use Z meanwhile; runs on those that Z was made with.
  *  Example  tests/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W);
@@ -1552,6 +1583,13 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     }
 }
 
+/* Where worker k's part of the row tiles first .. last-1 begins: parts are equal, or, where the rows grow
+ * longer as in a triangle, of equal area. */
+static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
+    const double share = (double)k / workers;
+    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
+}
+
 #endif
 /* end src/impl/parallel.h */
 /* L1 kernels: raw arrays only */
@@ -1756,6 +1794,7 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
 /* sums(i, j) -= y(k, i) z(k, j) over `count` rows of 8 lanes each; sums is 8 x 8 by rows. All 64-byte
  * aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+
 /* Fronts of the inverse Z of P A P'. That of a supernode holds Z of its columns and the rows below, h in
  * all, both triangles: row tiles [tile][h][8], numbered as in the panel. */
 typedef struct sli_dual {
@@ -1763,6 +1802,7 @@ typedef struct sli_dual {
     const double *D;     /* .. its pivots */
     double *front;
     sl_int width, below;
+    sl_int first; /* groups of columns before this one are left out */
 } sli_dual;
 
 /* Where row tile t of a front of the inverse of h rows starts, in doubles. */
@@ -1770,24 +1810,71 @@ SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
     return (ptrdiff_t)SLI_TILE * h * t;
 }
 
-/* Column tiles that are completed together, doubles of a row tile of their L'^-1, and of scratch for
- * supernodes of some height and width. */
+/* Column tiles, and columns, that are completed together: a group; doubles of a row tile of their L'^-1. */
 #define SLI_DUAL_GROUP 16
-#define SLI_DUAL_ROW (SLI_DUAL_GROUP * SLI_TILE * SLI_TILE)
+#define SLI_DUAL_COLUMNS (SLI_DUAL_GROUP * SLI_TILE)
+#define SLI_DUAL_ROW (SLI_DUAL_COLUMNS * SLI_TILE)
+
+/* The first column of the last group, columns of the group that starts at j0. */
+SLI_INLINE sl_int sli_dual_last(const sli_dual *f) {
+    return (f->width - 1) / SLI_DUAL_COLUMNS * SLI_DUAL_COLUMNS;
+}
+SLI_INLINE sl_int sli_dual_columns(const sli_dual *f, sl_int j0) {
+    return sli_min(SLI_DUAL_COLUMNS, f->width - j0);
+}
+
+/* Scratch of a group: N and P, SLI_DUAL_GROUP rows each, then W: where it starts, doubles from a column tile to the
+ * next, and doubles of all for supernodes of some height and width. */
+SLI_INLINE double *sli_dual_weights(double *scratch) {
+    return scratch + 2 * SLI_DUAL_GROUP * SLI_DUAL_ROW;
+}
+SLI_INLINE ptrdiff_t sli_dual_stride(const sli_dual *f, sl_int j0) {
+    const sl_int above = (j0 + sli_dual_columns(f, j0)) / SLI_TILE;
+    return SLI_TILE * SLI_TILE * (ptrdiff_t)(sli_tiles(f->width + f->below) - above);
+}
 SLI_INLINE sl_off sli_dual_scratch(sl_int height, sl_int width) {
     return 2 * SLI_DUAL_GROUP * SLI_DUAL_ROW + (sl_off)SLI_TILE * SLI_TILE *
                                                    sli_min(sli_tiles(width), SLI_DUAL_GROUP) *
                                                    sli_tiles(height);
 }
 
-/* Z of the rows below a supernode, out of the front of its parent of that height; places: their rows
- * there, ascending. */
+/* Z of the rows below a supernode, row tiles t0 .. t1-1, out of the front of its parent of that height; places: their
+ * rows there, ascending. */
 typedef void (*sli_gather_kernel)(const sli_dual *f, const double *from, sl_int height,
-                                  const sl_int *places);
+                                  const sl_int *places, sl_int t0, sl_int t1);
 
-/* The rest of the front, by Takahashi's equations. With W = L_SJ L_JJ^-1:
- * Z_SJ = -Z_SS W, Z_JJ = (L_JJ D L_JJ')^-1 - W' Z_SJ. */
+/* The rest of the front, by Takahashi's equations, group after group of columns J, the last one first, with S all rows
+ * after it. With N = -L_JJ'^-1, P = -N D^-1 and W = L_SJ L_JJ^-1: Z_SJ = -Z_SS W, Z_JJ = P N' - W' Z_SJ. */
 typedef void (*sli_takahashi_kernel)(const sli_dual *f, double *scratch);
+
+/* The parts of a group, one after the other, each of which may be shared out by row tiles. */
+typedef enum sli_dual_part {
+    SLI_DUAL_INVERSE = 0, /* N and P: tiles of the group */
+    SLI_DUAL_WEIGHTS,     /* W: tiles of S */
+    SLI_DUAL_PRODUCT,     /* Z_SJ: tiles of S */
+    SLI_DUAL_MIRROR,      /* Z_JS: tiles of S */
+    SLI_DUAL_SQUARE       /* Z_JJ: tiles of the group */
+} sli_dual_part;
+#define SLI_DUAL_PARTS 5
+
+typedef struct sli_span {
+    sl_int first, last;
+} sli_span;
+
+/* The row tiles of a part: first .. last-1. */
+SLI_INLINE sli_span sli_dual_span(const sli_dual *f, sl_int j0, sli_dual_part part) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    sli_span span = {0, sli_tiles(m)};
+    if (part != SLI_DUAL_INVERSE && part != SLI_DUAL_SQUARE) {
+        span.last = j0 + m < h ? sli_tiles(h) : 0;
+        span.first = sli_min((j0 + m) / SLI_TILE, span.last);
+    }
+    return span;
+}
+
+/* Row tiles t0 .. t1-1 of one part. */
+typedef void (*sli_dual_kernel)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                sl_int t1, double *scratch);
 
 /* Numbers that stand side by side, spread over the lanes of a tile one by one: where no instruction
  * does it. */
@@ -1815,6 +1902,7 @@ typedef struct sli_kernels {
     sli_assemble_kernel assemble;
     sli_products_kernel products;
     sli_gather_kernel gather;
+    sli_dual_kernel dual;
     sli_takahashi_kernel takahashi;
 } sli_kernels;
 
@@ -3569,25 +3657,30 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
-/* count columns of a tile := 0. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
-    sl_int k;
+#define SLI_STORE(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE((p) + SLI_TILE * (k), a)                                                         \
+    }
+
+/* The first columns of a tile := 0. Not as a loop: compilers make rep stos of one, and what reads the tile next waits
+ * for it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
     SLV_DECLARE(a)
     SLV_ZERO(a)
-    for (k = 0; k < count; k++) {
-        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
-    }
+    SLI_EACH8(SLI_STORE, x)
 }
+
+#undef SLI_STORE
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
- * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+/* Z of the rows below, row tiles t0 .. t1-1, out of the parent's front: row and column i of theirs is row and
+ * column places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
-                                          const sl_int *places) {
-    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+                                          const sl_int *places, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, u = f->below;
     sl_int t, i;
-    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+    for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {
@@ -3633,12 +3726,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     double *N) {
-    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+/* N = -L'^-1 of a group of m columns from j0 on, row tiles c0 .. c1-1, row tile c from column 8c on, 0 where it
+ * has no row; and P = -N D^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int c0,
+                                                     sl_int c1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    double *N = scratch + SLI_DUAL_ROW * (ptrdiff_t)c0, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int c, t, k;
-    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+    for (c = c0; c < c1; c++, N += SLI_DUAL_ROW, P += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
             const double *l =
@@ -3655,46 +3750,63 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
-    }
-}
-
-/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *N, double *W) {
-    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
-    sl_int c, t;
-    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
-        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
-        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
-            SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)
-            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
-             m - SLI_TILE * c, W, SLI_TILE);
+        for (k = SLI_TILE * c; k < m; k++) {
+            const double minus = -f->D[j0 + k];
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
         }
     }
 }
 
-/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *W) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+/* W' = (L_SJ L_JJ^-1)', row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch;
+    double *W = sli_dual_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW, W += stride) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = t0; t < t1; t++) {
+            double *to = W + tile_size * (ptrdiff_t)(t - t0);
+            SLV_NAME(clear)(to, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, to, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, row tiles t0 .. t1-1, in chunks as in a factorization. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
+    const ptrdiff_t stride = sli_dual_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const double *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     sl_int t, c, s;
-    for (t = first / SLI_TILE; t < tiles; t++) {
-        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
+    for (t = t0; t < t1; t++) {
+        double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c < sli_tiles(m); c++) {
+            SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
+        }
     }
     for (s = first; s < h; s += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, h - s);
-        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
+        for (t = t0; t < t1; t++) {
             double *row = f->front + sli_square_offset(h, t);
             const double *A = row + SLI_TILE * (ptrdiff_t)s;
             double *C = row + SLI_TILE * (ptrdiff_t)j0;
 #if SLV_TILES == 2
-            if (t + 1 < tiles) {
+            if (t + 1 < t1) {
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
-                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    const ptrdiff_t at = tile_size * c;
                     SLV_NAME(block2)
                     (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
@@ -3704,8 +3816,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
                 SLV_NAME(block)
-                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                 sli_min(SLI_TILE, m - SLI_TILE * c));
+                (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -3739,59 +3850,49 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
     }
 }
 
-/* Z_JS = Z_SJ' */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const sl_int tile_size = SLI_TILE * SLI_TILE;
+/* Z_JS = Z_SJ', columns of the row tiles t0 .. t1-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;
     for (c = 0; c < sli_tiles(m); c++) {
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             SLV_NAME(mirror)
-            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                 tile_size * (ptrdiff_t)c,
-             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-             to + tile_size * (ptrdiff_t)t, columns);
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
+             sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * t, columns);
         }
     }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
-                                                    const double *N, double *P, const double *W) {
-    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles of the group's row tiles t0 .. t1-1 and what mirrors
+ * them. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
     const sl_int tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+                 *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, j;
-    for (c = 0; c < tiles; c++) {
-        for (j = SLI_TILE * c; j < m; j++) {
-            const double minus = -f->D[j0 + j];
-            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
-            SLV_DECLARE(a)
-            SLV_DECLARE(b)
-            SLV_LOAD(a, N + at)
-            SLV_BROADCAST(b, &minus)
-            SLV_DIVIDE(a, a, b)
-            SLV_STORE(P + at, a)
-        }
-    }
-    for (t = 0; t < tiles; t++) {
+    sl_int c, t;
+    for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
         for (c = 0; c <= t; c++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-            SLV_NAME(clear)(x, columns);
+            SLV_NAME(clear)(x, SLI_TILE);
             SLV_NAME(block)
             (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
              P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
              columns);
             if (first < h) {
                 SLV_NAME(block)
-                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
@@ -3803,22 +3904,40 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     }
 }
 
+SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                        sl_int t1, double *scratch) {
+    switch (part) {
+    case SLI_DUAL_INVERSE:
+        SLV_NAME(group_inverse)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_WEIGHTS:
+        SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_PRODUCT:
+        SLV_NAME(group_product)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_MIRROR:
+        SLV_NAME(group_mirror)(f, j0, t0, t1);
+        break;
+    default:
+        SLV_NAME(group_square)(f, j0, t0, t1, scratch);
+    }
+}
+
 /* From the last group of columns to the first, each with the columns after it among its rows below:
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
-    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
-           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
-    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
-        const sl_int m = sli_min(most, w - j0);
-        SLV_NAME(group_inverse)(f, j0, m, N);
-        if (j0 + m < h) {
-            SLV_NAME(group_weights)(f, j0, m, N, W);
-            SLV_NAME(group_product)(f, j0, m, W);
-            SLV_NAME(group_mirror)(f, j0, m);
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
+        const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
+        const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
+        SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
+        if (below.first < below.last) {
+            SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_mirror)(f, j0, below.first, below.last);
         }
-        SLV_NAME(group_square)(f, j0, m, N, P, W);
+        SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
     }
 }
 /* end src/impl/takahashi.inl.h */
@@ -4254,6 +4373,7 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(assemble),
     SLV_NAME(products8),
     SLV_NAME(gather),
+    SLV_NAME(dual),
     SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
@@ -5804,25 +5924,30 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
-/* count columns of a tile := 0. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
-    sl_int k;
+#define SLI_STORE(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE((p) + SLI_TILE * (k), a)                                                         \
+    }
+
+/* The first columns of a tile := 0. Not as a loop: compilers make rep stos of one, and what reads the tile next waits
+ * for it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
     SLV_DECLARE(a)
     SLV_ZERO(a)
-    for (k = 0; k < count; k++) {
-        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
-    }
+    SLI_EACH8(SLI_STORE, x)
 }
+
+#undef SLI_STORE
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
- * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+/* Z of the rows below, row tiles t0 .. t1-1, out of the parent's front: row and column i of theirs is row and
+ * column places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
-                                          const sl_int *places) {
-    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+                                          const sl_int *places, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, u = f->below;
     sl_int t, i;
-    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+    for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {
@@ -5868,12 +5993,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     double *N) {
-    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+/* N = -L'^-1 of a group of m columns from j0 on, row tiles c0 .. c1-1, row tile c from column 8c on, 0 where it
+ * has no row; and P = -N D^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int c0,
+                                                     sl_int c1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    double *N = scratch + SLI_DUAL_ROW * (ptrdiff_t)c0, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int c, t, k;
-    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+    for (c = c0; c < c1; c++, N += SLI_DUAL_ROW, P += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
             const double *l =
@@ -5890,46 +6017,63 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
-    }
-}
-
-/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *N, double *W) {
-    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
-    sl_int c, t;
-    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
-        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
-        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
-            SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)
-            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
-             m - SLI_TILE * c, W, SLI_TILE);
+        for (k = SLI_TILE * c; k < m; k++) {
+            const double minus = -f->D[j0 + k];
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
         }
     }
 }
 
-/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *W) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+/* W' = (L_SJ L_JJ^-1)', row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch;
+    double *W = sli_dual_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW, W += stride) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = t0; t < t1; t++) {
+            double *to = W + tile_size * (ptrdiff_t)(t - t0);
+            SLV_NAME(clear)(to, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, to, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, row tiles t0 .. t1-1, in chunks as in a factorization. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
+    const ptrdiff_t stride = sli_dual_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const double *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     sl_int t, c, s;
-    for (t = first / SLI_TILE; t < tiles; t++) {
-        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
+    for (t = t0; t < t1; t++) {
+        double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c < sli_tiles(m); c++) {
+            SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
+        }
     }
     for (s = first; s < h; s += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, h - s);
-        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
+        for (t = t0; t < t1; t++) {
             double *row = f->front + sli_square_offset(h, t);
             const double *A = row + SLI_TILE * (ptrdiff_t)s;
             double *C = row + SLI_TILE * (ptrdiff_t)j0;
 #if SLV_TILES == 2
-            if (t + 1 < tiles) {
+            if (t + 1 < t1) {
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
-                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    const ptrdiff_t at = tile_size * c;
                     SLV_NAME(block2)
                     (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
@@ -5939,8 +6083,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
                 SLV_NAME(block)
-                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                 sli_min(SLI_TILE, m - SLI_TILE * c));
+                (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -5974,59 +6117,49 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
     }
 }
 
-/* Z_JS = Z_SJ' */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const sl_int tile_size = SLI_TILE * SLI_TILE;
+/* Z_JS = Z_SJ', columns of the row tiles t0 .. t1-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;
     for (c = 0; c < sli_tiles(m); c++) {
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             SLV_NAME(mirror)
-            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                 tile_size * (ptrdiff_t)c,
-             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-             to + tile_size * (ptrdiff_t)t, columns);
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
+             sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * t, columns);
         }
     }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
-                                                    const double *N, double *P, const double *W) {
-    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles of the group's row tiles t0 .. t1-1 and what mirrors
+ * them. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
     const sl_int tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+                 *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, j;
-    for (c = 0; c < tiles; c++) {
-        for (j = SLI_TILE * c; j < m; j++) {
-            const double minus = -f->D[j0 + j];
-            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
-            SLV_DECLARE(a)
-            SLV_DECLARE(b)
-            SLV_LOAD(a, N + at)
-            SLV_BROADCAST(b, &minus)
-            SLV_DIVIDE(a, a, b)
-            SLV_STORE(P + at, a)
-        }
-    }
-    for (t = 0; t < tiles; t++) {
+    sl_int c, t;
+    for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
         for (c = 0; c <= t; c++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-            SLV_NAME(clear)(x, columns);
+            SLV_NAME(clear)(x, SLI_TILE);
             SLV_NAME(block)
             (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
              P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
              columns);
             if (first < h) {
                 SLV_NAME(block)
-                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
@@ -6038,22 +6171,40 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     }
 }
 
+SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                        sl_int t1, double *scratch) {
+    switch (part) {
+    case SLI_DUAL_INVERSE:
+        SLV_NAME(group_inverse)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_WEIGHTS:
+        SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_PRODUCT:
+        SLV_NAME(group_product)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_MIRROR:
+        SLV_NAME(group_mirror)(f, j0, t0, t1);
+        break;
+    default:
+        SLV_NAME(group_square)(f, j0, t0, t1, scratch);
+    }
+}
+
 /* From the last group of columns to the first, each with the columns after it among its rows below:
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
-    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
-           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
-    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
-        const sl_int m = sli_min(most, w - j0);
-        SLV_NAME(group_inverse)(f, j0, m, N);
-        if (j0 + m < h) {
-            SLV_NAME(group_weights)(f, j0, m, N, W);
-            SLV_NAME(group_product)(f, j0, m, W);
-            SLV_NAME(group_mirror)(f, j0, m);
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
+        const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
+        const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
+        SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
+        if (below.first < below.last) {
+            SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_mirror)(f, j0, below.first, below.last);
         }
-        SLV_NAME(group_square)(f, j0, m, N, P, W);
+        SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
     }
 }
 /* end src/impl/takahashi.inl.h */
@@ -6489,6 +6640,7 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(assemble),
     SLV_NAME(products8),
     SLV_NAME(gather),
+    SLV_NAME(dual),
     SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
@@ -7977,25 +8129,30 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
-/* count columns of a tile := 0. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
-    sl_int k;
+#define SLI_STORE(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE((p) + SLI_TILE * (k), a)                                                         \
+    }
+
+/* The first columns of a tile := 0. Not as a loop: compilers make rep stos of one, and what reads the tile next waits
+ * for it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
     SLV_DECLARE(a)
     SLV_ZERO(a)
-    for (k = 0; k < count; k++) {
-        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
-    }
+    SLI_EACH8(SLI_STORE, x)
 }
+
+#undef SLI_STORE
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
- * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+/* Z of the rows below, row tiles t0 .. t1-1, out of the parent's front: row and column i of theirs is row and
+ * column places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
-                                          const sl_int *places) {
-    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+                                          const sl_int *places, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, u = f->below;
     sl_int t, i;
-    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+    for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {
@@ -8041,12 +8198,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     double *N) {
-    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+/* N = -L'^-1 of a group of m columns from j0 on, row tiles c0 .. c1-1, row tile c from column 8c on, 0 where it
+ * has no row; and P = -N D^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int c0,
+                                                     sl_int c1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    double *N = scratch + SLI_DUAL_ROW * (ptrdiff_t)c0, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int c, t, k;
-    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+    for (c = c0; c < c1; c++, N += SLI_DUAL_ROW, P += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
             const double *l =
@@ -8063,46 +8222,63 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
-    }
-}
-
-/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *N, double *W) {
-    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
-    sl_int c, t;
-    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
-        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
-        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
-            SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)
-            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
-             m - SLI_TILE * c, W, SLI_TILE);
+        for (k = SLI_TILE * c; k < m; k++) {
+            const double minus = -f->D[j0 + k];
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
         }
     }
 }
 
-/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *W) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+/* W' = (L_SJ L_JJ^-1)', row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch;
+    double *W = sli_dual_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW, W += stride) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = t0; t < t1; t++) {
+            double *to = W + tile_size * (ptrdiff_t)(t - t0);
+            SLV_NAME(clear)(to, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, to, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, row tiles t0 .. t1-1, in chunks as in a factorization. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
+    const ptrdiff_t stride = sli_dual_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const double *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     sl_int t, c, s;
-    for (t = first / SLI_TILE; t < tiles; t++) {
-        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
+    for (t = t0; t < t1; t++) {
+        double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c < sli_tiles(m); c++) {
+            SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
+        }
     }
     for (s = first; s < h; s += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, h - s);
-        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
+        for (t = t0; t < t1; t++) {
             double *row = f->front + sli_square_offset(h, t);
             const double *A = row + SLI_TILE * (ptrdiff_t)s;
             double *C = row + SLI_TILE * (ptrdiff_t)j0;
 #if SLV_TILES == 2
-            if (t + 1 < tiles) {
+            if (t + 1 < t1) {
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
-                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    const ptrdiff_t at = tile_size * c;
                     SLV_NAME(block2)
                     (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
@@ -8112,8 +8288,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
                 SLV_NAME(block)
-                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                 sli_min(SLI_TILE, m - SLI_TILE * c));
+                (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -8147,59 +8322,49 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
     }
 }
 
-/* Z_JS = Z_SJ' */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const sl_int tile_size = SLI_TILE * SLI_TILE;
+/* Z_JS = Z_SJ', columns of the row tiles t0 .. t1-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;
     for (c = 0; c < sli_tiles(m); c++) {
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             SLV_NAME(mirror)
-            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                 tile_size * (ptrdiff_t)c,
-             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-             to + tile_size * (ptrdiff_t)t, columns);
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
+             sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * t, columns);
         }
     }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
-                                                    const double *N, double *P, const double *W) {
-    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles of the group's row tiles t0 .. t1-1 and what mirrors
+ * them. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
     const sl_int tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+                 *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, j;
-    for (c = 0; c < tiles; c++) {
-        for (j = SLI_TILE * c; j < m; j++) {
-            const double minus = -f->D[j0 + j];
-            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
-            SLV_DECLARE(a)
-            SLV_DECLARE(b)
-            SLV_LOAD(a, N + at)
-            SLV_BROADCAST(b, &minus)
-            SLV_DIVIDE(a, a, b)
-            SLV_STORE(P + at, a)
-        }
-    }
-    for (t = 0; t < tiles; t++) {
+    sl_int c, t;
+    for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
         for (c = 0; c <= t; c++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-            SLV_NAME(clear)(x, columns);
+            SLV_NAME(clear)(x, SLI_TILE);
             SLV_NAME(block)
             (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
              P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
              columns);
             if (first < h) {
                 SLV_NAME(block)
-                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
@@ -8211,22 +8376,40 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     }
 }
 
+SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                        sl_int t1, double *scratch) {
+    switch (part) {
+    case SLI_DUAL_INVERSE:
+        SLV_NAME(group_inverse)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_WEIGHTS:
+        SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_PRODUCT:
+        SLV_NAME(group_product)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_MIRROR:
+        SLV_NAME(group_mirror)(f, j0, t0, t1);
+        break;
+    default:
+        SLV_NAME(group_square)(f, j0, t0, t1, scratch);
+    }
+}
+
 /* From the last group of columns to the first, each with the columns after it among its rows below:
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
-    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
-           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
-    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
-        const sl_int m = sli_min(most, w - j0);
-        SLV_NAME(group_inverse)(f, j0, m, N);
-        if (j0 + m < h) {
-            SLV_NAME(group_weights)(f, j0, m, N, W);
-            SLV_NAME(group_product)(f, j0, m, W);
-            SLV_NAME(group_mirror)(f, j0, m);
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
+        const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
+        const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
+        SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
+        if (below.first < below.last) {
+            SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_mirror)(f, j0, below.first, below.last);
         }
-        SLV_NAME(group_square)(f, j0, m, N, P, W);
+        SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
     }
 }
 /* end src/impl/takahashi.inl.h */
@@ -8662,6 +8845,7 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(assemble),
     SLV_NAME(products8),
     SLV_NAME(gather),
+    SLV_NAME(dual),
     SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
@@ -10207,25 +10391,30 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
-/* count columns of a tile := 0. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
-    sl_int k;
+#define SLI_STORE(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE((p) + SLI_TILE * (k), a)                                                         \
+    }
+
+/* The first columns of a tile := 0. Not as a loop: compilers make rep stos of one, and what reads the tile next waits
+ * for it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
     SLV_DECLARE(a)
     SLV_ZERO(a)
-    for (k = 0; k < count; k++) {
-        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
-    }
+    SLI_EACH8(SLI_STORE, x)
 }
+
+#undef SLI_STORE
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
- * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+/* Z of the rows below, row tiles t0 .. t1-1, out of the parent's front: row and column i of theirs is row and
+ * column places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
-                                          const sl_int *places) {
-    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+                                          const sl_int *places, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, u = f->below;
     sl_int t, i;
-    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+    for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {
@@ -10271,12 +10460,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     double *N) {
-    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+/* N = -L'^-1 of a group of m columns from j0 on, row tiles c0 .. c1-1, row tile c from column 8c on, 0 where it
+ * has no row; and P = -N D^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int c0,
+                                                     sl_int c1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    double *N = scratch + SLI_DUAL_ROW * (ptrdiff_t)c0, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int c, t, k;
-    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+    for (c = c0; c < c1; c++, N += SLI_DUAL_ROW, P += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
             const double *l =
@@ -10293,46 +10484,63 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
-    }
-}
-
-/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *N, double *W) {
-    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
-    sl_int c, t;
-    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
-        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
-        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
-            SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)
-            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
-             m - SLI_TILE * c, W, SLI_TILE);
+        for (k = SLI_TILE * c; k < m; k++) {
+            const double minus = -f->D[j0 + k];
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
         }
     }
 }
 
-/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *W) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+/* W' = (L_SJ L_JJ^-1)', row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch;
+    double *W = sli_dual_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW, W += stride) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = t0; t < t1; t++) {
+            double *to = W + tile_size * (ptrdiff_t)(t - t0);
+            SLV_NAME(clear)(to, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, to, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, row tiles t0 .. t1-1, in chunks as in a factorization. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
+    const ptrdiff_t stride = sli_dual_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const double *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     sl_int t, c, s;
-    for (t = first / SLI_TILE; t < tiles; t++) {
-        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
+    for (t = t0; t < t1; t++) {
+        double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c < sli_tiles(m); c++) {
+            SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
+        }
     }
     for (s = first; s < h; s += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, h - s);
-        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
+        for (t = t0; t < t1; t++) {
             double *row = f->front + sli_square_offset(h, t);
             const double *A = row + SLI_TILE * (ptrdiff_t)s;
             double *C = row + SLI_TILE * (ptrdiff_t)j0;
 #if SLV_TILES == 2
-            if (t + 1 < tiles) {
+            if (t + 1 < t1) {
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
-                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    const ptrdiff_t at = tile_size * c;
                     SLV_NAME(block2)
                     (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
@@ -10342,8 +10550,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
                 SLV_NAME(block)
-                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                 sli_min(SLI_TILE, m - SLI_TILE * c));
+                (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -10377,59 +10584,49 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
     }
 }
 
-/* Z_JS = Z_SJ' */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const sl_int tile_size = SLI_TILE * SLI_TILE;
+/* Z_JS = Z_SJ', columns of the row tiles t0 .. t1-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;
     for (c = 0; c < sli_tiles(m); c++) {
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             SLV_NAME(mirror)
-            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                 tile_size * (ptrdiff_t)c,
-             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-             to + tile_size * (ptrdiff_t)t, columns);
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
+             sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * t, columns);
         }
     }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
-                                                    const double *N, double *P, const double *W) {
-    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles of the group's row tiles t0 .. t1-1 and what mirrors
+ * them. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
     const sl_int tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+                 *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, j;
-    for (c = 0; c < tiles; c++) {
-        for (j = SLI_TILE * c; j < m; j++) {
-            const double minus = -f->D[j0 + j];
-            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
-            SLV_DECLARE(a)
-            SLV_DECLARE(b)
-            SLV_LOAD(a, N + at)
-            SLV_BROADCAST(b, &minus)
-            SLV_DIVIDE(a, a, b)
-            SLV_STORE(P + at, a)
-        }
-    }
-    for (t = 0; t < tiles; t++) {
+    sl_int c, t;
+    for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
         for (c = 0; c <= t; c++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-            SLV_NAME(clear)(x, columns);
+            SLV_NAME(clear)(x, SLI_TILE);
             SLV_NAME(block)
             (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
              P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
              columns);
             if (first < h) {
                 SLV_NAME(block)
-                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
@@ -10441,22 +10638,40 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     }
 }
 
+SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                        sl_int t1, double *scratch) {
+    switch (part) {
+    case SLI_DUAL_INVERSE:
+        SLV_NAME(group_inverse)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_WEIGHTS:
+        SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_PRODUCT:
+        SLV_NAME(group_product)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_MIRROR:
+        SLV_NAME(group_mirror)(f, j0, t0, t1);
+        break;
+    default:
+        SLV_NAME(group_square)(f, j0, t0, t1, scratch);
+    }
+}
+
 /* From the last group of columns to the first, each with the columns after it among its rows below:
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
-    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
-           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
-    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
-        const sl_int m = sli_min(most, w - j0);
-        SLV_NAME(group_inverse)(f, j0, m, N);
-        if (j0 + m < h) {
-            SLV_NAME(group_weights)(f, j0, m, N, W);
-            SLV_NAME(group_product)(f, j0, m, W);
-            SLV_NAME(group_mirror)(f, j0, m);
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
+        const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
+        const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
+        SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
+        if (below.first < below.last) {
+            SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_mirror)(f, j0, below.first, below.last);
         }
-        SLV_NAME(group_square)(f, j0, m, N, P, W);
+        SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
     }
 }
 /* end src/impl/takahashi.inl.h */
@@ -10892,6 +11107,7 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(assemble),
     SLV_NAME(products8),
     SLV_NAME(gather),
+    SLV_NAME(dual),
     SLV_NAME(takahashi)};
 /* end src/impl/body.inl.h */
 
@@ -12738,17 +12954,27 @@ typedef struct sli_schedule {
     sl_off waiting;        /* doubles for all of them */
 } sli_schedule;
 
+/* A forest of fronts, numbered in postorder: all supernodes of an analysis, or those of a reach. */
+typedef struct sli_forest {
+    sl_int count;
+    const sl_int *parent; /* count: -1 at a root */
+    const sl_int *low;    /* count: the first of the subtree */
+} sli_forest;
+
 /* What the planning needs only while it runs. */
 typedef struct sli_planning {
-    double *flops;   /* n_supers: of the subtree */
+    double *flops;   /* count: of the front, then of the subtree */
     double *load;    /* workers */
-    sl_int *side;    /* n_supers: the stack of a supernode, 2 more in a task */
-    uint64_t *order; /* n_supers: tasks, the largest last */
+    sl_int *side;    /* count: the stack of a supernode, 2 more in a task */
+    uint64_t *order; /* count: tasks, the largest last */
     uint64_t *scratch;
 } sli_planning;
 
 /* Tasks this much smaller than a worker's share even out what no estimate knows. */
 #define SLI_TASKS_A_WORKER 8
+
+/* A front of this many flops takes some 50 us, and is shared out at 1 or 2 us a step by OpenMP, at more by others. */
+#define SLI_SHARED_FLOPS 4e6
 
 /* Doubles that a supernode leaves to its parent: the update matrix and the magnitudes of its rows. */
 SLI_INLINE sl_off sli_waiting_size(const sli_step *s) {
@@ -12828,12 +13054,12 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
 }
 
 /* Subtrees of at most limit flops whose parent has more, in ascending order of flops. */
-static void sli_find_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *w, double limit) {
+static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w, double limit) {
     const double scale = limit > 0.0 ? 1e9 / limit : 0.0;
     sl_int s;
     p->n_tasks = p->n_tops = 0;
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int up = S->super_parent[s];
+    for (s = 0; s < f->count; s++) {
+        const sl_int up = f->parent[s];
         if (w->flops[s] > limit) {
             p->top[p->n_tops++] = s;
         } else if (up == -1 || w->flops[up] > limit) {
@@ -12844,7 +13070,7 @@ static void sli_find_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *
 }
 
 /* The largest tasks first, each to the worker who has least. */
-static void sli_share_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w) {
     sl_int m, k;
     for (k = 0; k < p->workers; k++) {
         w->load[k] = 0.0;
@@ -12856,36 +13082,44 @@ static void sli_share_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning 
             least = w->load[k] < w->load[least] ? k : least;
         }
         w->load[least] += w->flops[root];
-        p->first[m] = S->descendant[root];
+        p->first[m] = f->low[root];
         p->last[m] = root;
         p->worker[m] = least;
     }
 }
 
-/* Plans for p->workers. The arrays of p and w have room. */
-static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+/* Tasks and tops for p->workers. w->flops: of the fronts, where there is more than one worker. */
+static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w) {
     double total = 0.0;
-    sl_int s, m;
-    for (s = 0; s < S->n_supers; s++) {
-        w->flops[s] = 0.0;
+    sl_int s;
+    if (p->workers == 1) {
+        p->n_tops = 0;
+        p->n_tasks = f->count > 0;
+        if (f->count > 0) {
+            p->first[0] = p->worker[0] = 0;
+            p->last[0] = f->count - 1;
+        }
+        return;
     }
-    for (s = 0; s < S->n_supers; s++) {
-        w->flops[s] += sli_front_flops(&S->steps[s]);
-        if (S->super_parent[s] != -1) {
-            w->flops[S->super_parent[s]] += w->flops[s];
+    for (s = 0; s < f->count; s++) {
+        if (f->parent[s] != -1) {
+            w->flops[f->parent[s]] += w->flops[s];
         } else {
             total += w->flops[s];
         }
     }
-    if (p->workers == 1 && S->n_supers > 0) {
-        p->n_tops = 0;
-        p->n_tasks = 1;
-        p->first[0] = p->worker[0] = 0;
-        p->last[0] = S->n_supers - 1;
-    } else {
-        sli_find_tasks(p, S, w, total / ((double)p->workers * SLI_TASKS_A_WORKER));
-        sli_share_tasks(p, S, w);
+    sli_find_tasks(p, f, w, total / ((double)p->workers * SLI_TASKS_A_WORKER));
+    sli_share_tasks(p, f, w);
+}
+
+/* Plans for p->workers. The arrays of p and w have room. */
+static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+    const sli_forest f = {S->n_supers, S->super_parent, S->descendant};
+    sl_int s, m;
+    for (s = 0; s < S->n_supers; s++) {
+        w->flops[s] = sli_front_flops(&S->steps[s]);
     }
+    sli_plan_tasks(p, &f, w);
     for (s = S->n_supers - 1; s >= 0; s--) {
         w->side[s] = S->super_parent[s] == -1 ? 2 : 3 - (w->side[S->super_parent[s]] & 1);
     }
@@ -12895,21 +13129,21 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_plannin
     sli_plan_waiting(p, S, w->side);
 }
 
-static void sli_schedule_layout(sli_schedule *p, sli_block *b, const sl_symbolic *S) {
-    const size_t supers = (size_t)S->n_supers, tasks = p->workers == 1 ? 1 : supers;
+static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
+    const uint64_t fronts = (uint64_t)count, tasks = p->workers == 1 ? 1 : fronts;
     p->first = SLI_TAKE(b, sl_int, tasks);
     p->last = SLI_TAKE(b, sl_int, tasks);
     p->worker = SLI_TAKE(b, sl_int, tasks);
-    p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : supers);
-    p->waiting_begin = SLI_TAKE(b, sl_off, supers);
+    p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
+    p->waiting_begin = SLI_TAKE(b, sl_off, fronts);
 }
 
-static void sli_planning_layout(sli_planning *w, sli_block *b, sl_int supers, sl_int workers) {
-    w->flops = SLI_TAKE(b, double, supers);
+static void sli_planning_layout(sli_planning *w, sli_block *b, sl_int count, sl_int workers) {
+    w->flops = SLI_TAKE(b, double, count);
     w->load = SLI_TAKE(b, double, workers);
-    w->side = SLI_TAKE(b, sl_int, supers);
-    w->order = SLI_TAKE(b, uint64_t, supers);
-    w->scratch = SLI_TAKE(b, uint64_t, supers);
+    w->side = SLI_TAKE(b, sl_int, count);
+    w->order = SLI_TAKE(b, uint64_t, count);
+    w->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
 #endif
@@ -13731,9 +13965,6 @@ typedef struct sli_job {
     sli_front front;
 } sli_job;
 
-/* A front of this many flops takes some 50 us, and is shared out at 1 or 2 us a step by OpenMP, at more by others. */
-#define SLI_SHARED_FLOPS 4e6
-
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
     const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
@@ -13876,13 +14107,6 @@ static void sli_do_tasks(void *data, sl_int k) {
             }
         }
     }
-}
-
-/* Row tiles of worker k: of first .. last-1 in equal parts, or, where the rows grow longer as in a
- * triangle, in parts of equal area. */
-static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
-    const double share = (double)k / workers;
-    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
 }
 
 static void sli_shared_clear(void *data, sl_int k) {
@@ -14083,7 +14307,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->failures = SLI_TAKE(b, sli_failure, workers);
         F->local = SLI_TAKE(b, sl_int, n);
         F->places = SLI_TAKE(b, sl_int, S->tallest);
-        sli_schedule_layout(&F->schedule, b, S);
+        sli_schedule_layout(&F->schedule, b, S->n_supers);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
         F->x = SLI_TAKE(b, double, n);
@@ -14607,6 +14831,43 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     sli_free(&W->allocator, W->block);
     W->block = block;
     W->size = bytes;
+    return SL_OK;
+}
+
+/* A stage of a call on a workspace: lays its arrays out, then fills them; what q holds after the stages before it
+ * tells how large they are. */
+typedef struct sli_stage {
+    void (*lay)(void *q, sli_block *b);
+    void (*fill)(void *q); /* or NULL */
+} sli_stage;
+
+/* Runs stages. Where W is too small for one it grows, which loses what is in it, and they begin anew: none may write
+ * to the caller's arrays. */
+static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count, void *q) {
+    sli_block b = {(unsigned char *)W->block, 0, 0};
+    int k = 0;
+    while (k < count) {
+        sli_block trial = {NULL, b.used, 0};
+        stages[k].lay(q, &trial);
+        if (trial.overflow) {
+            return SL_ERR_TOO_LARGE;
+        }
+        if (trial.used > W->size) {
+            const sl_status status = sli_work_grow(W, trial.used);
+            if (status != SL_OK) {
+                return status;
+            }
+            b.base = (unsigned char *)W->block;
+            b.used = 0;
+            k = 0;
+            continue;
+        }
+        stages[k].lay(q, &b);
+        if (stages[k].fill != NULL) {
+            stages[k].fill(q);
+        }
+        k++;
+    }
     return SL_OK;
 }
 
@@ -15350,6 +15611,442 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
 #endif
 /* end src/impl/plan.h */
 /* L5 on a factor */
+/* begin src/impl/descent.h */
+/* descent.h: the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait */
+#ifndef SLI_DESCENT_H
+#define SLI_DESCENT_H
+
+/* A front is made of its parent's, which therefore stays until the lowest of its children, the last, has taken its part.
+ * Subtrees are tasks of one worker each, the fronts above them come first; one worker has one task, everything. In a task,
+ * and above the tasks, the fronts of even and of odd depth have a stack each, which grow towards each other: when
+ * a front is made, its parent's is the top of the other stack. The roots of tasks, which take their part as soon as the
+ * front above is done, have places of their own. */
+typedef struct sli_descent {
+    const sl_symbolic *S;
+    sli_forest forest;     /* of the supernodes of the list */
+    sl_int *supers;        /* count: ascending */
+    sl_int *up, *low;      /* count: the forest's own, unless it is that of the analysis */
+    int is_partial;        /* groups of columns before the first that is needed are left out */
+    sl_int *first;         /* count: that column, in the supernode; NULL: 0 */
+    sli_schedule plan;     /* waiting: of the fronts */
+    sl_off scratch;        /* doubles for the kernels, for each worker */
+    sli_planning planning; /* of more than one worker */
+} sli_descent;
+
+/* Doubles of the front of the k-th supernode: whole row tiles of all its columns, and a tile, as columns that the last
+ * one has not are read along with those it has. */
+SLI_INLINE sl_off sli_descent_front(const sli_descent *d, sl_int k) {
+    const sli_step *step = &d->S->steps[d->supers[k]];
+    const sl_int h = step->width + step->below;
+    return (sl_off)sli_square_offset(h, sli_tiles(h)) + SLI_TILE * SLI_TILE;
+}
+
+/* A list of count supernodes, n_supers being all, by so many workers at most. */
+static sli_descent sli_descent_of(const sl_symbolic *S, sl_int count, sl_int workers) {
+    sli_descent d;
+    memset(&d, 0, sizeof d);
+    d.S = S;
+    d.forest.count = count;
+    d.plan.workers = sli_min(workers, sli_max(count, 1));
+    return d;
+}
+
+static void sli_descent_layout(sli_descent *d, sli_block *b) {
+    const sl_int count = d->forest.count, some = count < d->S->n_supers ? count : 0;
+    d->supers = SLI_TAKE(b, sl_int, count);
+    d->up = SLI_TAKE(b, sl_int, some);
+    d->low = SLI_TAKE(b, sl_int, some);
+    d->first = d->is_partial ? SLI_TAKE(b, sl_int, count) : NULL;
+    sli_schedule_layout(&d->plan, b, count);
+}
+
+/* What only the planning of several workers needs. */
+static void sli_descent_layout_planning(sli_descent *d, sli_block *b) {
+    const sl_int workers = d->plan.workers;
+    if (workers > 1) {
+        sli_planning_layout(&d->planning, b, d->forest.count, workers);
+    }
+}
+
+/* The supernodes of the reach of seeds, columns of L in ascending order. */
+static void sli_descent_reach(sli_descent *d, const uint64_t *seeds, sl_int n_seeds) {
+    const sl_symbolic *S = d->S;
+    sl_int k = 0, at = 0, s, next;
+    while (k < n_seeds) {
+        sl_int column = sli_key(seeds[k]);
+        s = S->super_of[column];
+        next = sli_next_seed(S, seeds, n_seeds, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            if (d->first != NULL) {
+                d->first[at] = sli_min(column - S->super_first[s], S->steps[s].width);
+            }
+            d->supers[at++] = s;
+            column = INT32_MAX;
+        }
+    }
+    SLI_ASSERT(at == d->forest.count);
+}
+
+/* Of a supernode those columns are needed that the set names, and the rows of children. */
+static void sli_descent_columns(sli_descent *d) {
+    const sl_symbolic *S = d->S;
+    sl_int k;
+    for (k = 0; k < d->forest.count; k++) {
+        const sl_int up = d->forest.parent[k];
+        if (up != -1) {
+            d->first[up] = sli_min(d->first[up], S->places[S->rows_begin[d->supers[k]]]);
+        }
+    }
+}
+
+/* Parents and first descendants within a list. A supernode's parent is the next one of the chain of ancestors at hand
+ * that is not below it, as the list is in postorder and closed under the parent relation. */
+static void sli_descent_tree(sli_descent *d) {
+    const sl_symbolic *S = d->S;
+    const sl_int count = d->forest.count;
+    sl_int k, up = -1;
+    d->forest.parent = S->super_parent;
+    d->forest.low = S->descendant;
+    if (count == S->n_supers) {
+        return;
+    }
+    for (k = count - 1; k >= 0; k--) {
+        const sl_int parent = S->super_parent[d->supers[k]];
+        while (up != -1 && d->supers[up] != parent) {
+            up = d->up[up];
+        }
+        d->up[k] = up;
+        d->low[k] = k;
+        up = k;
+    }
+    for (k = 0; k < count; k++) {
+        if (d->up[k] != -1) {
+            d->low[d->up[k]] = sli_min(d->low[d->up[k]], d->low[k]);
+        }
+    }
+    d->forest.parent = d->up;
+    d->forest.low = d->low;
+}
+
+/* A front goes to the stack that its parent is not on, or to the first one. The second stack counts from its end, in
+ * numbers below 0, until the size of both is known. is_last: nobody else needs the parent; is_leaf: nobody needs this. */
+static void sli_descent_push(sli_descent *d, sli_stacks *stacks, sl_int k, int is_root, int is_last,
+                             int is_leaf) {
+    const sl_int up = d->forest.parent[k];
+    sl_off *begin = d->plan.waiting_begin, *top = stacks->top;
+    const int side = is_root ? 0 : begin[up] >= 0;
+    const sl_off size = sli_descent_front(d, k);
+    begin[k] = side == 0 ? top[0] : -(top[1] + size);
+    top[side] += size;
+    stacks->most = top[0] + top[1] > stacks->most ? top[0] + top[1] : stacks->most;
+    if (is_last) {
+        top[1 - side] -= sli_descent_front(d, up);
+    }
+    if (is_leaf) {
+        top[side] -= size;
+    }
+}
+
+SLI_INLINE void sli_descent_settle(sli_descent *d, const sli_stacks *stacks, sl_int k,
+                                   sl_off from) {
+    sl_off *begin = &d->plan.waiting_begin[k];
+    *begin += from + (*begin < 0 ? stacks->most : 0);
+}
+
+/* Where the fronts first .. last of a task begin, from a place on; returns how many doubles they take. Their parents are
+ * among them, or the task's root, or none. */
+static sl_off sli_descent_stack_task(sli_descent *d, sl_int first, sl_int last, sl_off from) {
+    const sl_int *up = d->forest.parent, *low = d->forest.low;
+    sli_stacks stacks;
+    sl_int k;
+    memset(&stacks, 0, sizeof stacks);
+    for (k = last; k >= first; k--) {
+        const int is_root = up[k] == -1 || up[k] > last;
+        sli_descent_push(d, &stacks, k, is_root, !is_root && low[up[k]] == low[k], low[k] == k);
+    }
+    for (k = first; k <= last; k++) {
+        sli_descent_settle(d, &stacks, k, from);
+    }
+    return stacks.most;
+}
+
+/* The same of the fronts above all tasks. */
+static sl_off sli_descent_stack_tops(sli_descent *d, sl_off from) {
+    const sli_schedule *p = &d->plan;
+    const sl_int *up = d->forest.parent;
+    sl_int *child = d->planning.side; /* the lowest that is above all tasks, or -1 */
+    sli_stacks stacks;
+    sl_int m;
+    memset(&stacks, 0, sizeof stacks);
+    for (m = p->n_tops - 1; m >= 0; m--) {
+        const sl_int k = p->top[m];
+        child[k] = -1;
+        if (up[k] != -1) {
+            child[up[k]] = k;
+        }
+    }
+    for (m = p->n_tops - 1; m >= 0; m--) {
+        const sl_int k = p->top[m];
+        sli_descent_push(d, &stacks, k, up[k] == -1, up[k] != -1 && child[up[k]] == k,
+                         child[k] == -1);
+    }
+    for (m = 0; m < p->n_tops; m++) {
+        sli_descent_settle(d, &stacks, p->top[m], from);
+    }
+    return stacks.most;
+}
+
+/* The same of everything. */
+static void sli_descent_place(sli_descent *d) {
+    sli_schedule *p = &d->plan;
+    const sl_int own = p->workers > 1; /* a task's root has a place of its own */
+    sl_int k, m;
+    p->waiting = p->n_tops > 0 ? sli_descent_stack_tops(d, 0) : 0;
+    for (m = 0; m < p->n_tasks && own; m++) {
+        p->waiting_begin[p->last[m]] = p->waiting;
+        p->waiting += sli_descent_front(d, p->last[m]);
+    }
+    for (k = 0; k < p->workers; k++) {
+        sl_off most = 0;
+        for (m = 0; m < p->n_tasks; m++) {
+            if (p->worker[m] == k) {
+                const sl_off size =
+                    sli_descent_stack_task(d, p->first[m], p->last[m] - own, p->waiting);
+                most = size > most ? size : most;
+            }
+        }
+        p->waiting += most;
+    }
+}
+
+/* Scratch for any front of the list. */
+static sl_off sli_descent_scratch(const sli_descent *d) {
+    sl_int k, tallest = 0, widest = 0;
+    for (k = 0; k < d->forest.count; k++) {
+        const sli_step *step = &d->S->steps[d->supers[k]];
+        tallest = sli_max(tallest, step->width + step->below);
+        widest = sli_max(widest, step->width);
+    }
+    return sli_dual_scratch(tallest, widest);
+}
+
+/* Plans for a list, or, seeds being NULL, for all. The arrays have room. */
+static void sli_descent_plan(sli_descent *d, const uint64_t *seeds, sl_int n_seeds) {
+    sli_schedule *p = &d->plan;
+    sl_int k;
+    if (seeds != NULL) {
+        sli_descent_reach(d, seeds, n_seeds);
+    }
+    for (k = 0; k < d->forest.count && seeds == NULL; k++) {
+        d->supers[k] = k;
+    }
+    sli_descent_tree(d);
+    if (d->first != NULL) {
+        sli_descent_columns(d);
+    }
+    for (k = 0; k < d->forest.count && p->workers > 1; k++) {
+        d->planning.flops[k] = sli_front_flops(&d->S->steps[d->supers[k]]);
+    }
+    sli_plan_tasks(p, &d->forest, &d->planning);
+    d->scratch = sli_descent_scratch(d);
+    sli_descent_place(d);
+}
+
+/* Where row stands in supernode s, which begins at or before it, or -1. */
+static sl_int sli_descent_row(const sl_symbolic *S, sl_int s, sl_int row) {
+    const sl_int *rows = S->rows + S->rows_begin[s];
+    const sl_int width = S->steps[s].width, below = S->steps[s].below, r = row - S->super_first[s];
+    sl_int i;
+    if (r < width) {
+        return r;
+    }
+    i = sli_lower_bound(rows, below, row);
+    return i < below && rows[i] == row ? width + i : -1;
+}
+
+static void sli_descent_stats(const sli_descent *d, sl_stats *stats) {
+    sl_int k;
+    stats->z_supernodes = d->forest.count;
+    stats->z_columns = 0;
+    for (k = 0; k < d->forest.count; k++) {
+        stats->z_columns += d->S->steps[d->supers[k]].width;
+    }
+}
+
+#endif
+/* end src/impl/descent.h */
+/* begin src/impl/descent_run.h */
+/* descent_run.h: the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker */
+#ifndef SLI_DESCENT_RUN_H
+#define SLI_DESCENT_RUN_H
+
+/* Takes what it wants of row tiles t0 .. t1-1 of the completed front of the k-th supernode of a list. Calls for other
+ * tiles, or for other fronts, may run at once. */
+typedef void (*sli_taker)(void *to, sl_int k, const sli_dual *f, sl_int t0, sl_int t1);
+
+/* A run under way; the memory is that of sli_descent_layout_run. */
+typedef struct sli_descending {
+    const sl_factor *F;
+    const sli_descent *d;
+    const sl_threads *threads;
+    sli_taker take;
+    void *to;
+    double *fronts, *scratch;
+    /* the front that all workers share */
+    sl_int at;
+    sli_dual front;
+    sl_int group;
+    sli_dual_part part;
+} sli_descending;
+
+static void sli_descent_layout_run(sli_descending *run, const sli_descent *d, sli_block *b) {
+    run->fronts = SLI_TAKE(b, double, d->plan.waiting);
+    run->scratch = SLI_TAKE(b, double, (uint64_t)d->plan.workers *(uint64_t)d->scratch);
+}
+
+static sli_dual sli_dual_of(const sli_descending *run, sl_int k) {
+    const sli_step *step = &run->d->S->steps[run->d->supers[k]];
+    sli_dual f;
+    f.panel = run->F->L + step->panel;
+    f.D = run->F->D + step->column;
+    f.front = run->fronts + run->d->plan.waiting_begin[k];
+    f.width = step->width;
+    f.below = step->below;
+    f.first = run->d->first == NULL ? 0 : run->d->first[k];
+    return f;
+}
+
+/* Row tiles t0 .. t1-1 of the rows below, out of the parent's front. */
+static void sli_dual_gather(const sli_descending *run, sl_int k, const sli_dual *f, sl_int t0,
+                            sl_int t1) {
+    const sli_descent *d = run->d;
+    const sl_int up = d->forest.parent[k];
+    if (up != -1) {
+        const sli_dual parent = sli_dual_of(run, up);
+        run->F->kernels->gather(f, parent.front, parent.width + parent.below,
+                                d->S->places + d->S->rows_begin[d->supers[k]], t0, t1);
+    }
+}
+
+/* Most of a panel that is asked for before its turn: read from the last to the first they meet no hardware that runs
+ * ahead of them, and waiting for L was a fifth of all time on 2D meshes; and so it is with the places of rows. */
+#define SLI_PANEL_AHEAD ((sl_off)1024)
+
+static void sli_dual_prefetch(const sl_factor *F, sl_int s) {
+    const sl_symbolic *S = F->S;
+    const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
+    const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
+    sl_off k;
+    for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
+        SLI_PREFETCH(S->places + row + k, 0);
+    }
+    for (k = 0; k < size && k < SLI_PANEL_AHEAD; k += SLI_TILE) {
+        SLI_PREFETCH(F->L + first + k, 0);
+    }
+}
+
+/* A front whose rows below are there: the rest of it, and the taker. */
+static void sli_dual_complete(const sli_descending *run, sl_int k, const sli_dual *f,
+                              sl_int worker) {
+    if (k > 0) {
+        sli_dual_prefetch(run->F, run->d->supers[k - 1]);
+    }
+    run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->d->scratch * worker));
+    run->take(run->to, k, f, 0, sli_tiles(f->width + f->below));
+}
+
+/* Worker k's tasks, whose roots have taken their parts before. */
+static void sli_descend_tasks(void *data, sl_int k) {
+    const sli_descending *run = (const sli_descending *)data;
+    const sli_schedule *plan = &run->d->plan;
+    sl_int m, s;
+    for (m = 0; m < plan->n_tasks; m++) {
+        for (s = plan->last[m]; s >= plan->first[m] && plan->worker[m] == k; s--) {
+            const sli_dual f = sli_dual_of(run, s);
+            if (s < plan->last[m]) {
+                sli_dual_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
+            }
+            sli_dual_complete(run, s, &f, k);
+        }
+    }
+}
+
+/* The children of the front at hand that are roots of tasks take their parts: every `workers`-th one from k on. */
+static void sli_descend_to_roots(const sli_descending *run, sl_int k, sl_int workers) {
+    const sli_schedule *plan = &run->d->plan;
+    const sl_int *low = run->d->forest.low;
+    sl_int c, place, count = 0;
+    for (c = run->at - 1; c >= low[run->at]; c = low[c] - 1) {
+        place = sli_lower_bound(plan->top, plan->n_tops, c);
+        if (plan->top[place] != c && count++ % workers == k) { /* run->at itself is a top */
+            const sli_dual f = sli_dual_of(run, c);
+            sli_dual_gather(run, c, &f, 0, sli_tiles(f.width + f.below));
+        }
+    }
+}
+
+static void sli_shared_gather(void *data, sl_int k) {
+    const sli_descending *run = (const sli_descending *)data;
+    const sl_int workers = run->d->plan.workers, first = run->front.width / SLI_TILE;
+    const sl_int tiles = sli_tiles(run->front.width + run->front.below);
+    sli_dual_gather(run, run->at, &run->front, sli_part(first, tiles, k, workers, 0),
+                    sli_part(first, tiles, k + 1, workers, 0));
+}
+
+static void sli_shared_part(void *data, sl_int k) {
+    const sli_descending *run = (const sli_descending *)data;
+    const sl_int workers = run->d->plan.workers, is_square = run->part == SLI_DUAL_SQUARE;
+    const sli_span all = sli_dual_span(&run->front, run->group, run->part);
+    run->F->kernels->dual(&run->front, run->group, run->part,
+                          sli_part(all.first, all.last, k, workers, is_square),
+                          sli_part(all.first, all.last, k + 1, workers, is_square), run->scratch);
+}
+
+static void sli_shared_take(void *data, sl_int k) {
+    const sli_descending *run = (const sli_descending *)data;
+    const sl_int workers = run->d->plan.workers;
+    const sl_int tiles = sli_tiles(run->front.width + run->front.below);
+    run->take(run->to, run->at, &run->front, sli_part(0, tiles, k, workers, 0),
+              sli_part(0, tiles, k + 1, workers, 0));
+    sli_descend_to_roots(run, k, workers);
+}
+
+/* The whole of a front by all workers: each row tile goes its own way, so that the bits are the same. */
+static void sli_dual_shared(sli_descending *run) {
+    const sl_int workers = run->d->plan.workers;
+    sl_int part;
+    run->front = sli_dual_of(run, run->at);
+    sli_parallel(run->threads, workers, sli_shared_gather, run);
+    for (run->group = sli_dual_last(&run->front); run->group + SLI_DUAL_COLUMNS > run->front.first;
+         run->group -= SLI_DUAL_COLUMNS) {
+        for (part = 0; part < SLI_DUAL_PARTS; part++) {
+            run->part = (sli_dual_part)part;
+            sli_parallel(run->threads, workers, sli_shared_part, run);
+        }
+    }
+    sli_parallel(run->threads, workers, sli_shared_take, run);
+}
+
+/* All fronts, parents before children. */
+static void sli_descend(sli_descending *run) {
+    const sli_schedule *plan = &run->d->plan;
+    sl_int m;
+    for (m = plan->n_tops - 1; m >= 0; m--) {
+        run->at = plan->top[m];
+        if (2.0 * sli_front_flops(&run->d->S->steps[run->d->supers[run->at]]) >= SLI_SHARED_FLOPS) {
+            sli_dual_shared(run);
+        } else {
+            const sli_dual f = sli_dual_of(run, run->at);
+            sli_dual_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
+            sli_dual_complete(run, run->at, &f, 0);
+            sli_descend_to_roots(run, 0, 1);
+        }
+    }
+    sli_parallel(run->threads, plan->workers, sli_descend_tasks, run);
+}
+
+#endif
+/* end src/impl/descent_run.h */
 /* begin src/impl/groups.h */
 /* groups.h: unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together */
 #ifndef SLI_GROUPS_H
@@ -15365,11 +16062,9 @@ static const double sli_lanes_cost[][SLI_LANES_COUNT] = {{1.0, 1.3, 1.9, 3.3},  
                                                          {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
                                                          {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
 
-SLI_INLINE const double *sli_lanes_cost_of(sl_isa isa) {
-    return sli_lanes_cost[isa == SL_ISA_SCALAR   ? 1
-                          : isa == SL_ISA_AVX2   ? 2
-                          : isa == SL_ISA_AVX512 ? 3
-                                                 : 0];
+/* The row of an instruction set in tables of costs. */
+SLI_INLINE int sli_isa_row(sl_isa isa) {
+    return isa == SL_ISA_SCALAR ? 1 : isa == SL_ISA_AVX2 ? 2 : isa == SL_ISA_AVX512 ? 3 : 0;
 }
 
 /* Columns of L that share a reach, a lane each. */
@@ -15426,7 +16121,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
     sli_requests r;
     memset(&r, 0, sizeof r);
     r.S = F->S;
-    r.lanes_cost = sli_lanes_cost_of(F->kernels->isa);
+    r.lanes_cost = sli_lanes_cost[sli_isa_row(F->kernels->isa)];
     r.rows = rows;
     r.columns = columns;
     r.count = count;
@@ -15488,6 +16183,7 @@ static sl_int sli_group_choose(const sli_requests *r, sl_int k, sli_group *best)
     sl_int taken = 0;
     sli_group g;
     memset(&g, 0, sizeof g);
+    *best = g;
     for (; k < r->count && k - from < SLI_REQUESTS_MAX && sli_group_request(&g, r, k, r->S); k++) {
         const double time = r->lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
                             (double)(k - from + 1);
@@ -15523,17 +16219,26 @@ static void sli_room_add(sli_room *room, const sli_reach *R, sl_int lanes) {
     room->scratch = scratch > room->scratch ? scratch : room->scratch;
 }
 
-/* Sorts and groups requests, and finds the room their sweeps need. */
-static void sli_requests_group(sli_requests *r, sli_room *room) {
+/* Sorts and groups requests, and finds the room their sweeps need. Returns their time, as the costs of lanes are; ends
+ * where it passes a limit. */
+static double sli_requests_group_within(sli_requests *r, sli_room *room, double limit) {
+    double time = 0.0;
     sl_int k = 0;
     sli_requests_sort(r);
-    for (r->n_groups = 0; k < r->count; r->n_groups++) {
+    for (r->n_groups = 0; k < r->count && time < limit; r->n_groups++) {
         sli_group g;
         const sl_int taken = sli_group_choose(r, k, &g);
-        sli_room_add(room, &g.size, (sl_int)1 << sli_lanes_kind(g.count));
+        const int kind = sli_lanes_kind(g.count);
+        sli_room_add(room, &g.size, (sl_int)1 << kind);
+        time += r->lanes_cost[kind] * (double)g.size.entries;
         r->taken[r->n_groups] = (uint64_t)taken;
         k += taken;
     }
+    return time;
+}
+
+static void sli_requests_group(sli_requests *r, sli_room *room) {
+    (void)sli_requests_group_within(r, room, HUGE_VAL);
 }
 
 /* A forward sweep: its reach and vector stay, the rest serves while it runs. */
@@ -15591,7 +16296,7 @@ static void sli_forward_group(sli_forward *f, const sl_factor *F, const sli_grou
 #endif
 /* end src/impl/groups.h */
 /* begin src/impl/inverse.h */
-/* inverse.h: entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D */
+/* inverse.h: bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D */
 #ifndef SLI_INVERSE_H
 #define SLI_INVERSE_H
 
@@ -15640,16 +16345,6 @@ static sl_work sli_work_own(const sl_factor *F) {
     return own;
 }
 
-/* The base of W, grown to what a layout has counted, for its second run. */
-static sl_status sli_work_lay(sl_work *W, sli_block *b, size_t at_least) {
-    const sl_status status =
-        b->overflow ? SL_ERR_TOO_LARGE
-                    : sli_work_grow(W, b->used > at_least ? b->used : at_least + (at_least == 0));
-    b->base = (unsigned char *)W->block;
-    b->used = 0;
-    return status;
-}
-
 /* Clears what a call says of its sweeps. */
 static void sli_inverse_stats(sl_stats *stats) {
     if (stats != NULL) {
@@ -15673,139 +16368,64 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
     return SL_OK;
 }
 
-/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
-static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sli_forward *f,
-                             const sli_group *g, sl_int k, sl_int taken, double *out) {
-    sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;
-    double sums[SLI_REQUESTS_MAX];
-    for (m = 0; m < taken; m++) {
-        const sl_int at = sli_value(r->order[k + m]);
-        first[m] = sli_group_lane(g, sli_request_row(r, at));
-        second[m] = sli_group_lane(g, sli_request_column(r, at));
-    }
-    sli_pair_sums(F, f, taken, first, second, sums);
-    for (m = 0; m < taken; m++) {
-        out[sli_value(r->order[k + m])] = sums[m];
-    }
-}
-
-/* Entries one by one. The room is known only once the requests are sorted and grouped: where W is too
- * small for it, it grows and they are sorted again, before anything is written. */
-static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
-                                     sl_stats *stats) {
-    size_t bytes = 0;
-    sli_forward f;
-    sl_int k = 0, m;
-    for (;;) {
-        sli_block b = {NULL, 0, 0};
-        sli_room room = {0, 0, 0, 0};
-        sl_status status;
-        sli_requests_layout(r, &b);
-        status = sli_work_lay(W, &b, bytes);
-        if (status != SL_OK) {
-            return status;
-        }
-        sli_requests_layout(r, &b);
-        sli_requests_group(r, &room);
-        sli_forward_layout(&f, &b, &room);
-        sli_forward_layout_run(&f, &b, &room);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
-        if (b.used <= W->size) {
-            break;
-        }
-        bytes = b.used;
-    }
-    for (m = 0; m < r->n_groups; m++) {
-        const sl_int taken = (sl_int)r->taken[m];
-        sli_group g;
-        sli_group_again(r, k, taken, &g);
-        sli_forward_group(&f, F, &g, stats);
-        sli_pairs_answer(F, r, &f, &g, k, taken, out);
-        k += taken;
-    }
-    return SL_OK;
-}
-
-static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                                   const sl_int *columns, sl_int count, sl_work *W,
-                                   sl_stats *stats) {
-    sl_work own;
-    sli_requests r;
-    sl_status status;
-    if (count < 0 || (count > 0 && out == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_check_rows(F->S, rows, count, 0, stats);
-    status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
-    if (status != SL_OK) {
-        return status;
-    }
-    sli_inverse_stats(stats);
-    r = sli_requests_of(F, rows, columns, count);
-    own = sli_work_own(F);
-    status = count == 0 ? SL_OK : sli_inverse_entries(F, out, &r, W == NULL ? &own : W, stats);
-    sli_free(&own.allocator, own.block);
-    return status;
-}
-
-SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
-                                     sl_int count, sl_work *W, sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    return F == NULL
-               ? SL_ERR_ARGUMENT
-               : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
-}
-
-SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                                  const sl_int *columns, sl_int count, sl_work *W,
-                                  sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    return F == NULL || (count > 0 && (rows == NULL || columns == NULL))
-               ? SL_ERR_ARGUMENT
-               : sli_inverse_pairs(F, out, rows, columns, count, W, stats);
-}
-
 /* c' A^-1 b: two lanes over the reach of both sets, one where they are the same. */
 typedef struct sli_bilinear {
+    const sl_factor *F;
     const sl_int *set[2];
     const double *values[2];
     sl_int count[2];
     sl_int vectors;
     uint64_t *seeds, *scratch; /* count[0] + count[1] in all, unless a set is NULL */
+    sli_forward forward;
 } sli_bilinear;
 
-static void sli_bilinear_layout(sli_bilinear *q, sli_block *b) {
-    const int is_whole = q->set[0] == NULL || q->set[1] == NULL;
-    const uint64_t count = is_whole ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
+SLI_INLINE int sli_bilinear_is_whole(const sli_bilinear *q) {
+    return q->set[0] == NULL || q->set[1] == NULL;
+}
+
+static void sli_bilinear_lay_seeds(void *form, sli_block *b) {
+    sli_bilinear *q = (sli_bilinear *)form;
+    const uint64_t count =
+        sli_bilinear_is_whole(q) ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
     q->seeds = SLI_TAKE(b, uint64_t, count);
     q->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
 /* The columns of both sets ascending, each with its place behind one another, and their reach. */
-static void sli_bilinear_measure(const sl_symbolic *S, sli_bilinear *q, sli_reach *R) {
+static void sli_bilinear_measure(void *form) {
+    sli_bilinear *q = (sli_bilinear *)form;
+    const sl_symbolic *S = q->F->S;
     const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
     sl_int k;
-    if (q->set[0] == NULL || q->set[1] == NULL) {
-        *R = sli_reach_all(S);
+    if (sli_bilinear_is_whole(q)) {
+        q->forward.reach = sli_reach_all(S);
         return;
     }
     for (k = 0; k < total; k++) {
         q->seeds[k] = sli_keyed(S->iperm[k < nc ? q->set[0][k] : q->set[1][k - nc]], k);
     }
     sli_sort(q->seeds, total, q->scratch);
-    sli_reach_measure(S, q->seeds, total, R);
+    sli_reach_measure(S, q->seeds, total, &q->forward.reach);
+}
+
+static void sli_bilinear_lay_sweep(void *form, sli_block *b) {
+    sli_bilinear *q = (sli_bilinear *)form;
+    sli_room room = {0, 0, 0, 0};
+    sli_room_add(&room, &q->forward.reach, q->vectors);
+    if (sli_bilinear_is_whole(q)) { /* the analysis has them */
+        room.steps = room.rows = 0;
+    }
+    sli_forward_layout(&q->forward, b, &room);
+    sli_forward_layout_run(&q->forward, b, &room);
 }
 
 /* Both vectors into the sweep. */
-static void sli_bilinear_pack(const sl_symbolic *S, const sli_bilinear *q, sli_forward *f) {
+static void sli_bilinear_pack(sli_bilinear *q) {
+    const sl_symbolic *S = q->F->S;
+    sli_forward *f = &q->forward;
     const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
     sl_int k, lane, at = 0;
-    if (q->set[0] != NULL && q->set[1] != NULL) {
+    if (!sli_bilinear_is_whole(q)) {
         sli_reach_fill(S, q->seeds, total, f->steps, f->rows, &f->reach);
         sli_forward_clear(f, q->vectors);
         for (k = 0; k < total; k++) {
@@ -15826,40 +16446,17 @@ static void sli_bilinear_pack(const sl_symbolic *S, const sli_bilinear *q, sli_f
     }
 }
 
-static sl_status sli_inverse_form(const sl_factor *F, double *out, sli_bilinear *q, sl_work *W,
-                                  sl_stats *stats) {
-    const int is_whole = q->set[0] == NULL || q->set[1] == NULL;
+static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
+    static const sli_stage stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
+                                        {sli_bilinear_lay_sweep, NULL}};
     const sl_int first = 0, second = q->vectors - 1;
-    size_t bytes = 0;
-    sli_forward f;
-    for (;;) {
-        sli_block b = {NULL, 0, 0};
-        sli_room room = {0, 0, 0, 0};
-        sl_status status;
-        sli_bilinear_layout(q, &b);
-        status = sli_work_lay(W, &b, bytes);
-        if (status != SL_OK) {
-            return status;
-        }
-        sli_bilinear_layout(q, &b);
-        sli_bilinear_measure(F->S, q, &f.reach);
-        sli_room_add(&room, &f.reach, q->vectors);
-        room.steps = is_whole ? 0 : room.steps; /* the analysis has them */
-        room.rows = is_whole ? 0 : room.rows;
-        sli_forward_layout(&f, &b, &room);
-        sli_forward_layout_run(&f, &b, &room);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
-        if (b.used <= W->size) {
-            break;
-        }
-        bytes = b.used;
+    const sl_status status = sli_work_stages(W, stages, 2, q);
+    if (status == SL_OK) {
+        sli_bilinear_pack(q);
+        sli_forward_run(&q->forward, q->F, stats);
+        sli_pair_sums(q->F, &q->forward, 1, &first, &second, out);
     }
-    sli_bilinear_pack(F->S, q, &f);
-    sli_forward_run(&f, F, stats);
-    sli_pair_sums(F, &f, 1, &first, &second, out);
-    return SL_OK;
+    return status;
 }
 
 SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *cset,
@@ -15894,6 +16491,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
         return SL_OK;
     }
     memset(&q, 0, sizeof q);
+    q.F = F;
     q.set[0] = cset;
     q.set[1] = bset;
     q.values[0] = c;
@@ -15902,13 +16500,301 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     q.count[1] = nb;
     q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
     own = sli_work_own(F);
-    status = sli_inverse_form(F, out, &q, W == NULL ? &own : W, stats);
+    status = sli_inverse_form(&q, out, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
 }
 
 #endif
 /* end src/impl/inverse.h */
+/* begin src/impl/inverse_entries.h */
+/* inverse_entries.h: entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else */
+#ifndef SLI_INVERSE_ENTRIES_H
+#define SLI_INVERSE_ENTRIES_H
+
+/* One call. The descent comes in question where every entry has a place in the pattern of L: it is met in the front of
+ * its first column. */
+typedef struct sli_entries {
+    const sl_factor *F;
+    double *out;
+    sli_requests requests;
+    sl_inverse_method method;
+    /* forward */
+    sli_room room;
+    sli_forward forward;
+    /* descent */
+    sli_descent descent;
+    sli_descending run;
+    sl_int *asked; /* supernodes + 1: the first of the sorted requests that each front answers */
+} sli_entries;
+
+/* Time of a front of the inverse in that of a forward sweep of one lane over one entry, as the costs of lanes are: of
+ * itself, for each of the h^2 numbers that are moved, for each flop of the factorization's front, which is twice as
+ * many here. Measured on grids of 1e4 to 1e6 vertices and of 25^3 (Zen 5); NEON, which was not, as AVX2. */
+static const double sli_descent_cost[][3] = {{2000.0, 4.0, 0.35}, /* of any other */
+                                             {2000.0, 4.0, 2.2},  /* plain C */
+                                             {2000.0, 4.0, 0.35}, /* AVX2 */
+                                             {2000.0, 4.0, 0.2}}; /* AVX-512 */
+
+/* The whole diagonal needs no list of requests. */
+SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
+    return q->requests.rows == NULL;
+}
+
+/* The first column of the k-th request: the front that has its entry is that column's. */
+SLI_INLINE sl_int sli_entries_column(const sli_entries *q, sl_int k) {
+    return sli_min(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
+}
+
+/* Where the k-th request stands in supernode s, that of its first column, or -1: no place in the pattern. */
+SLI_INLINE sl_int sli_entries_row(const sli_entries *q, sl_int s, sl_int k) {
+    const sl_int row =
+        sli_max(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
+    return sli_descent_row(q->F->S, s, row);
+}
+
+static void sli_entries_sort(sli_entries *q) {
+    sli_requests *r = &q->requests;
+    sl_int k;
+    for (k = 0; k < r->count; k++) {
+        r->order[k] = sli_keyed(sli_entries_column(q, k), k);
+    }
+    sli_sort(r->order, r->count, r->taken);
+}
+
+static int sli_entries_are_in_pattern(const sli_entries *q) {
+    const sli_requests *r = &q->requests;
+    sl_int k, is_in = 1;
+    for (k = 0; k < r->count && is_in && r->rows != r->columns; k++) {
+        is_in = sli_entries_row(q, q->F->S->super_of[sli_entries_column(q, k)], k) != -1;
+    }
+    return is_in;
+}
+
+/* Time of a descent of the reach of sorted requests, and its supernodes. */
+static double sli_descent_time(const sli_entries *q, sl_int *supers) {
+    const sl_symbolic *S = q->F->S;
+    const sli_requests *r = &q->requests;
+    const double *cost = sli_descent_cost[sli_isa_row(q->F->kernels->isa)];
+    double time = 0.0;
+    sl_int k = 0, s, next;
+    *supers = 0;
+    while (k < r->count) {
+        s = S->super_of[sli_key(r->order[k])];
+        next = sli_next_seed(S, r->order, r->count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            const double h = S->steps[s].width + S->steps[s].below;
+            time += cost[0] + cost[1] * h * h + cost[2] * sli_front_flops(&S->steps[s]);
+            ++*supers;
+        }
+    }
+    return time;
+}
+
+/* Sorts requests, and finds which way is the shorter one: the count of forward sweeps ends where it has passed the
+ * descent. */
+static void sli_entries_choose(void *call) {
+    sli_entries *q = (sli_entries *)call;
+    double descent = HUGE_VAL;
+    sl_int supers = q->F->S->n_supers;
+    memset(&q->room, 0, sizeof q->room);
+    if (sli_entries_is_all(q)) {
+        q->method = SL_INVERSE_SELECTED;
+    } else {
+        if (q->requests.count > 1 && sli_entries_are_in_pattern(q)) {
+            sli_entries_sort(q);
+            descent = sli_descent_time(q, &supers);
+        }
+        q->method = sli_requests_group_within(&q->requests, &q->room, descent) < descent
+                        ? SL_INVERSE_FORWARD
+                        : SL_INVERSE_SELECTED;
+    }
+    if (q->method == SL_INVERSE_SELECTED) {
+        q->descent = sli_descent_of(q->F->S, supers, sli_workers(&q->F->threads));
+        q->descent.is_partial = !sli_entries_is_all(q);
+    }
+}
+
+static void sli_entries_lay_requests(void *call, sli_block *b) {
+    sli_entries *q = (sli_entries *)call;
+    if (!sli_entries_is_all(q)) {
+        sli_requests_layout(&q->requests, b);
+    }
+}
+
+static void sli_entries_lay_way(void *call, sli_block *b) {
+    sli_entries *q = (sli_entries *)call;
+    if (q->method == SL_INVERSE_FORWARD) {
+        sli_forward_layout(&q->forward, b, &q->room);
+        sli_forward_layout_run(&q->forward, b, &q->room);
+    } else {
+        sli_descent_layout(&q->descent, b);
+        sli_descent_layout_planning(&q->descent, b);
+        q->asked =
+            SLI_TAKE(b, sl_int, sli_entries_is_all(q) ? 0 : (uint64_t)q->descent.forest.count + 1);
+    }
+}
+
+/* The list of the descent, and the requests of each of its supernodes. */
+static void sli_entries_plan(void *call) {
+    sli_entries *q = (sli_entries *)call;
+    const sli_requests *r = &q->requests;
+    const int is_all = sli_entries_is_all(q);
+    sl_int k = 0, at;
+    if (q->method != SL_INVERSE_SELECTED) {
+        return;
+    }
+    if (!is_all) {
+        sli_entries_sort(q);
+    }
+    sli_descent_plan(&q->descent, is_all ? NULL : r->order, r->count);
+    for (at = 0; at < q->descent.forest.count && !is_all; at++) {
+        const sl_int end = q->F->S->super_first[q->descent.supers[at] + 1];
+        q->asked[at] = k;
+        while (k < r->count && sli_key(r->order[k]) < end) {
+            k++;
+        }
+    }
+    if (!is_all) {
+        q->asked[at] = k;
+    }
+}
+
+static void sli_entries_lay_run(void *call, sli_block *b) {
+    sli_entries *q = (sli_entries *)call;
+    if (q->method == SL_INVERSE_SELECTED) {
+        sli_descent_layout_run(&q->run, &q->descent, b);
+    }
+}
+
+/* What row tiles t0 .. t1-1 of a front answer. */
+static void sli_entries_take(void *call, sl_int at, const sli_dual *f, sl_int t0, sl_int t1) {
+    const sli_entries *q = (const sli_entries *)call;
+    const sl_symbolic *S = q->F->S;
+    const sl_int s = q->descent.supers[at], first = S->super_first[s], h = f->width + f->below;
+    sl_int k, j;
+    if (sli_entries_is_all(q)) {
+        const sl_int *row = S->perm + first, last = sli_min(SLI_TILE * t1, f->width);
+        for (j = SLI_TILE * t0; j < last; j++) {
+            q->out[row[j]] = f->front[sli_square_offset(h, j / SLI_TILE) + SLI_TILE * (ptrdiff_t)j +
+                                      j % SLI_TILE];
+        }
+        return;
+    }
+    for (k = q->asked[at]; k < q->asked[at + 1]; k++) {
+        const sl_int request = sli_value(q->requests.order[k]);
+        const sl_int r = sli_entries_row(q, s, request), t = r / SLI_TILE;
+        if (t >= t0 && t < t1) {
+            j = sli_key(q->requests.order[k]) - first;
+            q->out[request] =
+                f->front[sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j + r % SLI_TILE];
+        }
+    }
+}
+
+/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
+static void sli_entries_answer(const sli_entries *q, const sli_group *g, sl_int k, sl_int taken) {
+    sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;
+    double sums[SLI_REQUESTS_MAX];
+    for (m = 0; m < taken; m++) {
+        const sl_int at = sli_value(q->requests.order[k + m]);
+        first[m] = sli_group_lane(g, sli_request_row(&q->requests, at));
+        second[m] = sli_group_lane(g, sli_request_column(&q->requests, at));
+    }
+    sli_pair_sums(q->F, &q->forward, taken, first, second, sums);
+    for (m = 0; m < taken; m++) {
+        q->out[sli_value(q->requests.order[k + m])] = sums[m];
+    }
+}
+
+/* Group after group. */
+static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
+    sl_int k = 0, m;
+    for (m = 0; m < q->requests.n_groups; m++) {
+        const sl_int taken = (sl_int)q->requests.taken[m];
+        sli_group g;
+        sli_group_again(&q->requests, k, taken, &g);
+        sli_forward_group(&q->forward, q->F, &g, stats);
+        sli_entries_answer(q, &g, k, taken);
+        k += taken;
+    }
+}
+
+static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+    static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
+                                        {sli_entries_lay_way, sli_entries_plan},
+                                        {sli_entries_lay_run, NULL}};
+    const sl_status status = sli_work_stages(W, stages, 3, q);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (q->method == SL_INVERSE_FORWARD) {
+        sli_entries_forward(q, stats);
+    } else {
+        q->run.F = q->F;
+        q->run.d = &q->descent;
+        q->run.threads = &q->F->threads;
+        q->run.take = sli_entries_take;
+        q->run.to = q;
+        sli_descend(&q->run);
+    }
+    if (stats != NULL) {
+        stats->inverse_method = q->method;
+        if (q->method == SL_INVERSE_SELECTED) {
+            sli_descent_stats(&q->descent, stats);
+            stats->z_entries = 0;
+        }
+    }
+    return SL_OK;
+}
+
+static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_int *rows,
+                                     const sl_int *columns, sl_int count, sl_work *W,
+                                     sl_stats *stats) {
+    sl_work own;
+    sli_entries q;
+    sl_status status;
+    if (count < 0 || (count > 0 && out == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_check_rows(F->S, rows, count, 0, stats);
+    status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_inverse_stats(stats);
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.out = out;
+    q.requests = sli_requests_of(F, rows, columns, count);
+    own = sli_work_own(F);
+    status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
+                                     sl_int count, sl_work *W, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    return F == NULL
+               ? SL_ERR_ARGUMENT
+               : sli_inverse_entries(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
+}
+
+SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
+                                  const sl_int *columns, sl_int count, sl_work *W,
+                                  sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    return F == NULL || (count > 0 && (rows == NULL || columns == NULL))
+               ? SL_ERR_ARGUMENT
+               : sli_inverse_entries(F, out, rows, columns, count, W, stats);
+}
+
+#endif
+/* end src/impl/inverse_entries.h */
 /* begin src/impl/inverse_block.h */
 /* inverse_block.h: dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps */
 #ifndef SLI_INVERSE_BLOCK_H
@@ -15977,17 +16863,32 @@ typedef struct sli_inverse_block {
     sli_requests kept, passing;
     sli_swept sweeps[SLI_KEPT], pass;
     double *weighed; /* of the group that passes by */
+    sli_room kept_room, passing_room;
 } sli_inverse_block;
 
-static void sli_block_layout_requests(sli_inverse_block *q, sli_block *b) {
+static void sli_block_lay_requests(void *block, sli_block *b) {
+    sli_inverse_block *q = (sli_inverse_block *)block;
     sli_requests_layout(&q->kept, b);
     if (!q->is_symmetric) {
         sli_requests_layout(&q->passing, b);
     }
 }
 
-static void sli_block_layout_sweeps(sli_inverse_block *q, sli_block *b, const sli_room *kept,
-                                    const sli_room *passing) {
+static void sli_block_group(void *block) {
+    sli_inverse_block *q = (sli_inverse_block *)block;
+    memset(&q->kept_room, 0, sizeof q->kept_room);
+    memset(&q->passing_room, 0, sizeof q->passing_room);
+    sli_requests_group(&q->kept, &q->kept_room);
+    if (!q->is_symmetric) {
+        sli_requests_group(&q->passing, &q->passing_room);
+    } else if (q->kept.n_groups > SLI_KEPT) {
+        q->passing_room = q->kept_room;
+    }
+}
+
+static void sli_block_lay_sweeps(void *block, sli_block *b) {
+    sli_inverse_block *q = (sli_inverse_block *)block;
+    const sli_room *kept = &q->kept_room, *passing = &q->passing_room;
     const sl_int count = sli_min(q->kept.n_groups, SLI_KEPT);
     sli_room both = *kept;
     sl_int k;
@@ -16072,36 +16973,14 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
     }
 }
 
-/* Room as in sli_inverse_entries, then the block. */
 static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *stats) {
-    size_t bytes = 0;
-    for (;;) {
-        sli_block b = {NULL, 0, 0};
-        sli_room kept = {0, 0, 0, 0}, passing = {0, 0, 0, 0};
-        sl_status status;
-        sli_block_layout_requests(q, &b);
-        status = sli_work_lay(W, &b, bytes);
-        if (status != SL_OK) {
-            return status;
-        }
-        sli_block_layout_requests(q, &b);
-        sli_requests_group(&q->kept, &kept);
-        if (!q->is_symmetric) {
-            sli_requests_group(&q->passing, &passing);
-        } else if (q->kept.n_groups > SLI_KEPT) {
-            passing = kept;
-        }
-        sli_block_layout_sweeps(q, &b, &kept, &passing);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
-        if (b.used <= W->size) {
-            break;
-        }
-        bytes = b.used;
+    static const sli_stage stages[2] = {{sli_block_lay_requests, sli_block_group},
+                                        {sli_block_lay_sweeps, NULL}};
+    const sl_status status = sli_work_stages(W, stages, 2, q);
+    if (status == SL_OK) {
+        sli_block_fill(q, stats);
     }
-    sli_block_fill(q, stats);
-    return SL_OK;
+    return status;
 }
 
 /* Every entry between some rows, in range, handed over by their numbers; those of two groups once, in either order. */
@@ -16313,57 +17192,25 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 #endif
 /* end src/impl/batch.h */
 /* begin src/impl/selected.h */
-/* selected.h: the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's */
+/* selected.h: the selected inverse: the panels that a descent of a list of supernodes leaves */
 #ifndef SLI_SELECTED_H
 #define SLI_SELECTED_H
 
-/* The sweep, planned: a front must stay until the last of its children has taken its part, and children come
- * last to first. Fronts of even and of odd depth have a stack each, which grow towards each other: when
- * a front is made, its parent's is the top of the other stack. */
-typedef struct sli_descent {
-    sl_int *up;     /* count: the parent, as a number in the list of supernodes, -1 at a root */
-    sl_int *last;   /* count: the child that comes last, -1 where there is none */
-    sl_int *side;   /* count: depth % 2 */
-    sl_off *front;  /* count: where the front begins, in doubles */
-    sl_off fronts;  /* doubles for all of them */
-    sl_off scratch; /* doubles for the kernels */
-} sli_descent;
-
 struct sl_selected {
     sl_allocator allocator;
-    const sl_symbolic *S; /* borrowed */
-    const sl_factor *F;   /* Z is its inverse, and .. */
-    uint64_t generation;  /* .. of these numbers of it */
-    sl_int count;         /* supernodes */
-    sl_int *supers;       /* count, ascending */
-    sl_off *begin;        /* count + 1: the panels, in doubles */
+    sl_threads threads;
+    const sl_factor *F;  /* Z is its inverse, and .. */
+    uint64_t generation; /* .. of these numbers of it */
+    sli_descent descent; /* its list, its analysis */
+    sl_off *begin;       /* count + 1: the panels, in doubles */
     double *Z;
-    sli_descent descent;
     size_t bytes;
 };
 
-/* The supernodes of the reach of seeds, columns of L in ascending order. */
-static void sli_selected_reach(sl_selected *Z, const uint64_t *seeds, sl_int count) {
-    const sl_symbolic *S = Z->S;
-    sl_int k = 0, at = 0, s, next;
-    while (k < count) {
-        s = S->super_of[sli_key(seeds[k])];
-        next = sli_next_seed(S, seeds, count, &k);
-        for (; s != -1 && s < next; s = S->super_parent[s]) {
-            Z->supers[at++] = s;
-        }
-    }
-    SLI_ASSERT(at == Z->count);
-}
-
 static void sli_selected_layout(sl_selected *Z, sli_block *b) {
     (void)sli_take(b, 1, sizeof(sl_selected));
-    Z->supers = SLI_TAKE(b, sl_int, Z->count);
-    Z->begin = SLI_TAKE(b, sl_off, (uint64_t)Z->count + 1);
-    Z->descent.up = SLI_TAKE(b, sl_int, Z->count);
-    Z->descent.last = SLI_TAKE(b, sl_int, Z->count);
-    Z->descent.side = SLI_TAKE(b, sl_int, Z->count);
-    Z->descent.front = SLI_TAKE(b, sl_off, Z->count);
+    Z->begin = SLI_TAKE(b, sl_off, (uint64_t)Z->descent.forest.count + 1);
+    sli_descent_layout(&Z->descent, b);
     Z->bytes = b->used;
 }
 
@@ -16381,197 +17228,115 @@ static sl_status sli_selected_sort(const sl_symbolic *S, const sl_int *set, sl_i
     return SL_OK;
 }
 
-/* The object, all but its numbers. */
-static sl_status sli_selected_list(sl_selected **out, const sl_symbolic *S, const sl_int *set,
-                                   sl_int count, const sl_allocator *a, sl_stats *stats) {
+/* Arrays of a draft's list, filled for its seeds, NULL for all. */
+static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const uint64_t *seeds,
+                                   sl_int n_seeds) {
+    const sl_symbolic *S = draft->descent.S;
     sli_block temporary = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int k;
+    int pass;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_selected_layout(draft, &kept);
+        status = pass == 0 ? sli_block_alloc(&kept, &draft->allocator) : SL_OK;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_descent_layout_planning(&draft->descent, &temporary);
+        status = pass == 0 ? sli_block_alloc(&temporary, &draft->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_descent_plan(&draft->descent, seeds, n_seeds);
+        draft->begin[0] = 0;
+        for (k = 0; k < draft->descent.forest.count; k++) {
+            const sl_int s = draft->descent.supers[k];
+            draft->begin[k + 1] = draft->begin[k] + (S->panel_begin[s + 1] - S->panel_begin[s]);
+        }
+        *out = (sl_selected *)(void *)kept.base;
+        **out = *draft;
+    } else {
+        sli_free(&draft->allocator, kept.base);
+    }
+    sli_free(&draft->allocator, temporary.base);
+    return status;
+}
+
+/* The object, all but its numbers. */
+static sl_status sli_selected_list(sl_selected **out, const sl_factor *F, const sl_int *set,
+                                   sl_int count, const sl_options *opt, sl_stats *stats) {
+    const sl_symbolic *S = F->S;
+    sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL;
     sl_selected draft;
     sl_status status = SL_OK;
-    sl_int k;
+    sl_int supers = S->n_supers;
     int pass;
     memset(&draft, 0, sizeof draft);
-    draft.allocator = *a;
-    draft.S = S;
-    draft.count = S->n_supers;
-    if (set != NULL) {
-        sli_reach R;
-        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-            seeds = SLI_TAKE(&temporary, uint64_t, count);
-            scratch = SLI_TAKE(&temporary, uint64_t, count);
-            status = pass == 0 ? sli_block_alloc(&temporary, a) : SL_OK;
-        }
-        if (status == SL_OK) {
-            status = sli_selected_sort(S, set, count, seeds, scratch, stats);
-        }
-        if (status == SL_OK) {
-            sli_reach_measure(S, seeds, count, &R);
-            draft.count = R.count;
-        }
+    draft.allocator = sli_allocator(opt);
+    draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
+    for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
+        seeds = SLI_TAKE(&b, uint64_t, count);
+        scratch = SLI_TAKE(&b, uint64_t, count);
+        status = pass == 0 ? sli_block_alloc(&b, &draft.allocator) : SL_OK;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        sli_selected_layout(&draft, &kept);
-        status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
+    if (status == SL_OK && set != NULL) {
+        status = sli_selected_sort(S, set, count, seeds, scratch, stats);
     }
     if (status == SL_OK) {
-        for (k = 0; k < draft.count && set == NULL; k++) {
-            draft.supers[k] = k;
-        }
         if (set != NULL) {
-            sli_selected_reach(&draft, seeds, count);
+            sli_reach R;
+            sli_reach_measure(S, seeds, count, &R);
+            supers = R.count;
         }
-        draft.begin[0] = 0;
-        for (k = 0; k < draft.count; k++) {
-            const sl_int s = draft.supers[k];
-            draft.begin[k + 1] = draft.begin[k] + (S->panel_begin[s + 1] - S->panel_begin[s]);
-        }
-        *out = (sl_selected *)(void *)kept.base;
-        **out = draft;
+        draft.descent = sli_descent_of(S, supers, sli_workers(&draft.threads));
+        status = sli_selected_plan(out, &draft, seeds, count);
     }
-    sli_free(a, temporary.base);
+    sli_free(&draft.allocator, b.base);
     return status;
 }
 
-/* Doubles of a front: whole row tiles of all its columns. */
-SLI_INLINE sl_off sli_square_size(const sli_step *s) {
-    const sl_int h = s->width + s->below;
-    return (sl_off)SLI_TILE * sli_tiles(h) * h;
-}
-
-/* Parents, and the child that comes last. A supernode's parent is the next one of the chain of ancestors at hand
- * that is not below it, as the list is in postorder and closed under the parent relation. */
-static void sli_descent_tree(sli_descent *d, const sl_selected *Z) {
-    const sl_symbolic *S = Z->S;
-    sl_int k, up = -1;
-    for (k = Z->count - 1; k >= 0; k--) {
-        const sl_int parent = S->super_parent[Z->supers[k]];
-        while (up != -1 && Z->supers[up] != parent) {
-            up = d->up[up];
-        }
-        d->up[k] = up;
-        d->last[k] = -1;
-        d->side[k] = 0;
-        if (up != -1) {
-            d->last[up] = k;
-            d->side[k] = 1 - d->side[up];
-        }
-        up = k;
-    }
-}
-
-static void sli_descent_plan(sli_descent *d, const sl_selected *Z) {
-    const sl_symbolic *S = Z->S;
-    sl_off top[2] = {0, 0};
-    sl_int k, tallest = 0, widest = 0;
-    sli_descent_tree(d, Z);
-    d->fronts = 0;
-    for (k = Z->count - 1; k >= 0; k--) {
-        const sli_step *step = &S->steps[Z->supers[k]];
-        const sl_off size = sli_square_size(step);
-        const sl_int side = d->side[k], up = d->up[k];
-        d->front[k] = side == 0 ? top[0] : -(top[1] + size);
-        top[side] += size;
-        d->fronts = top[0] + top[1] > d->fronts ? top[0] + top[1] : d->fronts;
-        if (up != -1 && d->last[up] == k) {
-            top[1 - side] -= sli_square_size(&S->steps[Z->supers[up]]);
-        }
-        if (d->last[k] == -1) {
-            top[side] -= size;
-        }
-        tallest = sli_max(tallest, step->width + step->below);
-        widest = sli_max(widest, step->width);
-    }
-    for (k = 0; k < Z->count; k++) { /* the second stack counts from the end, which is known now */
-        d->front[k] += d->side[k] == 0 ? 0 : d->fronts;
-    }
-    d->scratch = sli_dual_scratch(tallest, widest);
-}
-
-/* The columns of a front to the panel. */
-static void sli_selected_keep(const sli_dual *f, double *panel) {
-    const sl_int w = f->width, h = w + f->below, tiles = sli_tiles(h);
+/* Row tiles of a front to the panel. */
+static void sli_selected_keep(void *to, sl_int k, const sli_dual *f, sl_int t0, sl_int t1) {
+    const sl_selected *Z = (const sl_selected *)to;
+    const sl_int w = f->width, h = w + f->below;
+    double *panel = Z->Z + Z->begin[k];
     sl_int t, j;
-    for (t = 0; t < tiles; t++) {
-        double *to = panel + sli_tile_offset(w, t);
+    for (t = t0; t < t1; t++) {
+        double *tile = panel + sli_tile_offset(w, t);
         const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
-        memcpy(to, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *to);
+        memcpy(tile, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *tile);
         for (j = 0; j < columns && rows < SLI_TILE; j++) { /* padding */
-            memset(to + SLI_TILE * (ptrdiff_t)j + rows, 0, (size_t)(SLI_TILE - rows) * sizeof *to);
+            memset(tile + SLI_TILE * (ptrdiff_t)j + rows, 0,
+                   (size_t)(SLI_TILE - rows) * sizeof *tile);
         }
     }
 }
 
-/* Most of a panel that is asked for before its turn: read from the last to the first they meet no hardware that runs
- * ahead of them, and waiting for L was a fifth of all time on 2D meshes. */
-#define SLI_PANEL_AHEAD ((sl_off)1024)
-
-static void sli_selected_prefetch(const double *panel, sl_off size) {
-    sl_off k;
-    for (k = 0; k < size && k < SLI_PANEL_AHEAD; k += SLI_TILE) {
-        SLI_PREFETCH(panel + k, 0);
-    }
+static void sli_selected_lay(void *q, sli_block *b) {
+    sli_descending *run = (sli_descending *)q;
+    sli_descent_layout_run(run, run->d, b);
 }
 
-/* All fronts, parents before children. */
-static void sli_selected_sweep(sl_selected *Z, const sl_factor *F, const sli_descent *d,
-                               double *fronts, double *scratch) {
-    const sl_symbolic *S = Z->S;
-    sl_int k;
-    for (k = Z->count - 1; k >= 0; k--) {
-        const sl_int s = Z->supers[k], up = d->up[k];
-        const sli_step *step = &S->steps[s];
-        sli_dual f;
-        f.panel = F->L + step->panel;
-        f.D = F->D + step->column;
-        f.front = fronts + d->front[k];
-        f.width = step->width;
-        f.below = step->below;
-        if (up != -1) {
-            const sli_step *parent = &S->steps[Z->supers[up]];
-            F->kernels->gather(&f, fronts + d->front[up], parent->width + parent->below,
-                               S->places + S->rows_begin[s]);
-        }
-        if (k > 0) {
-            const sl_int next = Z->supers[k - 1];
-            sli_selected_prefetch(F->L + S->panel_begin[next],
-                                  S->panel_begin[next + 1] - S->panel_begin[next]);
-        }
-        F->kernels->takahashi(&f, scratch);
-        sli_selected_keep(&f, Z->Z + Z->begin[k]);
-    }
-}
-
-/* The numbers, in a workspace. F fits. */
+/* The numbers, in the caller's workspace or in one for this call. F fits. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    sli_block b = {NULL, 0, 0};
-    double *fronts = NULL, *scratch = NULL;
-    sl_status status = SL_OK;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        fronts = SLI_TAKE(&b, double, Z->descent.fronts);
-        scratch = SLI_TAKE(&b, double, Z->descent.scratch);
-        if (pass == 0) {
-            status = b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b.used);
-            b.base = (unsigned char *)W->block;
-            b.used = 0;
-        }
-    }
-    if (status == SL_OK) {
-        sli_selected_sweep(Z, F, &Z->descent, fronts, scratch);
-        Z->F = F;
-        Z->generation = F->generation;
-    }
-    return status;
-}
-
-/* The same in the caller's workspace, or in one for this call. */
-static sl_status sli_selected_fill_in(sl_selected *Z, const sl_factor *F, sl_work *W) {
+    static const sli_stage stage = {sli_selected_lay, NULL};
     sl_work own;
+    sli_descending run;
     sl_status status;
     own.allocator = Z->allocator;
     own.block = NULL;
     own.size = 0;
-    status = sli_selected_fill(Z, F, W == NULL ? &own : W);
+    memset(&run, 0, sizeof run);
+    run.F = F;
+    run.d = &Z->descent;
+    run.threads = &Z->threads;
+    run.take = sli_selected_keep;
+    run.to = Z;
+    status = sli_work_stages(W == NULL ? &own : W, &stage, 1, &run);
+    if (status == SL_OK) {
+        sli_descend(&run);
+        Z->F = F;
+        Z->generation = F->generation;
+    }
     sli_free(&own.allocator, own.block);
     return status;
 }
@@ -16582,7 +17347,7 @@ static sl_status sli_selected_room(sl_selected *Z) {
     sl_status status = SL_OK;
     int pass;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        Z->Z = SLI_TAKE(&b, double, Z->begin[Z->count]);
+        Z->Z = SLI_TAKE(&b, double, Z->begin[Z->descent.forest.count]);
         Z->bytes += pass == 0 ? b.used : 0;
         status = pass == 0 ? sli_block_alloc(&b, &Z->allocator) : SL_OK;
     }
@@ -16590,14 +17355,9 @@ static sl_status sli_selected_room(sl_selected *Z) {
 }
 
 static void sli_selected_stats(const sl_selected *Z, double started, sl_stats *stats) {
-    sl_int k;
     if (stats != NULL) {
-        stats->z_supernodes = Z->count;
-        stats->z_columns = 0;
-        for (k = 0; k < Z->count; k++) {
-            stats->z_columns += Z->S->steps[Z->supers[k]].width;
-        }
-        stats->z_entries = Z->begin[Z->count];
+        sli_descent_stats(&Z->descent, stats);
+        stats->z_entries = Z->begin[Z->descent.forest.count];
         stats->seconds_selected = sli_seconds() - started;
         stats->bytes_selected = Z->bytes;
     }
@@ -16606,7 +17366,6 @@ static void sli_selected_stats(const sl_selected *Z, double started, sl_stats *s
 SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const sl_int *set,
                                     sl_int count, const sl_options *opt, sl_stats *stats) {
     const double started = sli_seconds();
-    const sl_allocator a = sli_allocator(opt);
     sl_selected *Z = NULL;
     sl_status status;
     sli_stats_clear_error(stats);
@@ -16614,19 +17373,19 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL || (set != NULL && count < 0) || !sli_allocator_is_whole(opt)) {
+    if (F == NULL || (set != NULL && count < 0) || !sli_allocator_is_whole(opt) ||
+        (opt != NULL && opt->threads.count < 0)) {
         return SL_ERR_ARGUMENT;
     }
     if (!F->is_good) {
         return SL_ERR_STATE;
     }
-    status = sli_selected_list(&Z, F->S, set, count, &a, stats);
+    status = sli_selected_list(&Z, F, set, count, opt, stats);
     if (status == SL_OK) {
-        sli_descent_plan(&Z->descent, Z);
         status = sli_selected_room(Z);
     }
     if (status == SL_OK) {
-        status = sli_selected_fill_in(Z, F, NULL);
+        status = sli_selected_fill(Z, F, NULL);
     }
     if (status == SL_OK) {
         sli_selected_stats(Z, started, stats);
@@ -16641,7 +17400,7 @@ SL_API sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work 
     if (Z == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    return F->is_good && F->S == Z->S ? sli_selected_fill_in(Z, F, W) : SL_ERR_STATE;
+    return F->is_good && F->S == Z->descent.S ? sli_selected_fill(Z, F, W) : SL_ERR_STATE;
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {
@@ -16652,40 +17411,35 @@ SL_API void sl_selected_free(sl_selected *Z) {
     }
 }
 
+#endif
+/* end src/impl/selected.h */
+/* begin src/impl/selected_ask.h */
+/* selected_ask.h: what can be asked of a selected inverse: its diagonal, its entries, a look inside */
+#ifndef SLI_SELECTED_ASK_H
+#define SLI_SELECTED_ASK_H
+
 /* The place of supernode s in the list, or -1. */
 SLI_INLINE sl_int sli_selected_find(const sl_selected *Z, sl_int s) {
     sl_int at = s;
-    if (Z->count < Z->S->n_supers) {
-        at = sli_lower_bound(Z->supers, Z->count, s);
+    if (Z->descent.forest.count < Z->descent.S->n_supers) {
+        at = sli_lower_bound(Z->descent.supers, Z->descent.forest.count, s);
     }
-    return at < Z->count && Z->supers[at] == s ? at : -1;
+    return at < Z->descent.forest.count && Z->descent.supers[at] == s ? at : -1;
 }
 
 /* Where the entry of pivots k and l stands in Z, or -1. */
 static sl_off sli_selected_at(const sl_selected *Z, sl_int k, sl_int l) {
-    const sl_symbolic *S = Z->S;
-    const sl_int column = sli_min(k, l), row = sli_max(k, l), s = S->super_of[column];
-    const sl_int at = sli_selected_find(Z, s), first = S->super_first[s];
-    const sl_int width = S->steps[s].width, below = S->steps[s].below;
-    sl_int r = row - first;
-    if (at == -1) {
-        return -1;
-    }
-    if (r >= width) {
-        const sl_int *rows = S->rows + S->rows_begin[s];
-        const sl_int i = sli_lower_bound(rows, below, row);
-        if (i == below || rows[i] != row) {
-            return -1;
-        }
-        r = width + i;
-    }
-    return Z->begin[at] + sli_panel_at(width, r, column - first);
+    const sl_symbolic *S = Z->descent.S;
+    const sl_int column = sli_min(k, l), s = S->super_of[column], at = sli_selected_find(Z, s);
+    const sl_int r = at == -1 ? -1 : sli_descent_row(S, s, sli_max(k, l));
+    return r == -1 ? -1
+                   : Z->begin[at] + sli_panel_at(S->steps[s].width, r, column - S->super_first[s]);
 }
 
 /* All entries asked for are looked up before the first is written: out stays untouched on error. */
 static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_int *rows,
                                   const sl_int *columns, sl_int count, sl_stats *stats) {
-    const sl_symbolic *S = Z->S;
+    const sl_symbolic *S = Z->descent.S;
     sl_int k;
     int pass;
     for (pass = 0; pass < 2; pass++) {
@@ -16709,7 +17463,7 @@ static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_in
 
 /* The diagonal in the order of the panels: looked up row by row it took a twelfth of the whole time. */
 static void sli_selected_all(const sl_selected *Z, double *out) {
-    const sl_symbolic *S = Z->S;
+    const sl_symbolic *S = Z->descent.S;
     sl_int s, j;
     for (s = 0; s < S->n_supers; s++) {
         const sl_int width = S->steps[s].width, *row = S->perm + S->super_first[s];
@@ -16725,11 +17479,11 @@ SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const s
     if (Z == NULL || (rows != NULL && count < 0)) {
         return SL_ERR_ARGUMENT;
     }
-    count = rows == NULL ? Z->S->n : count;
+    count = rows == NULL ? Z->descent.S->n : count;
     if (count > 0 && out == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (rows == NULL && Z->count == Z->S->n_supers) {
+    if (rows == NULL && Z->descent.forest.count == Z->descent.S->n_supers) {
         sli_selected_all(Z, out);
         return SL_OK;
     }
@@ -16748,9 +17502,9 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
 SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
     sl_selected_view_t v = {NULL, 0, NULL, NULL, NULL};
     if (Z != NULL) {
-        v.symbolic = Z->S;
-        v.count = Z->count;
-        v.supers = Z->supers;
+        v.symbolic = Z->descent.S;
+        v.count = Z->descent.forest.count;
+        v.supers = Z->descent.supers;
         v.begin = Z->begin;
         v.Z = Z->Z;
     }
@@ -16758,7 +17512,7 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 }
 
 #endif
-/* end src/impl/selected.h */
+/* end src/impl/selected_ask.h */
 /* begin src/impl/region.h */
 /* region.h: regions: which subtrees to keep whole, and the inverse on what bounds them */
 #ifndef SLI_REGION_H
@@ -17295,6 +18049,8 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_NULL_PIVOT
 #undef SLI_DUAL_GROUP
 #undef SLI_DUAL_ROW
+#undef SLI_DUAL_COLUMNS
+#undef SLI_DUAL_PARTS
 #undef SLI_PANEL_AHEAD
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS

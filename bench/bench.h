@@ -33,6 +33,7 @@ void bench_inverse(bench_run *run);
 void bench_locality(bench_run *run);
 void bench_selected(bench_run *run);
 void bench_region(bench_run *run);
+void bench_adf(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);
@@ -135,6 +136,9 @@ typedef struct bench_system {
  *  MESH the one mesh. Built at first demand and kept for later questions. Returns how many; out has room for count.
  */
 int bench_systems(const bench_run *run, const double *wanted, int count, const bench_system **out);
+
+/** A torus, closed, of about so many vertices, kept in the same way. */
+const bench_system *bench_torus(double vertices);
 
 /** The 7-point Laplacian of a side x side x side grid, kept in the same way. */
 const bench_system *bench_volume(sl_int side);

@@ -34,6 +34,8 @@ static const question questions[] = {
      bench_selected},
     {"region", "local questions inside regions, beside plans to the roots, on growing meshes",
      bench_region},
+    {"adf", "the auto-diffusion of every vertex: the diagonal of the inverse (section 5)",
+     bench_adf},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},

@@ -25,6 +25,7 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
     }
     const double solved = bench_now();
     peers_local(run, report, m);
+    peers_inverse(run, report, m);
     match_free(m);
     bench_progress("[%s: made ready %.0f s, factor %.0f s, full solves %.0f s, local %.0f s]\n",
                    system->name, created - start, factored - created, solved - factored,

@@ -64,4 +64,7 @@ void peers_solve(bench_run *run, bench_report *report, match *m, sl_int nrhs);
 /** Local solves: one vertex, a pair, patches (peers_local.c). */
 void peers_local(bench_run *run, bench_report *report, match *m);
 
+/** Entries of the inverse, diagonal ones and pairs (peers_inverse.c). */
+void peers_inverse(bench_run *run, bench_report *report, match *m);
+
 #endif

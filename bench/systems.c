@@ -118,6 +118,22 @@ static const bench_system *grid(double vertices) {
     return system;
 }
 
+const bench_system *bench_torus(double vertices) {
+    char name[64];
+    sl_int around = (sl_int)lround(sqrt(2.5 * vertices)); /* as the radii are */
+    sl_int tube = (sl_int)lround(vertices / around);
+    snprintf(name, sizeof name, "torus %dx%d", (int)around, (int)tube);
+    const bench_system *system = find(name);
+    if (!system) {
+        mesh m;
+        if (!mesh_torus(&m, around, tube, 0.2, 1)) {
+            bench_must(SL_ERR_MEMORY, "making a torus");
+        }
+        system = keep_mesh(name, &m);
+    }
+    return system;
+}
+
 const bench_system *bench_volume(sl_int side) {
     char name[64];
     snprintf(name, sizeof name, "volume %dx%dx%d", (int)side, (int)side, (int)side);

@@ -70,11 +70,15 @@ extern "C" {
 #include "impl/solve.h"
 #include "impl/plan.h"
 /* L5 on a factor */
+#include "impl/descent.h"
+#include "impl/descent_run.h"
 #include "impl/groups.h"
 #include "impl/inverse.h"
+#include "impl/inverse_entries.h"
 #include "impl/inverse_block.h"
 #include "impl/batch.h"
 #include "impl/selected.h"
+#include "impl/selected_ask.h"
 #include "impl/region.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"

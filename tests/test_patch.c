@@ -72,6 +72,46 @@ static void grids_are_what_they_say(void **state) {
     assert_null(m.xyz);
 }
 
+/* Closed and oriented: each directed edge is there once, and its reverse too; the faces look outwards. */
+static void a_torus(void **state) {
+    (void)state;
+    const sl_int nu = 9, nv = 5, n = nu * nv;
+    mesh m, same;
+    char *edge = (char *)test_array((size_t)(n * n), 1);
+    double volume = 0;
+    assert_true(mesh_torus(&m, nu, nv, 0.2, 4));
+    assert_true(mesh_torus(&same, nu, nv, 0.2, 4));
+    assert_int_equal(m.n_vertices, n);
+    assert_int_equal(m.n_faces, 2 * n);
+    assert_memory_equal(m.xyz, same.xyz, 3 * (size_t)n * sizeof *m.xyz);
+    for (sl_int f = 0; f < m.n_faces; f++) {
+        const sl_int *c = m.faces + 3 * f;
+        const double *p = m.xyz + 3 * c[0], *q = m.xyz + 3 * c[1], *r = m.xyz + 3 * c[2];
+        for (int k = 0; k < 3; k++) {
+            char *here = &edge[c[k] + n * c[(k + 1) % 3]];
+            assert_int_equal(*here, 0);
+            *here = 1;
+        }
+        volume += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+                  p[2] * (q[0] * r[1] - q[1] * r[0]);
+    }
+    for (sl_int i = 0; i < n; i++) {
+        for (sl_int j = 0; j < n; j++) {
+            assert_int_equal(edge[i + n * j], edge[j + n * i]);
+        }
+    }
+    assert_true(volume > 0);
+    free(edge);
+    mesh_free(&m);
+    mesh_free(&same);
+    assert_false(mesh_torus(&m, 2, 3, 0, 0));
+    assert_false(mesh_torus(&m, 3, 2, 0, 0));
+    assert_false(mesh_torus(&m, 3, 3, -0.1, 0));
+    assert_false(mesh_torus(&m, 3, 3, HUGE_VAL, 0));
+    assert_false(mesh_torus(&m, 65536, 65536, 0, 0));
+    assert_null(m.xyz);
+}
+
 static void grid_laplacians(void **state) {
     (void)state;
     const sl_int nx = 4, ny = 3, nz = 5;
@@ -248,11 +288,9 @@ static void real_components(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grids_are_what_they_say),
-        cmocka_unit_test(grid_laplacians),
-        cmocka_unit_test(neighbours),
-        cmocka_unit_test(patches_grow_in_rings),
-        cmocka_unit_test(components),
+        cmocka_unit_test(grids_are_what_they_say), cmocka_unit_test(a_torus),
+        cmocka_unit_test(grid_laplacians),         cmocka_unit_test(neighbours),
+        cmocka_unit_test(patches_grow_in_rings),   cmocka_unit_test(components),
         cmocka_unit_test(real_components),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* grid.c: made-up problems of any size: flat triangulated grids, and the Laplacians of 2D and 3D grids */
+/* grid.c: made-up problems of any size: triangulated grids, flat or closed, and the Laplacians of 2D and 3D grids */
 #include "grid.h"
 
 #include <math.h>
@@ -43,13 +43,9 @@ static void connect_squares(sl_int *faces, sl_int nx, sl_int ny) {
     }
 }
 
-bool mesh_grid(mesh *out, sl_int nx, sl_int ny, double jitter, uint64_t seed) {
+/* Room for so many vertices and faces. */
+static bool make_room(mesh *out, int64_t vertices, int64_t faces) {
     memset(out, 0, sizeof *out);
-    if (nx < 1 || ny < 1 || !(jitter >= 0) || !isfinite(jitter)) {
-        return false;
-    }
-    int64_t vertices = (int64_t)nx * ny;
-    int64_t faces = 2 * (int64_t)(nx - 1) * (ny - 1);
     if (vertices > INT32_MAX || faces > INT32_MAX) {
         return false;
     }
@@ -61,8 +57,43 @@ bool mesh_grid(mesh *out, sl_int nx, sl_int ny, double jitter, uint64_t seed) {
         mesh_free(out);
         return false;
     }
+    return true;
+}
+
+bool mesh_grid(mesh *out, sl_int nx, sl_int ny, double jitter, uint64_t seed) {
+    memset(out, 0, sizeof *out);
+    if (nx < 1 || ny < 1 || !(jitter >= 0) || !isfinite(jitter) ||
+        !make_room(out, (int64_t)nx * ny, 2 * (int64_t)(nx - 1) * (ny - 1))) {
+        return false;
+    }
     place_vertices(out->xyz, nx, ny, jitter, seed);
     connect_squares(out->faces, nx, ny);
+    return true;
+}
+
+bool mesh_torus(mesh *out, sl_int nu, sl_int nv, double jitter, uint64_t seed) {
+    const double turn = 2 * acos(-1.0), tube = 0.4;
+    memset(out, 0, sizeof *out);
+    if (nu < 3 || nv < 3 || !(jitter >= 0) || !isfinite(jitter) ||
+        !make_room(out, (int64_t)nu * nv, 2 * (int64_t)nu * nv)) {
+        return false;
+    }
+    double *xyz = out->xyz;
+    sl_int *faces = out->faces;
+    for (sl_int v = 0; v < nv; v++) {
+        for (sl_int u = 0; u < nu; u++) {
+            double a = turn * (u + jitter * next_symmetric(&seed)) / nu;
+            double b = turn * (v + jitter * next_symmetric(&seed)) / nv;
+            sl_int right = (u + 1) % nu, above = nu * ((v + 1) % nv), here = nu * v;
+            sl_int corners[6] = {u + here, right + here,  right + above,
+                                 u + here, right + above, u + above};
+            *xyz++ = (1 + tube * cos(b)) * cos(a);
+            *xyz++ = (1 + tube * cos(b)) * sin(a);
+            *xyz++ = tube * sin(b);
+            memcpy(faces, corners, sizeof corners);
+            faces += 6;
+        }
+    }
     return true;
 }
 

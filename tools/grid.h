@@ -1,4 +1,4 @@
-/* grid.h: made-up problems of any size: flat triangulated grids, and the Laplacians of 2D and 3D grids */
+/* grid.h: made-up problems of any size: triangulated grids, flat or closed, and the Laplacians of 2D and 3D grids */
 #ifndef TOOLS_GRID_H
 #define TOOLS_GRID_H
 
@@ -17,6 +17,16 @@
  *  Returns  true; false: nx or ny below 1, jitter negative or not finite, too many vertices or faces, out of memory.
  */
 bool mesh_grid(mesh *out, sl_int nx, sl_int ny, double jitter, uint64_t seed);
+
+/** A closed surface: a torus of nu vertices around the ring, of radius 1, and nv around the tube, of radius 0.4 (each 3 or
+ *  more), each square cut into two triangles that turn the same way as seen from outside.
+ *
+ *  Vertex (iu, iv) is number iu + nu iv; each is moved on the surface by up to jitter steps in both directions.
+ *
+ *  out  [out]  the mesh, release with mesh_free; all zero on error.
+ *  Returns  true; false: nu or nv below 3, jitter negative or not finite, too many vertices or faces, out of memory.
+ */
+bool mesh_torus(mesh *out, sl_int nu, sl_int nv, double jitter, uint64_t seed);
 
 /** Lower triangle of the 5-point Laplacian of a grid of nx x ny points (each 1 or more), with a shifted diagonal.
  *

@@ -266,4 +266,5 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(assemble),
     SLV_NAME(products8),
     SLV_NAME(gather),
+    SLV_NAME(dual),
     SLV_NAME(takahashi)};

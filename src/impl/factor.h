@@ -24,7 +24,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->failures = SLI_TAKE(b, sli_failure, workers);
         F->local = SLI_TAKE(b, sl_int, n);
         F->places = SLI_TAKE(b, sl_int, S->tallest);
-        sli_schedule_layout(&F->schedule, b, S);
+        sli_schedule_layout(&F->schedule, b, S->n_supers);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
         F->x = SLI_TAKE(b, double, n);

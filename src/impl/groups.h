@@ -14,11 +14,9 @@ static const double sli_lanes_cost[][SLI_LANES_COUNT] = {{1.0, 1.3, 1.9, 3.3},  
                                                          {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
                                                          {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
 
-SLI_INLINE const double *sli_lanes_cost_of(sl_isa isa) {
-    return sli_lanes_cost[isa == SL_ISA_SCALAR   ? 1
-                          : isa == SL_ISA_AVX2   ? 2
-                          : isa == SL_ISA_AVX512 ? 3
-                                                 : 0];
+/* The row of an instruction set in tables of costs. */
+SLI_INLINE int sli_isa_row(sl_isa isa) {
+    return isa == SL_ISA_SCALAR ? 1 : isa == SL_ISA_AVX2 ? 2 : isa == SL_ISA_AVX512 ? 3 : 0;
 }
 
 /* Columns of L that share a reach, a lane each. */
@@ -75,7 +73,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
     sli_requests r;
     memset(&r, 0, sizeof r);
     r.S = F->S;
-    r.lanes_cost = sli_lanes_cost_of(F->kernels->isa);
+    r.lanes_cost = sli_lanes_cost[sli_isa_row(F->kernels->isa)];
     r.rows = rows;
     r.columns = columns;
     r.count = count;
@@ -137,6 +135,7 @@ static sl_int sli_group_choose(const sli_requests *r, sl_int k, sli_group *best)
     sl_int taken = 0;
     sli_group g;
     memset(&g, 0, sizeof g);
+    *best = g;
     for (; k < r->count && k - from < SLI_REQUESTS_MAX && sli_group_request(&g, r, k, r->S); k++) {
         const double time = r->lanes_cost[sli_lanes_kind(g.count)] * (double)g.size.entries /
                             (double)(k - from + 1);
@@ -172,17 +171,26 @@ static void sli_room_add(sli_room *room, const sli_reach *R, sl_int lanes) {
     room->scratch = scratch > room->scratch ? scratch : room->scratch;
 }
 
-/* Sorts and groups requests, and finds the room their sweeps need. */
-static void sli_requests_group(sli_requests *r, sli_room *room) {
+/* Sorts and groups requests, and finds the room their sweeps need. Returns their time, as the costs of lanes are; ends
+ * where it passes a limit. */
+static double sli_requests_group_within(sli_requests *r, sli_room *room, double limit) {
+    double time = 0.0;
     sl_int k = 0;
     sli_requests_sort(r);
-    for (r->n_groups = 0; k < r->count; r->n_groups++) {
+    for (r->n_groups = 0; k < r->count && time < limit; r->n_groups++) {
         sli_group g;
         const sl_int taken = sli_group_choose(r, k, &g);
-        sli_room_add(room, &g.size, (sl_int)1 << sli_lanes_kind(g.count));
+        const int kind = sli_lanes_kind(g.count);
+        sli_room_add(room, &g.size, (sl_int)1 << kind);
+        time += r->lanes_cost[kind] * (double)g.size.entries;
         r->taken[r->n_groups] = (uint64_t)taken;
         k += taken;
     }
+    return time;
+}
+
+static void sli_requests_group(sli_requests *r, sli_room *room) {
+    (void)sli_requests_group_within(r, room, HUGE_VAL);
 }
 
 /* A forward sweep: its reach and vector stay, the rest serves while it runs. */

@@ -1,4 +1,4 @@
-/* inverse.h: entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D */
+/* inverse.h: bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D */
 #ifndef SLI_INVERSE_H
 #define SLI_INVERSE_H
 
@@ -51,16 +51,6 @@ static sl_work sli_work_own(const sl_factor *F) {
     return own;
 }
 
-/* The base of W, grown to what a layout has counted, for its second run. */
-static sl_status sli_work_lay(sl_work *W, sli_block *b, size_t at_least) {
-    const sl_status status =
-        b->overflow ? SL_ERR_TOO_LARGE
-                    : sli_work_grow(W, b->used > at_least ? b->used : at_least + (at_least == 0));
-    b->base = (unsigned char *)W->block;
-    b->used = 0;
-    return status;
-}
-
 /* Clears what a call says of its sweeps. */
 static void sli_inverse_stats(sl_stats *stats) {
     if (stats != NULL) {
@@ -84,139 +74,64 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
     return SL_OK;
 }
 
-/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
-static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sli_forward *f,
-                             const sli_group *g, sl_int k, sl_int taken, double *out) {
-    sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;
-    double sums[SLI_REQUESTS_MAX];
-    for (m = 0; m < taken; m++) {
-        const sl_int at = sli_value(r->order[k + m]);
-        first[m] = sli_group_lane(g, sli_request_row(r, at));
-        second[m] = sli_group_lane(g, sli_request_column(r, at));
-    }
-    sli_pair_sums(F, f, taken, first, second, sums);
-    for (m = 0; m < taken; m++) {
-        out[sli_value(r->order[k + m])] = sums[m];
-    }
-}
-
-/* Entries one by one. The room is known only once the requests are sorted and grouped: where W is too
- * small for it, it grows and they are sorted again, before anything is written. */
-static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
-                                     sl_stats *stats) {
-    size_t bytes = 0;
-    sli_forward f;
-    sl_int k = 0, m;
-    for (;;) {
-        sli_block b = {NULL, 0, 0};
-        sli_room room = {0, 0, 0, 0};
-        sl_status status;
-        sli_requests_layout(r, &b);
-        status = sli_work_lay(W, &b, bytes);
-        if (status != SL_OK) {
-            return status;
-        }
-        sli_requests_layout(r, &b);
-        sli_requests_group(r, &room);
-        sli_forward_layout(&f, &b, &room);
-        sli_forward_layout_run(&f, &b, &room);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
-        if (b.used <= W->size) {
-            break;
-        }
-        bytes = b.used;
-    }
-    for (m = 0; m < r->n_groups; m++) {
-        const sl_int taken = (sl_int)r->taken[m];
-        sli_group g;
-        sli_group_again(r, k, taken, &g);
-        sli_forward_group(&f, F, &g, stats);
-        sli_pairs_answer(F, r, &f, &g, k, taken, out);
-        k += taken;
-    }
-    return SL_OK;
-}
-
-static sl_status sli_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                                   const sl_int *columns, sl_int count, sl_work *W,
-                                   sl_stats *stats) {
-    sl_work own;
-    sli_requests r;
-    sl_status status;
-    if (count < 0 || (count > 0 && out == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_check_rows(F->S, rows, count, 0, stats);
-    status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
-    if (status != SL_OK) {
-        return status;
-    }
-    sli_inverse_stats(stats);
-    r = sli_requests_of(F, rows, columns, count);
-    own = sli_work_own(F);
-    status = count == 0 ? SL_OK : sli_inverse_entries(F, out, &r, W == NULL ? &own : W, stats);
-    sli_free(&own.allocator, own.block);
-    return status;
-}
-
-SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
-                                     sl_int count, sl_work *W, sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    return F == NULL
-               ? SL_ERR_ARGUMENT
-               : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
-}
-
-SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
-                                  const sl_int *columns, sl_int count, sl_work *W,
-                                  sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    return F == NULL || (count > 0 && (rows == NULL || columns == NULL))
-               ? SL_ERR_ARGUMENT
-               : sli_inverse_pairs(F, out, rows, columns, count, W, stats);
-}
-
 /* c' A^-1 b: two lanes over the reach of both sets, one where they are the same. */
 typedef struct sli_bilinear {
+    const sl_factor *F;
     const sl_int *set[2];
     const double *values[2];
     sl_int count[2];
     sl_int vectors;
     uint64_t *seeds, *scratch; /* count[0] + count[1] in all, unless a set is NULL */
+    sli_forward forward;
 } sli_bilinear;
 
-static void sli_bilinear_layout(sli_bilinear *q, sli_block *b) {
-    const int is_whole = q->set[0] == NULL || q->set[1] == NULL;
-    const uint64_t count = is_whole ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
+SLI_INLINE int sli_bilinear_is_whole(const sli_bilinear *q) {
+    return q->set[0] == NULL || q->set[1] == NULL;
+}
+
+static void sli_bilinear_lay_seeds(void *form, sli_block *b) {
+    sli_bilinear *q = (sli_bilinear *)form;
+    const uint64_t count =
+        sli_bilinear_is_whole(q) ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
     q->seeds = SLI_TAKE(b, uint64_t, count);
     q->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
 /* The columns of both sets ascending, each with its place behind one another, and their reach. */
-static void sli_bilinear_measure(const sl_symbolic *S, sli_bilinear *q, sli_reach *R) {
+static void sli_bilinear_measure(void *form) {
+    sli_bilinear *q = (sli_bilinear *)form;
+    const sl_symbolic *S = q->F->S;
     const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
     sl_int k;
-    if (q->set[0] == NULL || q->set[1] == NULL) {
-        *R = sli_reach_all(S);
+    if (sli_bilinear_is_whole(q)) {
+        q->forward.reach = sli_reach_all(S);
         return;
     }
     for (k = 0; k < total; k++) {
         q->seeds[k] = sli_keyed(S->iperm[k < nc ? q->set[0][k] : q->set[1][k - nc]], k);
     }
     sli_sort(q->seeds, total, q->scratch);
-    sli_reach_measure(S, q->seeds, total, R);
+    sli_reach_measure(S, q->seeds, total, &q->forward.reach);
+}
+
+static void sli_bilinear_lay_sweep(void *form, sli_block *b) {
+    sli_bilinear *q = (sli_bilinear *)form;
+    sli_room room = {0, 0, 0, 0};
+    sli_room_add(&room, &q->forward.reach, q->vectors);
+    if (sli_bilinear_is_whole(q)) { /* the analysis has them */
+        room.steps = room.rows = 0;
+    }
+    sli_forward_layout(&q->forward, b, &room);
+    sli_forward_layout_run(&q->forward, b, &room);
 }
 
 /* Both vectors into the sweep. */
-static void sli_bilinear_pack(const sl_symbolic *S, const sli_bilinear *q, sli_forward *f) {
+static void sli_bilinear_pack(sli_bilinear *q) {
+    const sl_symbolic *S = q->F->S;
+    sli_forward *f = &q->forward;
     const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
     sl_int k, lane, at = 0;
-    if (q->set[0] != NULL && q->set[1] != NULL) {
+    if (!sli_bilinear_is_whole(q)) {
         sli_reach_fill(S, q->seeds, total, f->steps, f->rows, &f->reach);
         sli_forward_clear(f, q->vectors);
         for (k = 0; k < total; k++) {
@@ -237,40 +152,17 @@ static void sli_bilinear_pack(const sl_symbolic *S, const sli_bilinear *q, sli_f
     }
 }
 
-static sl_status sli_inverse_form(const sl_factor *F, double *out, sli_bilinear *q, sl_work *W,
-                                  sl_stats *stats) {
-    const int is_whole = q->set[0] == NULL || q->set[1] == NULL;
+static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
+    static const sli_stage stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
+                                        {sli_bilinear_lay_sweep, NULL}};
     const sl_int first = 0, second = q->vectors - 1;
-    size_t bytes = 0;
-    sli_forward f;
-    for (;;) {
-        sli_block b = {NULL, 0, 0};
-        sli_room room = {0, 0, 0, 0};
-        sl_status status;
-        sli_bilinear_layout(q, &b);
-        status = sli_work_lay(W, &b, bytes);
-        if (status != SL_OK) {
-            return status;
-        }
-        sli_bilinear_layout(q, &b);
-        sli_bilinear_measure(F->S, q, &f.reach);
-        sli_room_add(&room, &f.reach, q->vectors);
-        room.steps = is_whole ? 0 : room.steps; /* the analysis has them */
-        room.rows = is_whole ? 0 : room.rows;
-        sli_forward_layout(&f, &b, &room);
-        sli_forward_layout_run(&f, &b, &room);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
-        if (b.used <= W->size) {
-            break;
-        }
-        bytes = b.used;
+    const sl_status status = sli_work_stages(W, stages, 2, q);
+    if (status == SL_OK) {
+        sli_bilinear_pack(q);
+        sli_forward_run(&q->forward, q->F, stats);
+        sli_pair_sums(q->F, &q->forward, 1, &first, &second, out);
     }
-    sli_bilinear_pack(F->S, q, &f);
-    sli_forward_run(&f, F, stats);
-    sli_pair_sums(F, &f, 1, &first, &second, out);
-    return SL_OK;
+    return status;
 }
 
 SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *cset,
@@ -305,6 +197,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
         return SL_OK;
     }
     memset(&q, 0, sizeof q);
+    q.F = F;
     q.set[0] = cset;
     q.set[1] = bset;
     q.values[0] = c;
@@ -313,7 +206,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     q.count[1] = nb;
     q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
     own = sli_work_own(F);
-    status = sli_inverse_form(F, out, &q, W == NULL ? &own : W, stats);
+    status = sli_inverse_form(&q, out, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
 }

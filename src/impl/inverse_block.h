@@ -67,17 +67,32 @@ typedef struct sli_inverse_block {
     sli_requests kept, passing;
     sli_swept sweeps[SLI_KEPT], pass;
     double *weighed; /* of the group that passes by */
+    sli_room kept_room, passing_room;
 } sli_inverse_block;
 
-static void sli_block_layout_requests(sli_inverse_block *q, sli_block *b) {
+static void sli_block_lay_requests(void *block, sli_block *b) {
+    sli_inverse_block *q = (sli_inverse_block *)block;
     sli_requests_layout(&q->kept, b);
     if (!q->is_symmetric) {
         sli_requests_layout(&q->passing, b);
     }
 }
 
-static void sli_block_layout_sweeps(sli_inverse_block *q, sli_block *b, const sli_room *kept,
-                                    const sli_room *passing) {
+static void sli_block_group(void *block) {
+    sli_inverse_block *q = (sli_inverse_block *)block;
+    memset(&q->kept_room, 0, sizeof q->kept_room);
+    memset(&q->passing_room, 0, sizeof q->passing_room);
+    sli_requests_group(&q->kept, &q->kept_room);
+    if (!q->is_symmetric) {
+        sli_requests_group(&q->passing, &q->passing_room);
+    } else if (q->kept.n_groups > SLI_KEPT) {
+        q->passing_room = q->kept_room;
+    }
+}
+
+static void sli_block_lay_sweeps(void *block, sli_block *b) {
+    sli_inverse_block *q = (sli_inverse_block *)block;
+    const sli_room *kept = &q->kept_room, *passing = &q->passing_room;
     const sl_int count = sli_min(q->kept.n_groups, SLI_KEPT);
     sli_room both = *kept;
     sl_int k;
@@ -162,36 +177,14 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
     }
 }
 
-/* Room as in sli_inverse_entries, then the block. */
 static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *stats) {
-    size_t bytes = 0;
-    for (;;) {
-        sli_block b = {NULL, 0, 0};
-        sli_room kept = {0, 0, 0, 0}, passing = {0, 0, 0, 0};
-        sl_status status;
-        sli_block_layout_requests(q, &b);
-        status = sli_work_lay(W, &b, bytes);
-        if (status != SL_OK) {
-            return status;
-        }
-        sli_block_layout_requests(q, &b);
-        sli_requests_group(&q->kept, &kept);
-        if (!q->is_symmetric) {
-            sli_requests_group(&q->passing, &passing);
-        } else if (q->kept.n_groups > SLI_KEPT) {
-            passing = kept;
-        }
-        sli_block_layout_sweeps(q, &b, &kept, &passing);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
-        if (b.used <= W->size) {
-            break;
-        }
-        bytes = b.used;
+    static const sli_stage stages[2] = {{sli_block_lay_requests, sli_block_group},
+                                        {sli_block_lay_sweeps, NULL}};
+    const sl_status status = sli_work_stages(W, stages, 2, q);
+    if (status == SL_OK) {
+        sli_block_fill(q, stats);
     }
-    sli_block_fill(q, stats);
-    return SL_OK;
+    return status;
 }
 
 /* Every entry between some rows, in range, handed over by their numbers; those of two groups once, in either order. */

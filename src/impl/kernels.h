@@ -201,6 +201,7 @@ typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_i
 /* sums(i, j) -= y(k, i) z(k, j) over `count` rows of 8 lanes each; sums is 8 x 8 by rows. All 64-byte
  * aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+
 /* Fronts of the inverse Z of P A P'. That of a supernode holds Z of its columns and the rows below, h in
  * all, both triangles: row tiles [tile][h][8], numbered as in the panel. */
 typedef struct sli_dual {
@@ -208,6 +209,7 @@ typedef struct sli_dual {
     const double *D;     /* .. its pivots */
     double *front;
     sl_int width, below;
+    sl_int first; /* groups of columns before this one are left out */
 } sli_dual;
 
 /* Where row tile t of a front of the inverse of h rows starts, in doubles. */
@@ -215,24 +217,71 @@ SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
     return (ptrdiff_t)SLI_TILE * h * t;
 }
 
-/* Column tiles that are completed together, doubles of a row tile of their L'^-1, and of scratch for
- * supernodes of some height and width. */
+/* Column tiles, and columns, that are completed together: a group; doubles of a row tile of their L'^-1. */
 #define SLI_DUAL_GROUP 16
-#define SLI_DUAL_ROW (SLI_DUAL_GROUP * SLI_TILE * SLI_TILE)
+#define SLI_DUAL_COLUMNS (SLI_DUAL_GROUP * SLI_TILE)
+#define SLI_DUAL_ROW (SLI_DUAL_COLUMNS * SLI_TILE)
+
+/* The first column of the last group, columns of the group that starts at j0. */
+SLI_INLINE sl_int sli_dual_last(const sli_dual *f) {
+    return (f->width - 1) / SLI_DUAL_COLUMNS * SLI_DUAL_COLUMNS;
+}
+SLI_INLINE sl_int sli_dual_columns(const sli_dual *f, sl_int j0) {
+    return sli_min(SLI_DUAL_COLUMNS, f->width - j0);
+}
+
+/* Scratch of a group: N and P, SLI_DUAL_GROUP rows each, then W: where it starts, doubles from a column tile to the
+ * next, and doubles of all for supernodes of some height and width. */
+SLI_INLINE double *sli_dual_weights(double *scratch) {
+    return scratch + 2 * SLI_DUAL_GROUP * SLI_DUAL_ROW;
+}
+SLI_INLINE ptrdiff_t sli_dual_stride(const sli_dual *f, sl_int j0) {
+    const sl_int above = (j0 + sli_dual_columns(f, j0)) / SLI_TILE;
+    return SLI_TILE * SLI_TILE * (ptrdiff_t)(sli_tiles(f->width + f->below) - above);
+}
 SLI_INLINE sl_off sli_dual_scratch(sl_int height, sl_int width) {
     return 2 * SLI_DUAL_GROUP * SLI_DUAL_ROW + (sl_off)SLI_TILE * SLI_TILE *
                                                    sli_min(sli_tiles(width), SLI_DUAL_GROUP) *
                                                    sli_tiles(height);
 }
 
-/* Z of the rows below a supernode, out of the front of its parent of that height; places: their rows
- * there, ascending. */
+/* Z of the rows below a supernode, row tiles t0 .. t1-1, out of the front of its parent of that height; places: their
+ * rows there, ascending. */
 typedef void (*sli_gather_kernel)(const sli_dual *f, const double *from, sl_int height,
-                                  const sl_int *places);
+                                  const sl_int *places, sl_int t0, sl_int t1);
 
-/* The rest of the front, by Takahashi's equations. With W = L_SJ L_JJ^-1:
- * Z_SJ = -Z_SS W, Z_JJ = (L_JJ D L_JJ')^-1 - W' Z_SJ. */
+/* The rest of the front, by Takahashi's equations, group after group of columns J, the last one first, with S all rows
+ * after it. With N = -L_JJ'^-1, P = -N D^-1 and W = L_SJ L_JJ^-1: Z_SJ = -Z_SS W, Z_JJ = P N' - W' Z_SJ. */
 typedef void (*sli_takahashi_kernel)(const sli_dual *f, double *scratch);
+
+/* The parts of a group, one after the other, each of which may be shared out by row tiles. */
+typedef enum sli_dual_part {
+    SLI_DUAL_INVERSE = 0, /* N and P: tiles of the group */
+    SLI_DUAL_WEIGHTS,     /* W: tiles of S */
+    SLI_DUAL_PRODUCT,     /* Z_SJ: tiles of S */
+    SLI_DUAL_MIRROR,      /* Z_JS: tiles of S */
+    SLI_DUAL_SQUARE       /* Z_JJ: tiles of the group */
+} sli_dual_part;
+#define SLI_DUAL_PARTS 5
+
+typedef struct sli_span {
+    sl_int first, last;
+} sli_span;
+
+/* The row tiles of a part: first .. last-1. */
+SLI_INLINE sli_span sli_dual_span(const sli_dual *f, sl_int j0, sli_dual_part part) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    sli_span span = {0, sli_tiles(m)};
+    if (part != SLI_DUAL_INVERSE && part != SLI_DUAL_SQUARE) {
+        span.last = j0 + m < h ? sli_tiles(h) : 0;
+        span.first = sli_min((j0 + m) / SLI_TILE, span.last);
+    }
+    return span;
+}
+
+/* Row tiles t0 .. t1-1 of one part. */
+typedef void (*sli_dual_kernel)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                sl_int t1, double *scratch);
 
 /* Numbers that stand side by side, spread over the lanes of a tile one by one: where no instruction
  * does it. */
@@ -260,6 +309,7 @@ typedef struct sli_kernels {
     sli_assemble_kernel assemble;
     sli_products_kernel products;
     sli_gather_kernel gather;
+    sli_dual_kernel dual;
     sli_takahashi_kernel takahashi;
 } sli_kernels;
 

@@ -13,9 +13,6 @@ typedef struct sli_job {
     sli_front front;
 } sli_job;
 
-/* A front of this many flops takes some 50 us, and is shared out at 1 or 2 us a step by OpenMP, at more by others. */
-#define SLI_SHARED_FLOPS 4e6
-
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
     const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
@@ -158,13 +155,6 @@ static void sli_do_tasks(void *data, sl_int k) {
             }
         }
     }
-}
-
-/* Row tiles of worker k: of first .. last-1 in equal parts, or, where the rows grow longer as in a
- * triangle, in parts of equal area. */
-static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
-    const double share = (double)k / workers;
-    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
 }
 
 static void sli_shared_clear(void *data, sl_int k) {

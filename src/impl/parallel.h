@@ -31,4 +31,11 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     }
 }
 
+/* Where worker k's part of the row tiles first .. last-1 begins: parts are equal, or, where the rows grow
+ * longer as in a triangle, of equal area. */
+static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
+    const double share = (double)k / workers;
+    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
+}
+
 #endif

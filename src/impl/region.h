@@ -3,7 +3,7 @@
 #define SLI_REGION_H
 
 #include "inverse_block.h"
-#include "selected.h"
+#include "selected_ask.h"
 
 /* The supernodes inside and the boundary while they are chosen, over the compiled reach of the set. A row
  * is in the boundary if it is asked for, or below a supernode inside, and not inside itself. */

@@ -18,17 +18,27 @@ typedef struct sli_schedule {
     sl_off waiting;        /* doubles for all of them */
 } sli_schedule;
 
+/* A forest of fronts, numbered in postorder: all supernodes of an analysis, or those of a reach. */
+typedef struct sli_forest {
+    sl_int count;
+    const sl_int *parent; /* count: -1 at a root */
+    const sl_int *low;    /* count: the first of the subtree */
+} sli_forest;
+
 /* What the planning needs only while it runs. */
 typedef struct sli_planning {
-    double *flops;   /* n_supers: of the subtree */
+    double *flops;   /* count: of the front, then of the subtree */
     double *load;    /* workers */
-    sl_int *side;    /* n_supers: the stack of a supernode, 2 more in a task */
-    uint64_t *order; /* n_supers: tasks, the largest last */
+    sl_int *side;    /* count: the stack of a supernode, 2 more in a task */
+    uint64_t *order; /* count: tasks, the largest last */
     uint64_t *scratch;
 } sli_planning;
 
 /* Tasks this much smaller than a worker's share even out what no estimate knows. */
 #define SLI_TASKS_A_WORKER 8
+
+/* A front of this many flops takes some 50 us, and is shared out at 1 or 2 us a step by OpenMP, at more by others. */
+#define SLI_SHARED_FLOPS 4e6
 
 /* Doubles that a supernode leaves to its parent: the update matrix and the magnitudes of its rows. */
 SLI_INLINE sl_off sli_waiting_size(const sli_step *s) {
@@ -108,12 +118,12 @@ static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int
 }
 
 /* Subtrees of at most limit flops whose parent has more, in ascending order of flops. */
-static void sli_find_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *w, double limit) {
+static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w, double limit) {
     const double scale = limit > 0.0 ? 1e9 / limit : 0.0;
     sl_int s;
     p->n_tasks = p->n_tops = 0;
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int up = S->super_parent[s];
+    for (s = 0; s < f->count; s++) {
+        const sl_int up = f->parent[s];
         if (w->flops[s] > limit) {
             p->top[p->n_tops++] = s;
         } else if (up == -1 || w->flops[up] > limit) {
@@ -124,7 +134,7 @@ static void sli_find_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *
 }
 
 /* The largest tasks first, each to the worker who has least. */
-static void sli_share_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w) {
     sl_int m, k;
     for (k = 0; k < p->workers; k++) {
         w->load[k] = 0.0;
@@ -136,36 +146,44 @@ static void sli_share_tasks(sli_schedule *p, const sl_symbolic *S, sli_planning 
             least = w->load[k] < w->load[least] ? k : least;
         }
         w->load[least] += w->flops[root];
-        p->first[m] = S->descendant[root];
+        p->first[m] = f->low[root];
         p->last[m] = root;
         p->worker[m] = least;
     }
 }
 
-/* Plans for p->workers. The arrays of p and w have room. */
-static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+/* Tasks and tops for p->workers. w->flops: of the fronts, where there is more than one worker. */
+static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w) {
     double total = 0.0;
-    sl_int s, m;
-    for (s = 0; s < S->n_supers; s++) {
-        w->flops[s] = 0.0;
+    sl_int s;
+    if (p->workers == 1) {
+        p->n_tops = 0;
+        p->n_tasks = f->count > 0;
+        if (f->count > 0) {
+            p->first[0] = p->worker[0] = 0;
+            p->last[0] = f->count - 1;
+        }
+        return;
     }
-    for (s = 0; s < S->n_supers; s++) {
-        w->flops[s] += sli_front_flops(&S->steps[s]);
-        if (S->super_parent[s] != -1) {
-            w->flops[S->super_parent[s]] += w->flops[s];
+    for (s = 0; s < f->count; s++) {
+        if (f->parent[s] != -1) {
+            w->flops[f->parent[s]] += w->flops[s];
         } else {
             total += w->flops[s];
         }
     }
-    if (p->workers == 1 && S->n_supers > 0) {
-        p->n_tops = 0;
-        p->n_tasks = 1;
-        p->first[0] = p->worker[0] = 0;
-        p->last[0] = S->n_supers - 1;
-    } else {
-        sli_find_tasks(p, S, w, total / ((double)p->workers * SLI_TASKS_A_WORKER));
-        sli_share_tasks(p, S, w);
+    sli_find_tasks(p, f, w, total / ((double)p->workers * SLI_TASKS_A_WORKER));
+    sli_share_tasks(p, f, w);
+}
+
+/* Plans for p->workers. The arrays of p and w have room. */
+static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
+    const sli_forest f = {S->n_supers, S->super_parent, S->descendant};
+    sl_int s, m;
+    for (s = 0; s < S->n_supers; s++) {
+        w->flops[s] = sli_front_flops(&S->steps[s]);
     }
+    sli_plan_tasks(p, &f, w);
     for (s = S->n_supers - 1; s >= 0; s--) {
         w->side[s] = S->super_parent[s] == -1 ? 2 : 3 - (w->side[S->super_parent[s]] & 1);
     }
@@ -175,21 +193,21 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_plannin
     sli_plan_waiting(p, S, w->side);
 }
 
-static void sli_schedule_layout(sli_schedule *p, sli_block *b, const sl_symbolic *S) {
-    const size_t supers = (size_t)S->n_supers, tasks = p->workers == 1 ? 1 : supers;
+static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
+    const uint64_t fronts = (uint64_t)count, tasks = p->workers == 1 ? 1 : fronts;
     p->first = SLI_TAKE(b, sl_int, tasks);
     p->last = SLI_TAKE(b, sl_int, tasks);
     p->worker = SLI_TAKE(b, sl_int, tasks);
-    p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : supers);
-    p->waiting_begin = SLI_TAKE(b, sl_off, supers);
+    p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
+    p->waiting_begin = SLI_TAKE(b, sl_off, fronts);
 }
 
-static void sli_planning_layout(sli_planning *w, sli_block *b, sl_int supers, sl_int workers) {
-    w->flops = SLI_TAKE(b, double, supers);
+static void sli_planning_layout(sli_planning *w, sli_block *b, sl_int count, sl_int workers) {
+    w->flops = SLI_TAKE(b, double, count);
     w->load = SLI_TAKE(b, double, workers);
-    w->side = SLI_TAKE(b, sl_int, supers);
-    w->order = SLI_TAKE(b, uint64_t, supers);
-    w->scratch = SLI_TAKE(b, uint64_t, supers);
+    w->side = SLI_TAKE(b, sl_int, count);
+    w->order = SLI_TAKE(b, uint64_t, count);
+    w->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
 #endif

@@ -9,25 +9,30 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
-/* count columns of a tile := 0. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int count) {
-    sl_int k;
+#define SLI_STORE(k, p)                                                                            \
+    if ((k) < columns) {                                                                           \
+        SLV_STORE((p) + SLI_TILE * (k), a)                                                         \
+    }
+
+/* The first columns of a tile := 0. Not as a loop: compilers make rep stos of one, and what reads the tile next waits
+ * for it. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
     SLV_DECLARE(a)
     SLV_ZERO(a)
-    for (k = 0; k < count; k++) {
-        SLV_STORE(x + SLI_TILE * (ptrdiff_t)k, a)
-    }
+    SLI_EACH8(SLI_STORE, x)
 }
+
+#undef SLI_STORE
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Z of the rows below, out of the parent's front: row and column i of theirs is row and column
- * places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
+/* Z of the rows below, row tiles t0 .. t1-1, out of the parent's front: row and column i of theirs is row and
+ * column places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
-                                          const sl_int *places) {
-    const sl_int w = f->width, u = f->below, tiles = sli_tiles(w + u);
+                                          const sl_int *places, sl_int t0, sl_int t1) {
+    const sl_int w = f->width, u = f->below;
     sl_int t, i;
-    for (t = w / SLI_TILE; t < tiles && u > 0; t++) {
+    for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {
@@ -73,12 +78,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L'^-1 of a group of m columns from j0 on, row tile c from column 8c on; 0 where it has no row. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     double *N) {
-    const sl_int tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+/* N = -L'^-1 of a group of m columns from j0 on, row tiles c0 .. c1-1, row tile c from column 8c on, 0 where it
+ * has no row; and P = -N D^-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int c0,
+                                                     sl_int c1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
+    double *N = scratch + SLI_DUAL_ROW * (ptrdiff_t)c0, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int c, t, k;
-    for (c = 0; c < tiles; c++, N += SLI_DUAL_ROW) {
+    for (c = c0; c < c1; c++, N += SLI_DUAL_ROW, P += SLI_DUAL_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
             const double *l =
@@ -95,46 +102,63 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
             }
             SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
-    }
-}
-
-/* W' = (L_SJ L_JJ^-1)', row tile by row tile of the panel: [column tile][row][8 columns]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *N, double *W) {
-    const sl_int tiles = sli_tiles(f->width + f->below), tile_size = SLI_TILE * SLI_TILE;
-    sl_int c, t;
-    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW) {
-        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
-        for (t = (j0 + m) / SLI_TILE; t < tiles; t++, W += tile_size) {
-            SLV_NAME(clear)(W, SLI_TILE);
-            SLV_NAME(block)
-            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
-             m - SLI_TILE * c, W, SLI_TILE);
+        for (k = SLI_TILE * c; k < m; k++) {
+            const double minus = -f->D[j0 + k];
+            SLV_DECLARE(a)
+            SLV_DECLARE(b)
+            SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
+            SLV_BROADCAST(b, &minus)
+            SLV_DIVIDE(a, a, b)
+            SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
         }
     }
 }
 
-/* Z_SJ -= Z_SS W, in chunks as in a factorization. W starts at the row tile of row j0 + m. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int m,
-                                                     const double *W) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const ptrdiff_t stride = SLI_TILE * SLI_TILE * (ptrdiff_t)(tiles - first / SLI_TILE);
+/* W' = (L_SJ L_JJ^-1)', row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch;
+    double *W = sli_dual_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+    sl_int c, t;
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW, W += stride) {
+        const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+        for (t = t0; t < t1; t++) {
+            double *to = W + tile_size * (ptrdiff_t)(t - t0);
+            SLV_NAME(clear)(to, SLI_TILE);
+            SLV_NAME(block)
+            (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+             m - SLI_TILE * c, to, SLI_TILE);
+        }
+    }
+}
+
+/* Z_SJ -= Z_SS W, row tiles t0 .. t1-1, in chunks as in a factorization. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                     sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
+    const ptrdiff_t stride = sli_dual_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const double *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     sl_int t, c, s;
-    for (t = first / SLI_TILE; t < tiles; t++) {
-        SLV_NAME(clear)(f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0, m);
+    for (t = t0; t < t1; t++) {
+        double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
+        for (c = 0; c < sli_tiles(m); c++) {
+            SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
+        }
     }
     for (s = first; s < h; s += SLI_CHUNK) {
         const sl_int length = sli_min(SLI_CHUNK, h - s);
-        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first + first % SLI_TILE);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
+        for (t = t0; t < t1; t++) {
             double *row = f->front + sli_square_offset(h, t);
             const double *A = row + SLI_TILE * (ptrdiff_t)s;
             double *C = row + SLI_TILE * (ptrdiff_t)j0;
 #if SLV_TILES == 2
-            if (t + 1 < tiles) {
+            if (t + 1 < t1) {
                 const ptrdiff_t next = sli_square_offset(h, 1);
                 for (c = 0; c < sli_tiles(m); c++) {
-                    const ptrdiff_t at = SLI_TILE * SLI_TILE * (ptrdiff_t)c;
+                    const ptrdiff_t at = tile_size * c;
                     SLV_NAME(block2)
                     (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
                 }
@@ -144,8 +168,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
 #endif
             for (c = 0; c < sli_tiles(m); c++) {
                 SLV_NAME(block)
-                (A, B + c * stride, length, C + SLI_TILE * SLI_TILE * (ptrdiff_t)c,
-                 sli_min(SLI_TILE, m - SLI_TILE * c));
+                (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
             }
         }
     }
@@ -179,59 +202,49 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
     }
 }
 
-/* Z_JS = Z_SJ' */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int m) {
-    const sl_int h = f->width + f->below, tiles = sli_tiles(h), first = j0 + m;
-    const sl_int tile_size = SLI_TILE * SLI_TILE;
+/* Z_JS = Z_SJ', columns of the row tiles t0 .. t1-1. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+    const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;
     for (c = 0; c < sli_tiles(m); c++) {
         const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
         double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-        for (t = first / SLI_TILE; t < tiles; t++) {
+        for (t = t0; t < t1; t++) {
             SLV_NAME(mirror)
-            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 +
-                 tile_size * (ptrdiff_t)c,
-             sli_max(first - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-             to + tile_size * (ptrdiff_t)t, columns);
+            (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
+             sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+             to + tile_size * t, columns);
         }
     }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles and what mirrors them. P: room as for N. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int m,
-                                                    const double *N, double *P, const double *W) {
-    const sl_int h = f->width + f->below, first = j0 + m, tiles = sli_tiles(m);
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles of the group's row tiles t0 .. t1-1 and what mirrors
+ * them. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int t0,
+                                                    sl_int t1, double *scratch) {
+    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
     const sl_int tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = tile_size * (ptrdiff_t)(sli_tiles(h) - first / SLI_TILE);
+    const ptrdiff_t stride = sli_dual_stride(f, j0);
+    const double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
+                 *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, j;
-    for (c = 0; c < tiles; c++) {
-        for (j = SLI_TILE * c; j < m; j++) {
-            const double minus = -f->D[j0 + j];
-            const ptrdiff_t at = SLI_DUAL_ROW * (ptrdiff_t)c + SLI_TILE * (ptrdiff_t)j;
-            SLV_DECLARE(a)
-            SLV_DECLARE(b)
-            SLV_LOAD(a, N + at)
-            SLV_BROADCAST(b, &minus)
-            SLV_DIVIDE(a, a, b)
-            SLV_STORE(P + at, a)
-        }
-    }
-    for (t = 0; t < tiles; t++) {
+    sl_int c, t;
+    for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
         for (c = 0; c <= t; c++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-            SLV_NAME(clear)(x, columns);
+            SLV_NAME(clear)(x, SLI_TILE);
             SLV_NAME(block)
             (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
              P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
              columns);
             if (first < h) {
                 SLV_NAME(block)
-                (W + t * stride + SLI_TILE * (ptrdiff_t)(first % SLI_TILE),
-                 column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+                (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
             if (c < t) {
@@ -243,21 +256,39 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     }
 }
 
+SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
+                                        sl_int t1, double *scratch) {
+    switch (part) {
+    case SLI_DUAL_INVERSE:
+        SLV_NAME(group_inverse)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_WEIGHTS:
+        SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_PRODUCT:
+        SLV_NAME(group_product)(f, j0, t0, t1, scratch);
+        break;
+    case SLI_DUAL_MIRROR:
+        SLV_NAME(group_mirror)(f, j0, t0, t1);
+        break;
+    default:
+        SLV_NAME(group_square)(f, j0, t0, t1, scratch);
+    }
+}
+
 /* From the last group of columns to the first, each with the columns after it among its rows below:
  * what a group works upon stays in the caches, whatever the width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
-    const sl_int w = f->width, h = w + f->below, most = SLI_DUAL_GROUP * SLI_TILE;
-    double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
-           *W = P + SLI_DUAL_GROUP * SLI_DUAL_ROW;
     sl_int j0;
-    for (j0 = (w - 1) / most * most; j0 >= 0; j0 -= most) {
-        const sl_int m = sli_min(most, w - j0);
-        SLV_NAME(group_inverse)(f, j0, m, N);
-        if (j0 + m < h) {
-            SLV_NAME(group_weights)(f, j0, m, N, W);
-            SLV_NAME(group_product)(f, j0, m, W);
-            SLV_NAME(group_mirror)(f, j0, m);
+    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
+        const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
+        const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
+        SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
+        if (below.first < below.last) {
+            SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
+            SLV_NAME(group_mirror)(f, j0, below.first, below.last);
         }
-        SLV_NAME(group_square)(f, j0, m, N, P, W);
+        SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
     }
 }

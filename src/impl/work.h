@@ -27,6 +27,43 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     return SL_OK;
 }
 
+/* A stage of a call on a workspace: lays its arrays out, then fills them; what q holds after the stages before it
+ * tells how large they are. */
+typedef struct sli_stage {
+    void (*lay)(void *q, sli_block *b);
+    void (*fill)(void *q); /* or NULL */
+} sli_stage;
+
+/* Runs stages. Where W is too small for one it grows, which loses what is in it, and they begin anew: none may write
+ * to the caller's arrays. */
+static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count, void *q) {
+    sli_block b = {(unsigned char *)W->block, 0, 0};
+    int k = 0;
+    while (k < count) {
+        sli_block trial = {NULL, b.used, 0};
+        stages[k].lay(q, &trial);
+        if (trial.overflow) {
+            return SL_ERR_TOO_LARGE;
+        }
+        if (trial.used > W->size) {
+            const sl_status status = sli_work_grow(W, trial.used);
+            if (status != SL_OK) {
+                return status;
+            }
+            b.base = (unsigned char *)W->block;
+            b.used = 0;
+            k = 0;
+            continue;
+        }
+        stages[k].lay(q, &b);
+        if (stages[k].fill != NULL) {
+            stages[k].fill(q);
+        }
+        k++;
+    }
+    return SL_OK;
+}
+
 SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     if (out == NULL) {

@@ -1,4 +1,4 @@
-/* inverse.h: entries, blocks and bilinear forms of the inverse, by forward sweeps alone */
+/* inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
 #ifndef SL_PUBLIC_INVERSE_H
 #define SL_PUBLIC_INVERSE_H
 
@@ -21,18 +21,32 @@
  *                   of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE: failed factor;
  *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not. On error nothing is written.
- *  Cost     2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
+ *  Cost     of sweeps 2 b_entries flops a lane; 8 lanes take the time of two to three, which is why many requests in one call
  *           are worth it: a lone pair of far vertices costs what a local solve from one to the other does. Nothing
  *           O(n), but for NULL sets; no allocation once W has grown to the largest reach and 16 bytes a request.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
  *  Example  tests/test_inverse.c
+ *
+ * Many entries are cheaper by selected inversion of the supernodes they reach (selected.h), of which only the fronts
+ * under way are kept, and not Z. sl_inverse_diagonal and sl_inverse_pairs count the operations of both and take the shorter
+ * way: selected inversion from some hundreds of near-by vertices of a mesh on, or some thousands far apart; for the
+ * whole diagonal always. stats say which (inverse_method), with z_supernodes and z_columns in place of the sweeps' numbers
+ * where it was that. It uses the threads that F was made with, a pool of the caller's then once for each call that runs
+ * at the same time; the bits do not depend on their number. W grows to the fronts under way, 8 (height)^2 bytes each, where
+ * height counts a supernode's columns and the rows below: those from the one at hand to its root that have children to
+ * come; with several threads, for each of them, and the roots of the subtrees that are shared out, a few dozen.
+ *
+ * A factor with null pivots that were skipped (SL_SEMIDEFINITE) has the inverse of the matrix without their rows and
+ * columns, and 0 in those: A Z A = A where A has no more null vectors than that.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
  *
  *  out    [out]  count values.
  *  rows   [in]   count rows of A in 0..n-1, any order, repeated or not; NULL (with count ignored): all n.
+ *  Source   [HDA17] 5; [ET75], [SelInv].
+ *  Example  tests/test_diagonal.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *out,
                                                     const sl_int *rows, sl_int count, sl_work *W,
@@ -41,7 +55,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *
 /** Entries of the inverse: out[k] = (A^-1)(rows[k], columns[k]).
  *
  *  out    [out]  count values.
- *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not.
+ *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repeated or not. Selected inversion comes in
+ *                 question only where all entries have a place in the pattern of L, as those of A have.
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out,
                                                  const sl_int *rows, const sl_int *columns,

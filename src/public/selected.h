@@ -16,13 +16,15 @@
  *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
- *  opt    [in]   allocator; may be NULL. The instruction set is the factor's.
+ *  opt    [in]   allocator, and threads, which the object keeps; no threads there, or NULL: those that F was made with. The
+ *                instruction set is the factor's.
  *  stats  [out]  the selected group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28
- *           bytes a supernode kept. While it runs, 8 (height)^2 bytes for each supernode from the one at hand to its root that
- *           has children to come, where height counts its columns and the rows below.
- *  Threads  reads F; the object is immutable and may be shared.
+ *  Cost     about twice the flops of the factorization of the same supernodes; z_entries doubles and 28 bytes
+ *           a supernode kept, 44 with several threads. While it runs, 8 (height)^2 bytes for each supernode from the one at
+ *           hand to its root that has children to come, where height counts its columns and the rows below; with several
+ *           threads, for each of them, and for the roots of the subtrees that are shared out, a few dozen.
+ *  Threads  reads F; the object is immutable and may be shared. What is computed does not depend on their number.
  *  Source   [ET75]; by supernodes [SelInv].
  *  Example  tests/test_selected.c
  */
@@ -38,7 +40,7 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Where fresh memory is slow, twice as fast.
- *  Threads  nobody else may use Z meanwhile.
+ *  Threads  nobody else may use Z meanwhile; runs on those that Z was made with.
  *  Example  tests/test_selected.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_selected_refill(sl_selected *Z, const sl_factor *F, sl_work *W);

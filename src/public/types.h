@@ -85,6 +85,13 @@ typedef enum sl_definiteness {
     SL_SEMIDEFINITE  /* a null pivot is skipped and counted, its row of x is 0: raw Laplacians */
 } sl_definiteness;
 
+/** How entries of the inverse were computed. */
+typedef enum sl_inverse_method {
+    SL_INVERSE_NONE = 0, /* nothing was asked for */
+    SL_INVERSE_FORWARD,  /* forward sweeps of the rows asked for */
+    SL_INVERSE_SELECTED  /* selected inversion on their reach */
+} sl_inverse_method;
+
 /** Runs body(data, k) for k = 0 .. count-1, at once or not, each once, and returns when all are done. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
@@ -175,7 +182,7 @@ typedef struct sl_stats {
     sl_off x_entries;
     size_t bytes_plan;
 
-    /* sl_selected_create */
+    /* sl_selected_create; the first three also sl_inverse_diagonal and sl_inverse_pairs, which keep none */
     sl_int z_supernodes; /* those whose part of the inverse was made */
     sl_int z_columns;
     sl_off z_entries;        /* doubles kept for them */
@@ -194,6 +201,9 @@ typedef struct sl_stats {
     /* sl_plan_create */
     int plan_in_region; /* the sweeps end at the boundary of options.region; else at the roots */
     sl_off plan_region_entries; /* doubles of the region's inverse that a solve reads; 0 without */
+
+    /* sl_inverse_diagonal, sl_inverse_pairs */
+    sl_inverse_method inverse_method; /* the one that was used */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */

@@ -1,0 +1,265 @@
+/* test_inverse_use.c: entries, blocks and forms of the inverse: their memory, wrong use, nothing asked for */
+#include "inverse_checks.h"
+
+/* ---- memory ---- */
+
+typedef struct call_t {
+    const sl_factor *F;
+    sl_int rows[40], columns[40];
+    double values[40], out[40 * 40];
+} call_t;
+
+enum { CALLS = 5 };
+
+static sl_status run_call(call_t *q, int which, sl_int count, sl_work *W) {
+    switch (which) {
+    case 0:
+        return sl_inverse_diagonal(q->F, q->out, q->rows, count, W, NULL);
+    case 1:
+        return sl_inverse_pairs(q->F, q->out, q->rows, q->columns, count, W, NULL);
+    case 2:
+        return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->columns, count, W, NULL);
+    case 3:
+        return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
+    default:
+        return sl_inverse_bilinear(q->F, q->out, q->rows, q->values, count, q->columns, q->values,
+                                   count, W, NULL);
+    }
+}
+
+static call_t *call_make(const sl_factor *F, sl_int n) {
+    call_t *q = (call_t *)test_array(1, sizeof *q);
+    uint64_t seed = 8;
+    q->F = F;
+    random_rows(q->rows, 40, n, &seed);
+    random_rows(q->columns, 40, n, &seed);
+    gen_reals(q->values, 40, 9);
+    return q;
+}
+
+static void nothing_is_allocated_once_grown(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 2500, 1, 0, NULL);
+    call_t *q = call_make(y.F, 2500);
+    for (int which = 0; which < CALLS; which++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, &opt));
+        SL_CHECK(run_call(q, which, 40, W));
+        const size_t calls = counter.calls, bytes = sl_work_bytes(W);
+        for (int round = 0; round < 5; round++) {
+            SL_CHECK(run_call(q, which, 40, W));
+        }
+        assert_int_equal(counter.calls, calls);
+        assert_int_equal(sl_work_bytes(W), bytes);
+        sl_work_free(W);
+        COUNTER_CLEAN(&counter);
+    }
+    free(q);
+    problem_free(&y);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    for (int own = 0; own < 2; own++) {
+        for (int which = 0; which < CALLS; which++) {
+            counter_t counter = counter_make();
+            sl_options opt = options_counted(&counter);
+            problem_t y = problem_make(GEN_GRID2, 400, 1, 0, &opt);
+            call_t *q = call_make(y.F, 400);
+            sl_status status = SL_ERR_MEMORY;
+            int failures = 0;
+            for (int64_t k = 0; status != SL_OK; k++) {
+                sl_work *W = NULL;
+                if (!own) {
+                    SL_CHECK(sl_work_create(&W, &opt));
+                }
+                for (int i = 0; i < 40 * 40; i++) {
+                    q->out[i] = 4321.5;
+                }
+                counter.fail_at = (int64_t)counter.calls + k;
+                status = run_call(q, which, 40, W);
+                counter.fail_at = -1;
+                assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+                failures += status != SL_OK;
+                for (int i = 0; i < 40 * 40 && status != SL_OK; i++) {
+                    assert_true(q->out[i] == 4321.5); /* untouched */
+                }
+                if (status != SL_OK && W) {
+                    SL_CHECK(run_call(q, which, 40, W)); /* usable as before */
+                }
+                sl_work_free(W);
+            }
+            assert_in_range(failures, 1, 4);
+            free(q);
+            problem_free(&y);
+            COUNTER_CLEAN(&counter);
+        }
+    }
+}
+
+/* Bytes for a fixed patch near a corner, over the columns of its reach, which grow like sqrt n on grids. */
+static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
+    sl_int n = side * side, count = 0, *perm = test_ints((size_t)n);
+    gen_list_t t = gen_list(n);
+    uint64_t seed = 1;
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    gen_edges_grid(&t, side, side, 1, &seed);
+    gen_dominate(&t, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    opt.ordering = SL_ORDERING_GIVEN;
+    opt.perm = perm;
+    assert_int_equal(gen_dissect(perm, 0, side, 0, side, 0, side), n);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    call_t *q = call_make(F, n);
+    for (sl_int k = 0; k < 40; k++) {
+        q->rows[k] = 10 + k % 7 + side * (10 + k / 7);
+        q->columns[count++] = 12 + k % 8 + side * (10 + k / 8);
+    }
+    SL_CHECK(sl_inverse_bilinear(F, q->out, q->rows, q->values, 40, q->columns, q->values, 40, NULL,
+                                 &stats));
+    *reach = stats.b_columns;
+    for (int which = 0; which < CALLS; which++) {
+        counter_t counter = counter_make();
+        sl_work *W = NULL;
+        opt = options_counted(&counter);
+        SL_CHECK(sl_work_create(&W, &opt));
+        SL_CHECK(run_call(q, which, 40, W));
+        bytes[which] = (double)counter.total_bytes / (double)stats.b_columns;
+        sl_work_free(W);
+        COUNTER_CLEAN(&counter);
+    }
+    free(q);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(perm);
+}
+
+static void nothing_grows_with_n(void **state) {
+    (void)state;
+    double first[CALLS], now[CALLS];
+    sl_int reach_first, reach;
+    bytes_of_a_patch(100, first, &reach_first);
+    for (sl_int side = 200; side <= 400; side *= 2) {
+        bytes_of_a_patch(side, now, &reach);
+        assert_true(reach < reach_first * (side == 200 ? 3 : 6));
+        for (int which = 0; which < CALLS; which++) {
+            print_message("n = %ld, call %d: %.0f bytes a column of the reach, %.0f at 1e4\n",
+                          (long)(side * side), which, now[which], first[which]);
+            /* anything of n bytes would be 4 times as much a column; twice, where the best group has more lanes */
+            assert_true(now[which] <= 2.0 * first[which]);
+        }
+    }
+}
+
+/* ---- wrong use ---- */
+
+static void wrong_use_is_refused(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
+    const sl_int good[3] = {3, 24, 0}, low[3] = {3, -1, 0}, high[3] = {3, 0, 25};
+    double out[9], one[3] = {1, 1, 1};
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    for (int k = 0; k < 9; k++) {
+        out[k] = 4321.5;
+    }
+#define REFUSED(call) SL_EXPECT(SL_ERR_ARGUMENT, call)
+    REFUSED(sl_inverse_diagonal(NULL, out, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, NULL, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, out, good, -1, NULL, NULL));
+    REFUSED(sl_inverse_diagonal(y.F, out, low, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, -1);
+    REFUSED(sl_inverse_diagonal(y.F, out, high, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, 25);
+    REFUSED(sl_inverse_pairs(NULL, out, good, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, NULL, good, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, NULL, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, good, NULL, 3, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, good, good, -1, NULL, NULL));
+    REFUSED(sl_inverse_pairs(y.F, out, high, good, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, 25);
+    assert_int_equal(stats.error_column, -1);
+    REFUSED(sl_inverse_pairs(y.F, out, good, high, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, -1);
+    assert_int_equal(stats.error_column, 25);
+    REFUSED(sl_inverse_block(NULL, out, 3, good, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, NULL, 3, good, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 2, good, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, NULL, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, 3, NULL, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, -3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, 3, good, -3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, low, 3, good, 3, NULL, NULL));
+    REFUSED(sl_inverse_block(y.F, out, 3, good, 3, high, 3, NULL, &stats));
+    assert_int_equal(stats.error_column, 25);
+    REFUSED(sl_inverse_bilinear(NULL, out, good, one, 3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, NULL, good, one, 3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, NULL, 3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, NULL, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, -3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, one, -3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, high, one, 3, good, one, 3, NULL, &stats));
+    assert_int_equal(stats.error_row, 25);
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, high, one, 3, NULL, &stats));
+    assert_int_equal(stats.error_column, 25);
+    /* so many that they cannot be numbered: seen before anything is read */
+    SL_EXPECT(SL_ERR_TOO_LARGE,
+              sl_inverse_bilinear(y.F, out, good, one, INT32_MAX, good, one, 1, NULL, NULL));
+    for (int k = 0; k < 9; k++) {
+        assert_true(out[k] == 4321.5);
+    }
+    /* nothing asked for */
+    SL_CHECK(sl_inverse_diagonal(y.F, NULL, good, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, good, 3, NULL, NULL));
+    SL_CHECK(sl_inverse_block(y.F, NULL, 0, good, 3, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_bilinear(y.F, out, good, NULL, 0, good, one, 3, NULL, &stats));
+    assert_true(out[0] == 0 && stats.b_entries == 0);
+    /* a failed factor */
+    y.M.x[0] = NAN;
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
+    out[0] = 4321.5;
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(y.F, out, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_pairs(y.F, out, good, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_block(y.F, out, 3, good, 3, good, 3, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_bilinear(y.F, out, good, one, 3, good, one, 3, NULL, NULL));
+    assert_true(out[0] == 4321.5);
+#undef REFUSED
+    problem_free(&y);
+}
+
+static void n_may_be_0(void **state) {
+    (void)state;
+    problem_t y = problem_make(GEN_NONE, 0, 1, 0, NULL);
+    const sl_int row = 0;
+    double out = 4321.5, one = 1;
+    SL_CHECK(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_diagonal(y.F, &out, &row, 1, NULL, NULL));
+    assert_true(out == 4321.5);
+    SL_CHECK(sl_inverse_bilinear(y.F, &out, NULL, &one, 5, NULL, &one, 5, NULL, NULL));
+    assert_true(out == 0);
+    problem_free(&y);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_allocated_once_grown),
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(nothing_grows_with_n),
+        cmocka_unit_test(wrong_use_is_refused),
+        cmocka_unit_test(n_may_be_0),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
