@@ -1,81 +1,82 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 4b21f8b7096b7bbf
+ * FNV-1a of all that follows this comment, license aside: 8298489470285fd8
  *
  * Contents
  *         (what a user reads)
- *     83  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    134  public/config.h            what a user may set before including the header, the version, and the integer types
- *    183  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    372  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    492  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    554  public/factor.h            the numbers: P A P' = L D L'
- *    660  public/solve.h             full solves, and the workspace that every solve writes to
- *    729  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    815  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    894  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    931  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *     84  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    135  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    184  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    373  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    493  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    555  public/factor.h            the numbers: P A P' = L D L'
+ *    661  public/solve.h             full solves, and the workspace that every solve writes to
+ *    730  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    816  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    895  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    932  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1038  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1129  impl/status.h              status codes in words, and the error fields of stats
- *   1185  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1310  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1385  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1422  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1039  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1130  impl/status.h              status codes in words, and the error fields of stats
+ *   1186  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1311  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1386  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1423  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1456  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1721  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1859  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1889  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3060  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3106  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3243  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3458  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3724  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3886  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4158  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4209  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4354  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5167  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6446  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8619  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10849  impl/select.h              the kernel table for an instruction set
+ *   1457  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1722  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1860  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1890  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3061  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3107  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3244  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3459  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3725  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3887  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4159  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4210  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4355  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5168  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6447  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8620  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10850  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10882  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11310  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11383  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10883  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11311  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11384  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11737  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11776  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11923  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12037  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12181  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12266  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12339  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12505  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12581  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12622  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12815  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13101  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11738  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11777  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11924  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12038  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12182  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12267  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12340  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12506  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12582  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  12616  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12657  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12850  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13136  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13334  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13466  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13552  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13812  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13899  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14193  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14308  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14368  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14605  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14647  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13369  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13546  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13632  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13892  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  13980  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14323  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14438  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14498  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14735  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14777  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  14945  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15185  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15504  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  15731  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  15885  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15075  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15315  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15634  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  15861  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16015  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  16329  impl/leave.h               takes every internal macro away again
+ *  16459  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12578,6 +12579,40 @@ static void sli_fill_steps(sl_symbolic *S) {
 
 #endif
 /* end src/impl/structure.h */
+/* begin src/impl/mapping.h */
+/* mapping.h: the map of A into L read backwards: the row and the column that a place stands for */
+#ifndef SLI_MAPPING_H
+#define SLI_MAPPING_H
+
+/* The tile of a panel of w columns in which a place stands: where the trapezoid still grows, the last t
+ * with 32 t (t + 1) <= at. */
+static sl_int sli_tile_of(sl_int w, sl_off at) {
+    const sl_int whole = w / SLI_TILE;
+    const sl_off grown = sli_tile_offset(w, whole);
+    sl_int t;
+    if (at >= grown) {
+        return whole + (sl_int)((at - grown) / (SLI_TILE * (sl_off)w));
+    }
+    t = (sl_int)((sqrt(1.0 + (double)at / 8.0) - 1.0) / 2.0);
+    t += sli_tile_offset(w, t + 1) <= at; /* the root may be off by a rounding */
+    t -= sli_tile_offset(w, t) > at;
+    return t;
+}
+
+/* Pivots k >= j of the entry m of the map, which belongs to supernode s: it stands at L(k, j). */
+static void sli_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_int *k, sl_int *j) {
+    const sl_int first = S->super_first[s], w = S->super_first[s + 1] - first;
+    const sl_off at = S->map_to[m] - S->panel_begin[s];
+    const sl_int t = sli_tile_of(w, at);
+    const sl_off in_tile = at - sli_tile_offset(w, t);
+    const sl_int local = SLI_TILE * t + (sl_int)(in_tile % SLI_TILE);
+    *j = first + (sl_int)(in_tile / SLI_TILE);
+    *k = local < w ? first + local : S->rows[S->rows_begin[s] + local - w];
+    SLI_ASSERT(sli_panel_at(w, local, *j - first) == at);
+}
+
+#endif
+/* end src/impl/mapping.h */
 /* begin src/impl/fronts.h */
 /* fronts.h: the tree of fronts: the children of each supernode, and where their rows stand in its front */
 #ifndef SLI_FRONTS_H
@@ -13336,12 +13371,21 @@ SLI_INLINE int sli_meet(sli_meeting *m) {
 #ifndef SLI_FACTOR_PARTS_H
 #define SLI_FACTOR_PARTS_H
 
+/* Where a factorization takes the entries of its matrix from: A, or a sum of arrays in the order of the
+ * analysis's map. */
+typedef struct sli_source {
+    const sl_csc *A;             /* NULL: the sum over t of coefficients[t] values[t] */
+    const double *const *values; /* terms arrays of map_begin[n_supers] */
+    const double *coefficients;  /* terms */
+    sl_int terms;
+} sli_source;
+
 /* The first thing that went wrong in a factorization. */
 typedef struct sli_failure {
     sl_status status;
     sl_int super;    /* the supernode it happened in */
     sl_int pivot;    /* the pivot that is null or not finite, or -1 */
-    sl_int position; /* the entry of A that is not finite, or -1 */
+    sl_off position; /* the entry that is not finite, in the order of the map, or -1 */
     double value;
 } sli_failure;
 
@@ -13378,7 +13422,7 @@ struct sl_factor {
 
 /* Fills a failure in and returns its status. */
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
-                              sl_int position, double value) {
+                              sl_off position, double value) {
     f->status = status;
     f->super = super;
     f->pivot = pivot;
@@ -13407,19 +13451,55 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Adds A's entries to supernode s's panel. */
-static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
-                               sli_failure *failure) {
-    const sl_symbolic *S = F->S;
+/* Adds the entries first .. last-1 of the map to supernode s's panel: each from its own place in x, or,
+ * with map_from NULL, x holds them alone. */
+SLI_ALWAYS_INLINE sl_status sli_panel_add_entries(const sl_factor *F, sl_int s, sl_off first,
+                                                  sl_off last, const double *x,
+                                                  const sl_int *map_from, sli_failure *failure) {
+    const sl_off *to = F->S->map_to;
     sl_off m;
-    for (m = S->map_begin[s]; m < S->map_begin[s + 1]; m++) {
-        const double a = A->x[S->map_from[m]];
+    for (m = first; m < last; m++) {
+        const double a = map_from != NULL ? x[map_from[m]] : x[m - first];
         if (!sli_is_finite(a)) {
-            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, S->map_from[m], a);
+            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
-        F->L[S->map_to[m]] += a;
+        F->L[to[m]] += a;
     }
     return SL_OK;
+}
+
+#define SLI_SUMMED 64 /* entries that are summed at a time: most supernodes have no more */
+
+/* sums := the entries of the map from first on */
+static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
+    sl_int k, t;
+    memset(sums, 0, (size_t)count * sizeof(double));
+    for (t = 0; t < from->terms; t++) {
+        const double c = from->coefficients[t], *v = from->values[t] + first;
+        for (k = 0; k < count; k++) {
+            const double product = c * v[k]; /* rounded, as in a sum that the caller makes */
+            sums[k] += product;
+        }
+    }
+}
+
+/* Adds the matrix's entries to supernode s's panel. */
+static sl_status sli_panel_add(const sl_factor *F, const sli_source *from, sl_int s,
+                               sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sl_off end = S->map_begin[s + 1];
+    sl_off m = S->map_begin[s], last;
+    double sums[SLI_SUMMED];
+    sl_status status = SL_OK;
+    if (from->A != NULL) {
+        return sli_panel_add_entries(F, s, m, end, from->A->x, S->map_from, failure);
+    }
+    for (; m < end && status == SL_OK; m = last) {
+        last = end - m < SLI_SUMMED ? end : m + SLI_SUMMED;
+        sli_source_sum(from, m, (sl_int)(last - m), sums);
+        status = sli_panel_add_entries(F, s, m, last, sums, NULL, failure);
+    }
+    return status;
 }
 
 /* Refuses a pivot that is not a number or null against what it was made of. */
@@ -13507,8 +13587,8 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
     }
 }
 
-/* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
-static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+/* The whole factorization. The matrix fits the analysis. [LDL05], [Davis06] 4.7 */
+static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k;
@@ -13522,7 +13602,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_add(F, A, s, failure);
+            status = sli_panel_add(F, from, s, failure);
             if (status != SL_OK) {
                 break;
             }
@@ -13558,7 +13638,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
  * above them in which each takes some row tiles. */
 typedef struct sli_job {
     sl_factor *F;
-    const sl_csc *A;
+    const sli_source *from;
     sl_int super, group; /* the front, and its group of column tiles */
     sli_front front;
 } sli_job;
@@ -13597,10 +13677,10 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
     }
 }
 
-/* A's entries onto the cleared panel, and what its diagonal is made of so far. */
-static sl_status sli_front_load(sl_factor *F, const sl_csc *A, const sli_front *f, sl_int s,
+/* The matrix's entries onto the cleared panel, and what its diagonal is made of so far. */
+static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                                 sli_failure *failure) {
-    const sl_status status = sli_panel_add(F, A, s, failure);
+    const sl_status status = sli_panel_add(F, from, s, failure);
     sl_int k;
     for (k = 0; k < f->width; k++) {
         f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
@@ -13672,14 +13752,14 @@ static void sli_front_update(const sli_kernels *kernels, const sli_front *f, dou
 }
 
 /* The whole of supernode s's front by one worker. */
-static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
+static sl_status sli_front_alone(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                                  sli_failure *failure) {
     const sli_front f = sli_front_of(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
     sli_front_clear(&f, 0, tiles);
-    status = sli_front_load(F, A, &f, s, failure);
+    status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -13702,7 +13782,7 @@ static void sli_do_tasks(void *data, sl_int k) {
             continue;
         }
         for (s = plan->first[m]; s <= plan->last[m] && status == SL_OK; s++) {
-            status = sli_front_alone(job->F, job->A, s, k, &failure);
+            status = sli_front_alone(job->F, job->from, s, k, &failure);
             if (status != SL_OK) {
                 sli_keep_first_failure(&job->F->failures[k], &failure);
             }
@@ -13759,7 +13839,7 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     sl_status status;
     job->front = sli_front_of(F, job->super, 0);
     sli_parallel(threads, workers, sli_shared_clear, job);
-    status = sli_front_load(F, job->A, &job->front, job->super, failure);
+    status = sli_front_load(F, job->from, &job->front, job->super, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -13775,14 +13855,14 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     return sli_front_check(F, &job->front, job->super, failure);
 }
 
-/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
-static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+/* The whole factorization. The matrix fits the analysis. [DR83], [Liu92] */
+static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sli_schedule *plan = &F->schedule;
     sli_job job;
     sl_int m, k;
     memset(&job, 0, sizeof job);
     job.F = F;
-    job.A = A;
+    job.from = from;
     for (k = 0; k < plan->workers; k++) {
         F->failures[k].status = SL_OK;
     }
@@ -13800,7 +13880,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
         if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
             (void)sli_front_shared(&job, &here);
         } else {
-            (void)sli_front_alone(F, A, job.super, 0, &here);
+            (void)sli_front_alone(F, from, job.super, 0, &here);
         }
         sli_keep_first_failure(failure, &here);
     }
@@ -13845,7 +13925,8 @@ static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, s
 
 /* Supernode s from A and its descendants, parents before children: those that have no row among the
  * columns of s have no descendant with one. */
-static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_failure *failure) {
+static sl_status sli_left_looking(sl_factor *F, const sli_source *from, sl_int s,
+                                  sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sli_front f = sli_front_of(F, s, 0);
     const sl_int *rows = S->rows + S->rows_begin[s];
@@ -13859,7 +13940,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
         F->local[rows[k]] = f.width + k;
     }
     memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
-    status = sli_front_load(F, A, &f, s, failure);
+    status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -13879,7 +13960,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
 }
 
 /* Every supernode on the way from the seeds, columns of L in ascending order, to the roots. */
-static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint64_t *seeds,
+static sl_status sli_left_looking_all(sl_factor *F, const sli_source *from, const uint64_t *seeds,
                                       sl_int count, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
@@ -13888,7 +13969,7 @@ static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint6
         s = S->super_of[sli_key(seeds[k])];
         next = sli_next_seed(S, seeds, count, &k);
         for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
-            status = sli_left_looking(F, A, s, failure);
+            status = sli_left_looking(F, from, s, failure);
         }
     }
     return status;
@@ -13980,6 +14061,23 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
+/* An entry that is not finite: where it stands in A, or in the lower triangle of a sum. */
+static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+    const sl_symbolic *S = F->S;
+    sl_int row, column;
+    if (A != NULL) {
+        const sl_int p = S->map_from[f->position];
+        row = A->i[p];
+        column = sli_column_of(A, p);
+    } else {
+        sl_int k, j;
+        sli_map_pivots(S, f->super, f->position, &k, &j);
+        row = sli_max(S->perm[k], S->perm[j]);
+        column = sli_min(S->perm[k], S->perm[j]);
+    }
+    sli_fail_at(&F->stats, f->status, row, column, f->value);
+}
+
 /* Pivots in numbers, and a failure in the caller's rows. */
 static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int good = F->S->n; /* pivots before the failure */
@@ -13988,8 +14086,7 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
     } else if (f->status != SL_OK) {
         good = F->S->super_first[f->super];
-        sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
-                    f->value);
+        sli_factor_tell_entry(F, A, f);
     }
     sli_count_pivots(F, good);
     F->stats.null += f->status == SL_ERR_PIVOT;
@@ -14011,9 +14108,25 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     return failure->status;
 }
 
+/* The numbers of a matrix that fits the analysis. */
+static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
+                                    sl_stats *stats) {
+    sli_failure failure;
+    memset(&failure, 0, sizeof failure);
+    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
+                                             : sli_uplooking(F, from, &failure));
+    return sli_factor_done(F, from->A, &failure, started, stats);
+}
+
+static sli_source sli_source_matrix(const sl_csc *A) {
+    sli_source from = {NULL, NULL, NULL, 0};
+    from.A = A;
+    return from;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
-    sli_failure failure;
+    const sli_source from = sli_source_matrix(A);
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL) {
@@ -14021,13 +14134,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     }
     F->is_good = 0;
     status = sli_factor_check(F->S, A);
-    if (status != SL_OK) {
-        return status;
-    }
-    memset(&failure, 0, sizeof failure);
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
-                                             : sli_uplooking(F, A, &failure));
-    return sli_factor_done(F, A, &failure, started, stats);
+    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
 
 /* The columns of L in which the entries of some columns of A stand, sorted. Returns how many. */
@@ -14052,6 +14159,7 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
+    const sli_source from = sli_source_matrix(A);
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sli_failure failure;
@@ -14089,7 +14197,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     memset(&failure, 0, sizeof failure);
     F->is_good = 0;
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    (void)sli_left_looking_all(F, A, seeds, count, &failure);
+    (void)sli_left_looking_all(F, &from, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
     return sli_factor_done(F, A, &failure, started, stats);
 }
@@ -14117,27 +14225,20 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     return S->stats.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
-SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                                  const sl_options *opt, sl_stats *stats) {
+/* Are the wishes for a factor such as can be followed? */
+static int sli_factor_wishes_are_sound(const sl_options *opt) {
+    return sli_allocator_is_whole(opt) && sli_way_is_known(opt) &&
+           (opt == NULL || opt->null_tolerance == opt->null_tolerance);
+}
+
+/* A factor with its memory and its schedule, without numbers. */
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
-    sl_status status;
+    sl_status status = SL_OK;
     int pass;
-    sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
-        !sli_allocator_is_whole(opt) || !sli_way_is_known(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_check(S, A);
-    if (status != SL_OK) {
-        return status;
-    }
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
@@ -14169,15 +14270,44 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         }
         F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
-            status = sl_factor_refactor(F, A, stats);
-        }
-        if (status == SL_OK) {
             *out = F;
         } else {
             sl_factor_free(F);
         }
     }
     return status;
+}
+
+/* A factor of a matrix that fits the analysis. *out is NULL on entry. */
+static sl_status sli_factor_make(sl_factor **out, const sl_symbolic *S, const sli_source *from,
+                                 const sl_options *opt, sl_stats *stats) {
+    sl_factor *F = NULL;
+    sl_status status = sli_factor_new(&F, S, opt);
+    if (status == SL_OK) {
+        status = sli_factor_numbers(F, from, sli_seconds(), stats);
+    }
+    if (status == SL_OK) {
+        *out = F;
+    } else {
+        sl_factor_free(F);
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_options *opt, sl_stats *stats) {
+    const sli_source from = sli_source_matrix(A);
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_factor_check(S, A);
+    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
@@ -16368,6 +16498,7 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_PANEL_AHEAD
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS
+#undef SLI_SUMMED
 #undef SLI_ROWS_AHEAD
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY

@@ -52,6 +52,7 @@ extern "C" {
 #include "impl/counts.h"
 #include "impl/supernodes.h"
 #include "impl/structure.h"
+#include "impl/mapping.h"
 #include "impl/fronts.h"
 #include "impl/schedule.h"
 #include "impl/symbolic.h"

@@ -6,6 +6,7 @@
 #include "csc.h"
 #include "graph.h"
 #include "leftlooking.h"
+#include "mapping.h"
 #include "multifrontal.h"
 #include "select.h"
 #include "uplooking.h"
@@ -89,6 +90,23 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
+/* An entry that is not finite: where it stands in A, or in the lower triangle of a sum. */
+static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+    const sl_symbolic *S = F->S;
+    sl_int row, column;
+    if (A != NULL) {
+        const sl_int p = S->map_from[f->position];
+        row = A->i[p];
+        column = sli_column_of(A, p);
+    } else {
+        sl_int k, j;
+        sli_map_pivots(S, f->super, f->position, &k, &j);
+        row = sli_max(S->perm[k], S->perm[j]);
+        column = sli_min(S->perm[k], S->perm[j]);
+    }
+    sli_fail_at(&F->stats, f->status, row, column, f->value);
+}
+
 /* Pivots in numbers, and a failure in the caller's rows. */
 static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int good = F->S->n; /* pivots before the failure */
@@ -97,8 +115,7 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
     } else if (f->status != SL_OK) {
         good = F->S->super_first[f->super];
-        sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
-                    f->value);
+        sli_factor_tell_entry(F, A, f);
     }
     sli_count_pivots(F, good);
     F->stats.null += f->status == SL_ERR_PIVOT;
@@ -120,9 +137,25 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     return failure->status;
 }
 
+/* The numbers of a matrix that fits the analysis. */
+static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
+                                    sl_stats *stats) {
+    sli_failure failure;
+    memset(&failure, 0, sizeof failure);
+    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
+                                             : sli_uplooking(F, from, &failure));
+    return sli_factor_done(F, from->A, &failure, started, stats);
+}
+
+static sli_source sli_source_matrix(const sl_csc *A) {
+    sli_source from = {NULL, NULL, NULL, 0};
+    from.A = A;
+    return from;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
-    sli_failure failure;
+    const sli_source from = sli_source_matrix(A);
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL) {
@@ -130,13 +163,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     }
     F->is_good = 0;
     status = sli_factor_check(F->S, A);
-    if (status != SL_OK) {
-        return status;
-    }
-    memset(&failure, 0, sizeof failure);
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
-                                             : sli_uplooking(F, A, &failure));
-    return sli_factor_done(F, A, &failure, started, stats);
+    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
 
 /* The columns of L in which the entries of some columns of A stand, sorted. Returns how many. */
@@ -161,6 +188,7 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
+    const sli_source from = sli_source_matrix(A);
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sli_failure failure;
@@ -198,7 +226,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     memset(&failure, 0, sizeof failure);
     F->is_good = 0;
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    (void)sli_left_looking_all(F, A, seeds, count, &failure);
+    (void)sli_left_looking_all(F, &from, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
     return sli_factor_done(F, A, &failure, started, stats);
 }
@@ -226,27 +254,20 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     return S->stats.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
-SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                                  const sl_options *opt, sl_stats *stats) {
+/* Are the wishes for a factor such as can be followed? */
+static int sli_factor_wishes_are_sound(const sl_options *opt) {
+    return sli_allocator_is_whole(opt) && sli_way_is_known(opt) &&
+           (opt == NULL || opt->null_tolerance == opt->null_tolerance);
+}
+
+/* A factor with its memory and its schedule, without numbers. */
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
-    sl_status status;
+    sl_status status = SL_OK;
     int pass;
-    sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
-        !sli_allocator_is_whole(opt) || !sli_way_is_known(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_check(S, A);
-    if (status != SL_OK) {
-        return status;
-    }
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
@@ -278,15 +299,44 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         }
         F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
-            status = sl_factor_refactor(F, A, stats);
-        }
-        if (status == SL_OK) {
             *out = F;
         } else {
             sl_factor_free(F);
         }
     }
     return status;
+}
+
+/* A factor of a matrix that fits the analysis. *out is NULL on entry. */
+static sl_status sli_factor_make(sl_factor **out, const sl_symbolic *S, const sli_source *from,
+                                 const sl_options *opt, sl_stats *stats) {
+    sl_factor *F = NULL;
+    sl_status status = sli_factor_new(&F, S, opt);
+    if (status == SL_OK) {
+        status = sli_factor_numbers(F, from, sli_seconds(), stats);
+    }
+    if (status == SL_OK) {
+        *out = F;
+    } else {
+        sl_factor_free(F);
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_options *opt, sl_stats *stats) {
+    const sli_source from = sli_source_matrix(A);
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_factor_check(S, A);
+    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {

@@ -36,7 +36,8 @@ static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, s
 
 /* Supernode s from A and its descendants, parents before children: those that have no row among the
  * columns of s have no descendant with one. */
-static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_failure *failure) {
+static sl_status sli_left_looking(sl_factor *F, const sli_source *from, sl_int s,
+                                  sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sli_front f = sli_front_of(F, s, 0);
     const sl_int *rows = S->rows + S->rows_begin[s];
@@ -50,7 +51,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
         F->local[rows[k]] = f.width + k;
     }
     memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
-    status = sli_front_load(F, A, &f, s, failure);
+    status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -70,7 +71,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
 }
 
 /* Every supernode on the way from the seeds, columns of L in ascending order, to the roots. */
-static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint64_t *seeds,
+static sl_status sli_left_looking_all(sl_factor *F, const sli_source *from, const uint64_t *seeds,
                                       sl_int count, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
@@ -79,7 +80,7 @@ static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint6
         s = S->super_of[sli_key(seeds[k])];
         next = sli_next_seed(S, seeds, count, &k);
         for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
-            status = sli_left_looking(F, A, s, failure);
+            status = sli_left_looking(F, from, s, failure);
         }
     }
     return status;
