@@ -1,82 +1,88 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 8298489470285fd8
+ * FNV-1a of all that follows this comment, license aside: 1bc1c2b364e5c103
  *
  * Contents
  *         (what a user reads)
- *     84  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    135  public/config.h            what a user may set before including the header, the version, and the integer types
- *    184  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    373  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    493  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    555  public/factor.h            the numbers: P A P' = L D L'
- *    661  public/solve.h             full solves, and the workspace that every solve writes to
- *    730  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    816  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    895  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    932  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *     90  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    141  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    190  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    379  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    499  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    561  public/factor.h            the numbers: P A P' = L D L'
+ *    667  public/solve.h             full solves, and the workspace that every solve writes to
+ *    736  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    822  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    901  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *    943  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1108  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1039  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1130  impl/status.h              status codes in words, and the error fields of stats
- *   1186  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1311  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1386  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1423  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1215  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1306  impl/status.h              status codes in words, and the error fields of stats
+ *   1362  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1487  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1562  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1599  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1457  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1722  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1860  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1890  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3061  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3107  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3244  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3459  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3725  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3887  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4159  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4210  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4355  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5168  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6447  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8620  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10850  impl/select.h              the kernel table for an instruction set
+ *   1633  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1898  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2036  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2066  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3237  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3283  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3420  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3635  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3901  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4063  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4335  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4386  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4531  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5344  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6623  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8796  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11026  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10883  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11311  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11384  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11059  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11487  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11560  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  11650  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11738  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11777  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11924  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12038  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12182  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12267  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12340  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12506  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12582  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  12616  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12657  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12850  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13136  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12004  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12043  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12190  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12304  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12448  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12533  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12606  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12772  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12848  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  12882  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12923  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13116  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13402  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13369  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13546  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13632  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13892  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  13980  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14323  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14438  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14498  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14735  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14777  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13635  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13814  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  13985  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14071  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14331  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14419  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14776  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14891  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  14950  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15010  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15247  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15289  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15075  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15315  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15634  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  15861  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16015  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15587  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15827  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16162  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16389  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16567  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  16764  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  16897  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  16459  impl/leave.h               takes every internal macro away again
+ *  17341  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -893,7 +899,7 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
 #endif
 /* end src/public/inverse.h */
 /* begin src/public/batch.h */
-/* batch.h: many independent solves with one factor, spread over threads by one call */
+/* batch.h: many independent solves, with one factor or with several, spread over threads by one call */
 #ifndef SL_PUBLIC_BATCH_H
 #define SL_PUBLIC_BATCH_H
 
@@ -907,11 +913,16 @@ typedef struct sl_request {
     int is_interleaved; /* 0: X and B column-major; else row-major, as in the calls named interleaved */
     sl_int
         nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
+    const sl_factor *factor; /* NULL: that of the call */
 } sl_request;
 
-/** Answers requests with one factor: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
+/** Answers requests: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
  *
- *  F         [in]      the factor; every plan belongs to its analysis.
+ *  One plan on m factors of one analysis is m requests with that plan, each with its own factor and X, and with one B or
+ *  each its own.
+ *
+ *  F         [in]      the factor of the requests that name none; NULL where all do. A plan belongs to the analysis of its
+ *                      factor.
  *  requests  [in]      count of them; each X may be its own B (then ldx = ldb), and overlaps nothing else of the batch.
  *  threads   [in]      how many and whose; NULL: the calling thread alone.
  *  works     [in,out]  a workspace for each thread, threads->count of them (1 where that is 0), or NULL: allocated for
@@ -929,6 +940,171 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
 
 #endif
 /* end src/public/batch.h */
+/* begin src/public/several.h */
+/* several.h: several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call */
+#ifndef SL_PUBLIC_SEVERAL_H
+#define SL_PUBLIC_SEVERAL_H
+
+/* M + t K for many t is one pattern, the union of both. Each term is spread once into an array in the order of the
+ * analysis, and a factorization adds weighted arrays up while it reads them: nothing is permuted, sorted or searched for
+ * a second time. For m values of t:
+ *
+ *     sl_csc terms[2] = {M, K};                                  any triangles, any two patterns
+ *     sl_matrix_sum(&U, NULL, terms, 2, NULL, NULL);             their union
+ *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, NULL);
+ *     v[0] = malloc(sl_symbolic_entries(S) * sizeof(double));    v[1] alike
+ *     sl_symbolic_spread(S, v[0], &M, NULL);  sl_symbolic_spread(S, v[1], &K, NULL);
+ *     for k < m: c[2 k] = 1, c[2 k + 1] = t[k];
+ *     sl_batch_factor(F, m, S, c, v, 2, &opt, NULL, NULL);       F: m factors, of M + t[k] K
+ *     sl_batch_diagonal(F, m, h, n_rows, rows, n_rows, &opt.threads, NULL, NULL, NULL);
+ *
+ * A plan belongs to the analysis: it serves all of them, one by one or in a batch whose requests name their factors.
+ *
+ * Heat-kernel signatures: with M the masses and K = L, the positive semi-definite cotangent Laplacian, one implicit step
+ * of length t is (M + t L) u(t) = M u(0). Unit heat put into vertex i is u(0) = e_i / M(i,i), so that
+ * h_t(i,i) = (A_t^-1)(i,i) is the signature of i at time t, a density that the masses integrate; a unit temperature is
+ * u(0) = e_i, and what is left of it, the auto-diffusion of [HDA17] 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide
+ * each column by the trace, the sum over all i of (A_t^-1)(i,i) M(i,i).
+ */
+
+/** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, stored as its lower triangle, rows ascending.
+ *
+ *  out           [out]  the matrix, n x n, or NULL on error; release with sl_matrix_free.
+ *  coefficients  [in]   count numbers; NULL: the union of the patterns, without values.
+ *  terms         [in]   count >= 1 square matrices of one size, each storing any triangle, read as a factorization
+ *                       reads it. An entry of the pattern stays, whatever it sums up to.
+ *  opt           [in]   allocator; may be NULL.
+ *  stats         [out]  error_row, error_column of what is malformed; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: sizes that differ, no term, values missing; SL_ERR_PATTERN; SL_ERR_TOO_LARGE:
+ *           2^31 or more entries in all; SL_ERR_MEMORY.
+ *  Cost     O(n + entries of all terms).
+ *  Threads  any number on distinct outputs.
+ *  Example  tests/test_several.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
+                                              const sl_csc *terms, sl_int count,
+                                              const sl_options *opt, sl_stats *stats);
+
+/** Length of an array of values in the order of the analysis: nnz_a of its statistics. A NULL S has 0. */
+SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
+
+/** Spreads a matrix over an array in the order of the analysis, zeros where it has no entry.
+ *
+ *  values  [out]  sl_symbolic_entries(S) doubles; on error untouched. Their order is the map's: a supernode's stand side
+ *                 by side. Valid for S alone.
+ *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any order, duplicates
+ *                 summed. Its pattern is a part of the analysed one; values are not looked at.
+ *  stats   [out]  error_row, error_column: an entry that the analysed pattern has not, the first as K stores them, or one
+ *                 that is malformed; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: another size, malformed, both triangles and
+ *           unsymmetric, or an entry off the pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n + entries of S and of K); memory of the analysis's allocator while it runs.
+ *  Threads  reads S; any number on distinct arrays.
+ *  Example  tests/test_several.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_spread(const sl_symbolic *S, double *values,
+                                                   const sl_csc *K, sl_stats *stats);
+
+/** Factors A = coefficients[0] values[0] + .. + coefficients[terms-1] values[terms-1].
+ *
+ *  The same bits as sl_factor_create over an analysed matrix without duplicates whose entries are these sums, each product
+ *  rounded, then added up in this order to a first 0.
+ *
+ *  out           [out]  the factor, or NULL on error; release with sl_factor_free. As any other.
+ *  S             [in]   the analysis; borrowed, must outlive the factor.
+ *  coefficients  [in]   terms finite numbers.
+ *  values        [in]   terms arrays in the order of S (sl_symbolic_spread); not kept.
+ *  terms         [in]   0 or more; a sum of none is the zero matrix.
+ *  opt, stats           as in sl_factor_create.
+ *  Returns  as sl_factor_create, SL_ERR_PATTERN aside. SL_ERR_NOT_FINITE: a coefficient (error_value, no row), or a sum:
+ *           an infinity that meets another or a 0 is a NaN. Such an entry is told as one of the lower triangle:
+ *           error_row >= error_column.
+ *  Cost     as sl_factor_create; the terms are read once, in order.
+ *  Threads  as sl_factor_create.
+ *  Example  tests/test_several.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
+                                                             const double *coefficients,
+                                                             const double *const *values,
+                                                             sl_int terms, const sl_options *opt,
+                                                             sl_stats *stats);
+
+/** Factors again with other coefficients or values over the factor's analysis. Allocates nothing.
+ *
+ *  F        [in,out]  any factor, also one of sl_factor_create. On error it holds no factor, as in sl_factor_refactor.
+ *  Returns, Cost      as sl_factor_create_combination, SL_ERR_MEMORY, SL_ERR_TOO_LARGE and SL_ERR_UNSUPPORTED aside.
+ *  Threads            nobody else may use F meanwhile.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_combination(sl_factor *F,
+                                                               const double *coefficients,
+                                                               const double *const *values,
+                                                               sl_int terms, sl_stats *stats);
+
+/** Factors several combinations of the same terms, spread over threads: the bits of sl_factor_create_combination.
+ *
+ *  Each thread takes whole factors; those that are left over when every thread has had as many are made by all threads
+ *  together, one after the other.
+ *
+ *  out           [out]  count factors. Where one fails, its out is NULL and the others are made all the same: release
+ *                       those. On SL_ERR_ARGUMENT of the whole call (failed = -1) all are NULL.
+ *  coefficients  [in]   terms x count, column-major, leading dimension terms: a column a factor.
+ *  values, terms [in]   as in sl_factor_create_combination.
+ *  opt           [in]   as in sl_factor_create; may be NULL.
+ *  failed        [out]  the first that failed, or -1; may be NULL.
+ *  stats         [out]  the factor group and the error of that one, or the group of the last; seconds and bytes of all
+ *                       together. May be NULL.
+ *  Returns  SL_OK; what the first that failed came to, as sl_factor_create_combination.
+ *  Cost     that of the factors, shared out; each keeps what a factor keeps.
+ *  Threads  memory is asked for by the calling thread alone.
+ *  Example  tests/test_batch_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
+                                                const double *coefficients,
+                                                const double *const *values, sl_int terms,
+                                                const sl_options *opt, sl_int *failed,
+                                                sl_stats *stats);
+
+/** Factors several factors of one analysis again. Allocates nothing.
+ *
+ *  factors   [in,out]  count factors, none twice. One that fails holds no factor; the others are made all the same.
+ *  threads   [in]      how many and whose; NULL: the calling thread alone. Factors that have threads of their own are made
+ *                      by these, one after the other.
+ *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a factor that is NULL or given twice; SL_ERR_STATE: factors of several
+ *           analyses; then no factor has been touched. Else what the first that failed came to.
+ *  Threads  nobody else may use the factors meanwhile.
+ *  Example  tests/test_batch_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
+                                                  const double *coefficients,
+                                                  const double *const *values, sl_int terms,
+                                                  const sl_threads *threads, sl_int *failed,
+                                                  sl_stats *stats);
+
+/** Diagonal entries of several inverses: out(i, k) = (A_k^-1)(rows[i], rows[i]), the bits of sl_inverse_diagonal.
+ *
+ *  factors  [in]      count factors of one analysis; one may be given twice.
+ *  out      [out]     n_rows x count, column-major, leading dimension ldo >= n_rows elements. On error untouched.
+ *  rows     [in]      n_rows rows of A, any order, repeated or not; NULL (with n_rows ignored): all n.
+ *  threads  [in]      how many and whose; NULL: the calling thread alone. Each takes whole factors.
+ *  works    [in,out]  a workspace for each thread, as in sl_batch_solve, or NULL: allocated for this call.
+ *  failed   [out]     the factor at fault, or -1; may be NULL.
+ *  stats    [out]     error_row: an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STATE: a failed factor, or several analyses;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     that of sl_inverse_diagonal for each, shared out.
+ *  Threads  as sl_inverse_diagonal.
+ *  Source   [HDA17] 5.
+ *  Example  tests/test_batch_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
+                                                  double *out, size_t ldo, const sl_int *rows,
+                                                  sl_int n_rows, const sl_threads *threads,
+                                                  sl_work *const *works, sl_int *failed,
+                                                  sl_stats *stats);
+
+#endif
+/* end src/public/several.h */
 /* begin src/public/selected.h */
 /* selected.h: the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach */
 #ifndef SL_PUBLIC_SELECTED_H
@@ -11381,6 +11557,96 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
 
 #endif
 /* end src/impl/permute.h */
+/* begin src/impl/sum.h */
+/* sum.h: weighted sums of symmetric matrices, whatever triangles they store */
+#ifndef SLI_SUM_H
+#define SLI_SUM_H
+
+/* The entries of all terms as triplets of the lower triangle. */
+typedef struct sli_summands {
+    sl_int count;
+    sl_int *row, *column;
+    double *x; /* NULL: patterns alone */
+} sli_summands;
+
+/* Whether the terms are matrices that can be added; their entries in all. */
+static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
+                               sl_off *entries, sl_stats *stats) {
+    sl_int t;
+    *entries = 0;
+    for (t = 0; t < count; t++) {
+        const sl_csc *A = &terms[t];
+        const sl_status status = sl_csc_check(A, stats);
+        if (status != SL_OK) {
+            return status;
+        }
+        if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
+            (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
+            return SL_ERR_ARGUMENT;
+        }
+        *entries += sli_nnz(A);
+    }
+    return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+}
+
+/* Appends c A; c is not read where patterns alone are wanted. */
+static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
+    sl_int j, p;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                all->row[all->count] = sli_max(A->i[p], j);
+                all->column[all->count] = sli_min(A->i[p], j);
+                if (all->x != NULL) {
+                    all->x[all->count] = c * A->x[p];
+                }
+                all->count++;
+            }
+        }
+    }
+}
+
+SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
+                               sl_int count, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sli_block b = {NULL, 0, 0};
+    sli_summands all = {0, NULL, NULL, NULL};
+    sl_off entries;
+    sl_status status;
+    sl_int t;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (terms == NULL || count < 1 || !sli_allocator_is_whole(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_sum_check(coefficients, terms, count, &entries, stats);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        all.row = SLI_TAKE(&b, sl_int, entries);
+        all.column = SLI_TAKE(&b, sl_int, entries);
+        all.x = coefficients != NULL ? SLI_TAKE(&b, double, entries) : NULL;
+        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    for (t = 0; t < count && status == SL_OK; t++) {
+        sl_triangle triangle = SL_TRIANGLE_NONE;
+        status = sli_csc_triangle(&terms[t], &triangle, opt, stats);
+        if (status == SL_OK) {
+            sli_sum_append(&all, &terms[t], triangle, coefficients != NULL ? coefficients[t] : 0.0);
+        }
+    }
+    if (status == SL_OK) {
+        const sl_int n = terms[0].n_cols;
+        status = sli_from_triplets(out, n, n, all.count, all.row, all.column, all.x, &a);
+    }
+    sli_free(&a, b.base);
+    return status;
+}
+
+#endif
+/* end src/impl/sum.h */
 /* begin src/impl/io.h */
 /* io.h: Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric */
 #ifndef SLI_IO_H
@@ -13383,9 +13649,10 @@ typedef struct sli_source {
 /* The first thing that went wrong in a factorization. */
 typedef struct sli_failure {
     sl_status status;
-    sl_int super;    /* the supernode it happened in */
-    sl_int pivot;    /* the pivot that is null or not finite, or -1 */
-    sl_off position; /* the entry that is not finite, in the order of the map, or -1 */
+    sl_int super; /* the supernode it happened in */
+    sl_int pivot; /* the pivot that is null or not finite, or -1 */
+    sl_off
+        position; /* the entry that is not finite, in the order of the map, or -1: a coefficient */
     double value;
 } sli_failure;
 
@@ -13397,10 +13664,11 @@ struct sl_factor {
     double null_tolerance;
     sl_definiteness definiteness;
     sl_method method;
-    int is_good;    /* L and D hold a factor */
-    double *L;      /* the panels */
-    double *D;      /* n pivots */
-    double *buffer; /* kernel scratch, for each worker */
+    int is_good;      /* L and D hold a factor */
+    sl_status status; /* what the last factorization came to */
+    double *L;        /* the panels */
+    double *D;        /* n pivots */
+    double *buffer;   /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
     sl_threads threads;
     sli_schedule schedule;
@@ -13543,6 +13811,177 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
 
 #endif
 /* end src/impl/factor_parts.h */
+/* begin src/impl/spread.h */
+/* spread.h: a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations */
+#ifndef SLI_SPREAD_H
+#define SLI_SPREAD_H
+
+/* What spreading a matrix K needs. Both sides of the search are sorted by column, the earlier pivot of an
+ * entry: there the rows of the map are marked with their places, and those of K look them up. */
+typedef struct sli_spreading {
+    sl_int *begin; /* n + 1: where each column starts in .. */
+    sl_int *from;  /* .. the entries of K that are read, and .. */
+    sl_int *to;    /* .. their rows, and at last their places in the map, -1 for none */
+    sl_int *place; /* n: where row k of the column at hand stands in the map, -1 between columns */
+    sl_int *head;  /* the widest supernode: for each of its columns the first entry of the map .. */
+    sl_int *next;  /* .. and the one after each, -1 at the end; the most that one supernode has */
+    sl_int *row;   /* the same: its row */
+} sli_spreading;
+
+static void sli_spreading_layout(sli_spreading *w, sli_block *b, const sl_symbolic *S,
+                                 sl_int entries) {
+    sl_off most = 0;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_off here = S->map_begin[s + 1] - S->map_begin[s];
+        most = here > most ? here : most;
+    }
+    w->begin = SLI_TAKE(b, sl_int, (size_t)S->n + 1);
+    w->from = SLI_TAKE(b, sl_int, entries);
+    w->to = SLI_TAKE(b, sl_int, entries);
+    w->place = SLI_TAKE(b, sl_int, S->n);
+    w->head = SLI_TAKE(b, sl_int, S->widest);
+    w->next = SLI_TAKE(b, sl_int, most);
+    w->row = SLI_TAKE(b, sl_int, most);
+}
+
+/* K's entries by columns, each column in the order of K, so that duplicates are summed in it. */
+static void sli_spreading_sort(const sl_symbolic *S, sli_spreading *w, const sl_csc *K,
+                               sl_triangle triangle) {
+    const sl_int *iperm = S->iperm;
+    sl_int j, p, total = 0;
+    memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
+    for (j = 0; j < S->n; j++) {
+        for (p = K->p[j]; p < K->p[j + 1]; p++) {
+            w->begin[sli_min(iperm[K->i[p]], iperm[j])] += sli_is_read(triangle, K->i[p], j);
+        }
+    }
+    for (j = 0; j <= S->n; j++) {
+        const sl_int here = w->begin[j];
+        w->begin[j] = total;
+        total += here;
+    }
+    for (j = 0; j < S->n; j++) { /* every begin moves to its end, and back afterwards */
+        for (p = K->p[j]; p < K->p[j + 1]; p++) {
+            if (sli_is_read(triangle, K->i[p], j)) {
+                const sl_int at = w->begin[sli_min(iperm[K->i[p]], iperm[j])]++;
+                w->from[at] = p;
+                w->to[at] = sli_max(iperm[K->i[p]], iperm[j]);
+            }
+        }
+    }
+    memmove(w->begin + 1, w->begin, (size_t)S->n * sizeof(sl_int));
+    w->begin[0] = 0;
+}
+
+/* A supernode's part of the map by columns, ascending in each. */
+static void sli_spreading_list(const sl_symbolic *S, sli_spreading *w, sl_int s) {
+    const sl_off start = S->map_begin[s];
+    sl_int k, j, m;
+    for (j = 0; j < S->steps[s].width; j++) {
+        w->head[j] = -1;
+    }
+    for (m = (sl_int)(S->map_begin[s + 1] - start) - 1; m >= 0; m--) {
+        sli_map_pivots(S, s, start + m, &k, &j);
+        j -= S->super_first[s];
+        w->row[m] = k;
+        w->next[m] = w->head[j];
+        w->head[j] = m;
+    }
+}
+
+/* The places of column j's entries of K. Returns the first entry of K so far that has none, or bad. */
+static sl_int sli_spreading_find(sli_spreading *w, sl_int j, sl_int head, sl_int start,
+                                 sl_int bad) {
+    sl_int m, q;
+    for (m = head; m != -1; m = w->next[m]) {
+        if (w->place[w->row[m]] == -1) { /* of places for duplicates the first takes all */
+            w->place[w->row[m]] = start + m;
+        }
+    }
+    for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
+        w->to[q] = w->place[w->to[q]];
+        bad = w->to[q] == -1 ? sli_min(bad, w->from[q]) : bad;
+    }
+    for (m = head; m != -1; m = w->next[m]) {
+        w->place[w->row[m]] = -1;
+    }
+    return bad;
+}
+
+/* Every entry's place. Returns the first entry of K that has none, or INT32_MAX. */
+static sl_int sli_spreading_find_all(const sl_symbolic *S, sli_spreading *w) {
+    sl_int s, j, bad = INT32_MAX;
+    for (j = 0; j < S->n; j++) {
+        w->place[j] = -1;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int first = S->super_first[s], last = S->super_first[s + 1];
+        if (w->begin[first] < w->begin[last]) {
+            sli_spreading_list(S, w, s);
+            for (j = first; j < last; j++) {
+                if (w->begin[j] < w->begin[j + 1]) {
+                    bad =
+                        sli_spreading_find(w, j, w->head[j - first], (sl_int)S->map_begin[s], bad);
+                }
+            }
+        }
+    }
+    return bad;
+}
+
+SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
+    return S == NULL ? 0 : (sl_int)S->map_begin[S->n_supers]; /* no more than A has */
+}
+
+SL_API sl_status sl_symbolic_spread(const sl_symbolic *S, double *values, const sl_csc *K,
+                                    sl_stats *stats) {
+    sl_options opt;
+    sli_spreading w;
+    sli_block b = {NULL, 0, 0};
+    sl_triangle triangle = SL_TRIANGLE_NONE;
+    sl_int q, bad;
+    int pass;
+    sl_status status = sl_csc_check(K, stats);
+    if (S == NULL || status != SL_OK) {
+        return S == NULL ? SL_ERR_ARGUMENT : status;
+    }
+    if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
+        (sl_symbolic_entries(S) > 0 && values == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (K->n_cols != S->n) {
+        return SL_ERR_PATTERN;
+    }
+    memset(&w, 0, sizeof w);
+    memset(&opt, 0, sizeof opt);
+    opt.allocator = S->allocator;
+    status = sli_csc_triangle(K, &triangle, &opt, stats);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_spreading_layout(&w, &b, S, sli_nnz(K));
+        status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_spreading_sort(S, &w, K, triangle);
+    bad = sli_spreading_find_all(S, &w);
+    if (bad == INT32_MAX) {
+        for (q = 0; q < sl_symbolic_entries(S); q++) {
+            values[q] = 0.0;
+        }
+        for (q = 0; q < w.begin[S->n]; q++) {
+            values[w.to[q]] += K->x[w.from[q]];
+        }
+    } else {
+        status = sli_fail_at(stats, SL_ERR_PATTERN, K->i[bad], sli_column_of(K, bad), K->x[bad]);
+    }
+    sli_free(&S->allocator, b.base);
+    return status;
+}
+
+#endif
+/* end src/impl/spread.h */
 /* begin src/impl/uplooking.h */
 /* uplooking.h: the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A */
 #ifndef SLI_UPLOOKING_H
@@ -14061,11 +14500,12 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
-/* An entry that is not finite: where it stands in A, or in the lower triangle of a sum. */
+/* What is not finite: an entry, where it stands in A or in the lower triangle of a sum, or a coefficient. */
 static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     const sl_symbolic *S = F->S;
-    sl_int row, column;
-    if (A != NULL) {
+    sl_int row = -1, column = -1;
+    if (f->position < 0) { /* a coefficient: it has no place */
+    } else if (A != NULL) {
         const sl_int p = S->map_from[f->position];
         row = A->i[p];
         column = sli_column_of(A, p);
@@ -14092,6 +14532,13 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
     F->stats.null += f->status == SL_ERR_PIVOT;
 }
 
+static void sli_factor_stats_tell(const sl_factor *F, sl_stats *stats) {
+    sli_factor_stats_copy(&F->stats, stats);
+    stats->error_row = F->stats.error_row;
+    stats->error_column = F->stats.error_column;
+    stats->error_value = F->stats.error_value;
+}
+
 /* What a factorization came to, for the caller and for F itself. */
 static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failure *failure,
                                  double started, sl_stats *stats) {
@@ -14099,11 +14546,9 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     sli_factor_tell(F, A, failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
+    F->status = failure->status;
     if (stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-        stats->error_row = F->stats.error_row;
-        stats->error_column = F->stats.error_column;
-        stats->error_value = F->stats.error_value;
+        sli_factor_stats_tell(F, stats);
     }
     return failure->status;
 }
@@ -14112,9 +14557,17 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
 static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
                                     sl_stats *stats) {
     sli_failure failure;
+    sl_int t;
     memset(&failure, 0, sizeof failure);
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
-                                             : sli_uplooking(F, from, &failure));
+    for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
+        if (!sli_is_finite(from->coefficients[t])) {
+            (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
+        }
+    }
+    if (failure.status == SL_OK) {
+        (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
+                                                 : sli_uplooking(F, from, &failure));
+    }
     return sli_factor_done(F, from->A, &failure, started, stats);
 }
 
@@ -14435,6 +14888,65 @@ SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
 
 #endif
 /* end src/impl/factor_ask.h */
+/* begin src/impl/combination.h */
+/* combination.h: factorizations of weighted sums of value arrays that stand in the order of the analysis */
+#ifndef SLI_COMBINATION_H
+#define SLI_COMBINATION_H
+
+/* A sum as the source of a factorization. */
+static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
+                                   const double *const *values, sl_int terms, sli_source *from) {
+    sl_int t;
+    if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (t = 0; t < terms; t++) {
+        if (values[t] == NULL && S->map_begin[S->n_supers] > 0) {
+            return SL_ERR_ARGUMENT;
+        }
+    }
+    from->A = NULL;
+    from->values = values;
+    from->coefficients = coefficients;
+    from->terms = terms;
+    return SL_OK;
+}
+
+SL_API sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
+                                              const double *coefficients,
+                                              const double *const *values, sl_int terms,
+                                              const sl_options *opt, sl_stats *stats) {
+    sli_source from;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_source_of_sum(S, coefficients, values, terms, &from);
+    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
+}
+
+SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coefficients,
+                                                const double *const *values, sl_int terms,
+                                                sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_source from;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    F->is_good = 0;
+    status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
+    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
+}
+
+#endif
+/* end src/impl/combination.h */
 /* begin src/impl/work.h */
 /* work.h: the workspace: one block of a thread's scratch that only grows */
 #ifndef SLI_WORK_H
@@ -15411,13 +15923,10 @@ static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sl
     }
 }
 
-/* Entries one by one. The room is known only once the requests are sorted and grouped: where W is too
- * small for it, it grows and they are sorted again, before anything is written. */
-static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
-                                     sl_stats *stats) {
+/* Sorts and groups requests in W and lays out the sweep. The room is known only once they are grouped:
+ * where W is too small for it, it grows and they are sorted again. */
+static sl_status sli_inverse_prepare(sli_requests *r, sli_forward *f, sl_work *W) {
     size_t bytes = 0;
-    sli_forward f;
-    sl_int k = 0, m;
     for (;;) {
         sli_block b = {NULL, 0, 0};
         sli_room room = {0, 0, 0, 0};
@@ -15429,15 +15938,26 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_reques
         }
         sli_requests_layout(r, &b);
         sli_requests_group(r, &room);
-        sli_forward_layout(&f, &b, &room);
-        sli_forward_layout_run(&f, &b, &room);
+        sli_forward_layout(f, &b, &room);
+        sli_forward_layout_run(f, &b, &room);
         if (b.overflow) {
             return SL_ERR_TOO_LARGE;
         }
         if (b.used <= W->size) {
-            break;
+            return SL_OK;
         }
         bytes = b.used;
+    }
+}
+
+/* Entries one by one. */
+static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
+                                     sl_stats *stats) {
+    sli_forward f;
+    sl_int k = 0, m;
+    const sl_status status = sli_inverse_prepare(r, &f, W);
+    if (status != SL_OK) {
+        return status;
     }
     for (m = 0; m < r->n_groups; m++) {
         const sl_int taken = (sl_int)r->taken[m];
@@ -15481,6 +16001,14 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
     return F == NULL
                ? SL_ERR_ARGUMENT
                : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
+}
+
+/* Grows W so that sl_inverse_diagonal of these rows allocates nothing. */
+static sl_status sli_inverse_reserve(const sl_factor *F, const sl_int *rows, sl_int count,
+                                     sl_work *W) {
+    sli_requests r = sli_requests_of(F, rows, rows, rows == NULL ? F->S->n : count);
+    sli_forward f;
+    return sli_inverse_prepare(&r, &f, W);
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
@@ -15864,7 +16392,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
 #define SLI_BATCH_H
 
 typedef struct sli_batch {
-    const sl_factor *F;
+    const sl_factor *F; /* of requests that name none */
     const sl_request *requests;
     sl_int count, workers;
     sl_off blocks;         /* of up to 8 right-hand sides */
@@ -15873,6 +16401,10 @@ typedef struct sli_batch {
     unsigned char *memory; /* then `bytes` a worker */
     size_t bytes;
 } sli_batch;
+
+SLI_INLINE const sl_factor *sli_request_factor(const sli_batch *b, const sl_request *r) {
+    return r->factor != NULL ? r->factor : b->F;
+}
 
 static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
     return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
@@ -15903,7 +16435,8 @@ static void sli_batch_share(void *data, sl_int k) {
     sl_int m;
     for (m = 0; m < b->count && before < to; m++) {
         const sl_request *r = &b->requests[m];
-        const sli_query q = sli_request_query(b->F, r);
+        const sl_factor *F = sli_request_factor(b, r);
+        const sli_query q = sli_request_query(F, r);
         const double weight = sli_query_weight(&q);
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
@@ -15912,7 +16445,7 @@ static void sli_batch_share(void *data, sl_int k) {
             const sli_layout layout = sli_request_layout(r);
             const sli_dense x_at = sli_dense_of(layout, r->ldx),
                             b_at = sli_dense_of(layout, r->ldb);
-            sli_sweep(b->F, &q, r->X + (size_t)first * x_at.column, x_at,
+            sli_sweep(F, &q, r->X + (size_t)first * x_at.column, x_at,
                       q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
                       memory);
         }
@@ -15924,14 +16457,20 @@ static void sli_batch_share(void *data, sl_int k) {
 static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     for (*at = 0; *at < b->count; ++*at) {
         const sl_request *r = &b->requests[*at];
-        const sli_query q = sli_request_query(b->F, r);
+        const sl_factor *F = sli_request_factor(b, r);
+        sli_query q;
         size_t bytes;
-        const sl_status status =
+        sl_status status;
+        if (F == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        q = sli_request_query(F, r);
+        status =
             sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, sli_request_layout(r), r->nrhs);
         if (status != SL_OK) {
             return status;
         }
-        if (q.S != b->F->S) {
+        if (!F->is_good || q.S != F->S) {
             return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
@@ -15946,18 +16485,30 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     return SL_OK;
 }
 
-/* Scratch for every worker: in the caller's workspaces, or in one block to be freed. */
-static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
-    sli_block block = {NULL, 0, 0};
-    sl_status status = SL_OK;
+/* Refuses workspaces that are not there, or given twice. */
+static sl_status sli_works_check(sl_work *const *works, sl_int workers) {
     sl_int k, other;
+    for (k = 0; k < workers; k++) {
+        if (works[k] == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        for (other = 0; other < k; other++) {
+            if (works[k] == works[other]) {
+                return SL_ERR_ARGUMENT;
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* Scratch for every worker: in the caller's workspaces, or in one block of a's to be freed. */
+static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works, const sl_allocator *a) {
+    sli_block block = {NULL, 0, 0};
+    sl_status status = works == NULL ? SL_OK : sli_works_check(works, b->workers);
+    sl_int k;
     int pass;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
-        for (other = 0; other < k; other++) {
-            status = works[k] == works[other] ? SL_ERR_ARGUMENT : status;
-        }
-        status = works[k] == NULL ? SL_ERR_ARGUMENT : status;
-        status = status == SL_OK ? sli_work_grow(works[k], b->bytes) : status;
+        status = sli_work_grow(works[k], b->bytes);
     }
     b->works = works;
     b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
@@ -15966,7 +16517,7 @@ static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
             unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
             b->memory = k == 0 ? memory : b->memory;
         }
-        status = pass == 0 ? sli_block_alloc(&block, &b->F->allocator) : SL_OK;
+        status = pass == 0 ? sli_block_alloc(&block, a) : SL_OK;
     }
     return status;
 }
@@ -15983,10 +16534,10 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     if (failed != NULL) {
         *failed = -1;
     }
-    if (F == NULL || count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
+    if (count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (F != NULL && !F->is_good) {
         return SL_ERR_STATE;
     }
     b.F = F;
@@ -15999,12 +16550,13 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
         *failed = at;
     }
     if (status == SL_OK && b.blocks > 0) {
-        status = sli_batch_reserve(&b, works);
+        const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
+        status = sli_batch_reserve(&b, works, a);
         if (status == SL_OK) {
             sli_parallel(threads, b.workers, sli_batch_share, &b);
         }
         if (works == NULL) {
-            sli_free(&F->allocator, b.memory);
+            sli_free(a, b.memory);
         }
     }
     return status;
@@ -16012,6 +16564,336 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 
 #endif
 /* end src/impl/batch.h */
+/* begin src/impl/batch_factor.h */
+/* batch_factor.h: several factorizations over one analysis, whole factors shared out among workers */
+#ifndef SLI_BATCH_FACTOR_H
+#define SLI_BATCH_FACTOR_H
+
+typedef struct sli_family {
+    sl_factor *const *factors; /* count; NULL: not there */
+    sl_int count, workers;
+    sli_source from; /* of the first: each has a column of coefficients */
+} sli_family;
+
+/* Has factor k no threads of its own? */
+SLI_INLINE int sli_family_is_single(const sli_family *f, sl_int k) {
+    return f->factors[k] != NULL && f->factors[k]->schedule.workers == 1;
+}
+
+static void sli_family_numbers(const sli_family *f, sl_int k) {
+    sli_source from = f->from;
+    if (from.terms > 0) {
+        from.coefficients += (size_t)k * (size_t)from.terms;
+    }
+    (void)sli_factor_numbers(f->factors[k], &from, sli_seconds(), NULL);
+}
+
+/* Worker w's turns among the factors without threads: they cost all alike. */
+static void sli_family_share(void *data, sl_int w) {
+    const sli_family *f = (const sli_family *)data;
+    sl_int k, turn = 0;
+    for (k = 0; k < f->count; k++) {
+        if (sli_family_is_single(f, k) && turn++ % f->workers == w) {
+            sli_family_numbers(f, k);
+        }
+    }
+}
+
+/* The numbers of all of them. Returns the first that failed, or count. */
+static sl_int sli_family_run(sli_family *f, const sl_threads *threads) {
+    sl_int k, singles = 0;
+    for (k = 0; k < f->count; k++) {
+        singles += sli_family_is_single(f, k);
+    }
+    f->workers = sli_max(sli_min(sli_workers(threads), singles), 1);
+    sli_parallel(threads, f->workers, sli_family_share, f);
+    for (k = 0; k < f->count; k++) {
+        if (f->factors[k] != NULL && !sli_family_is_single(f, k)) {
+            sli_family_numbers(f, k);
+        }
+    }
+    for (k = 0; k < f->count && (f->factors[k] == NULL || f->factors[k]->is_good); k++) {
+    }
+    return k;
+}
+
+/* What the caller hears of them: of the first that failed, or of the last. */
+static void sli_family_tell(const sli_family *f, sl_int at, double started, sl_stats *stats) {
+    const sl_factor *F = f->count == 0 ? NULL : f->factors[sli_min(at, f->count - 1)];
+    sl_int k;
+    if (stats == NULL || F == NULL) {
+        return;
+    }
+    sli_factor_stats_tell(F, stats);
+    stats->seconds_setup = 0.0;
+    stats->seconds_factor = sli_seconds() - started;
+    stats->bytes_factor = 0;
+    for (k = 0; k < f->count; k++) {
+        if (f->factors[k] != NULL) {
+            stats->seconds_setup += f->factors[k]->stats.seconds_setup;
+            stats->bytes_factor += f->factors[k]->stats.bytes_factor;
+        }
+    }
+}
+
+/* Their memory, by this thread alone: whole rounds without threads, the rest with. Returns the first that
+ * has none, or count. */
+static sl_int sli_family_make(sl_factor **out, sl_int count, const sl_symbolic *S,
+                              const sl_options *opt, sl_status *status) {
+    const sl_threads none = {0, NULL, NULL};
+    const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
+    sl_options alone;
+    sl_int k, at = count;
+    memset(&alone, 0, sizeof alone);
+    if (opt != NULL) {
+        alone = *opt;
+        alone.threads = none;
+    }
+    for (k = 0; k < count; k++) {
+        const sl_status here =
+            sli_factor_new(&out[k], S, k < count / workers * workers ? &alone : opt);
+        if (here != SL_OK && at == count) {
+            at = k;
+            *status = here;
+        }
+    }
+    return at;
+}
+
+SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
+                                 const double *coefficients, const double *const *values,
+                                 sl_int terms, const sl_options *opt, sl_int *failed,
+                                 sl_stats *stats) {
+    const sl_threads none = {0, NULL, NULL};
+    double started;
+    sli_family f;
+    sl_status status;
+    sl_int k, bare, at;
+    sli_stats_clear_error(stats);
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    for (k = 0; k < count && out != NULL; k++) {
+        out[k] = NULL;
+    }
+    if (count < 0 || (count > 0 && out == NULL) || S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    f.factors = out;
+    f.count = count;
+    status = sli_source_of_sum(S, coefficients, values, terms, &f.from);
+    if (status != SL_OK || count == 0) {
+        return status;
+    }
+    bare = sli_family_make(out, count, S, opt, &status);
+    started = sli_seconds();
+    at = sli_family_run(&f, opt == NULL ? &none : &opt->threads);
+    status = at < bare ? out[at]->status : status;
+    sli_family_tell(&f, sli_min(at, bare), started, stats);
+    for (k = at; k < count; k++) {
+        if (out[k] != NULL && !out[k]->is_good) {
+            sl_factor_free(out[k]);
+            out[k] = NULL;
+        }
+    }
+    at = sli_min(at, bare);
+    if (failed != NULL && at < count) {
+        *failed = at;
+    }
+    return status;
+}
+
+/* Whether the factors can be made again together; *at: the one at fault, -1 for all or none. */
+static sl_status sli_family_check(sl_factor *const *factors, sl_int count, sl_int *at) {
+    sl_int k, other;
+    for (k = 0; k < count; k++) {
+        *at = k;
+        if (factors[k] == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        for (other = 0; other < k; other++) {
+            if (factors[other] == factors[k]) {
+                return SL_ERR_ARGUMENT;
+            }
+        }
+        if (factors[k]->S != factors[0]->S) {
+            return SL_ERR_STATE;
+        }
+    }
+    *at = -1;
+    return SL_OK;
+}
+
+SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
+                                   const double *coefficients, const double *const *values,
+                                   sl_int terms, const sl_threads *threads, sl_int *failed,
+                                   sl_stats *stats) {
+    const sl_threads none = {0, NULL, NULL};
+    const double started = sli_seconds();
+    sli_family f;
+    sl_status status;
+    sl_int k, at = -1;
+    sli_stats_clear_error(stats);
+    threads = threads == NULL ? &none : threads;
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_family_check(factors, count, &at);
+    if (status == SL_OK && count > 0) {
+        status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.from);
+    }
+    if (status == SL_OK && count > 0) {
+        f.factors = factors;
+        f.count = count;
+        k = sli_family_run(&f, threads);
+        sli_family_tell(&f, k, started, stats);
+        at = k < count ? k : -1;
+        status = k < count ? factors[k]->status : SL_OK;
+    }
+    if (failed != NULL) {
+        *failed = at;
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/batch_factor.h */
+/* begin src/impl/batch_inverse.h */
+/* batch_inverse.h: diagonals of several inverses over one analysis, whole factors shared out among workers */
+#ifndef SLI_BATCH_INVERSE_H
+#define SLI_BATCH_INVERSE_H
+
+typedef struct sli_diagonals {
+    const sl_factor *const *factors;
+    sl_int count, workers;
+    double *out; /* n_rows x count */
+    size_t ldo;
+    const sl_int *rows; /* NULL: all */
+    sl_int n_rows;
+    sl_work *const *works; /* one a worker, with room for any of the factors */
+} sli_diagonals;
+
+/* Worker w's turns among the factors. */
+static void sli_diagonals_share(void *data, sl_int w) {
+    const sli_diagonals *d = (const sli_diagonals *)data;
+    sl_int k;
+    for (k = w; k < d->count; k += d->workers) {
+        /* all that could go wrong was tried before */
+        const sl_status status = sl_inverse_diagonal(d->factors[k], d->out + (size_t)k * d->ldo,
+                                                     d->rows, d->n_rows, d->works[w], NULL);
+        SLI_ASSERT(status == SL_OK);
+        (void)status;
+    }
+}
+
+/* Checks every factor; *at: the one at fault. */
+static sl_status sli_diagonals_check(const sli_diagonals *d, sl_int *at, sl_stats *stats) {
+    for (*at = 0; *at < d->count; ++*at) {
+        const sl_factor *F = d->factors[*at];
+        if (F == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        if (!F->is_good || F->S != d->factors[0]->S) {
+            return SL_ERR_STATE;
+        }
+    }
+    *at = -1;
+    return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
+}
+
+/* Room in every workspace for any of the factors: it depends on the rows, and on the instruction set. */
+static sl_status sli_diagonals_reserve(const sli_diagonals *d) {
+    sl_status status = SL_OK;
+    sl_int k;
+    for (k = 0; k < d->count && status == SL_OK; k++) {
+        if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels) {
+            status = sli_inverse_reserve(d->factors[k], d->rows, d->n_rows, d->works[0]);
+        }
+    }
+    for (k = 1; k < d->workers && status == SL_OK; k++) {
+        status = sli_work_grow(d->works[k], d->works[0]->size);
+    }
+    return status;
+}
+
+/* The same with workspaces of the call's own. */
+static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) {
+    const sl_allocator *a = &d->factors[0]->allocator;
+    sl_work *own = NULL, **works = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int w;
+    int pass;
+    for (pass = 0; pass < 2 && d->works == NULL && status == SL_OK; pass++) {
+        own = SLI_TAKE(&b, sl_work, d->workers);
+        works = SLI_TAKE(&b, sl_work *, d->workers);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    if (d->works == NULL) {
+        for (w = 0; w < d->workers; w++) {
+            own[w] = sli_work_own(d->factors[0]);
+            works[w] = &own[w];
+        }
+        d->works = works;
+    }
+    status = sli_diagonals_reserve(d);
+    if (status == SL_OK) {
+        sli_parallel(threads, d->workers, sli_diagonals_share, d);
+    }
+    for (w = 0; w < d->workers && own != NULL; w++) {
+        sli_free(a, own[w].block);
+    }
+    sli_free(a, b.base);
+    return status;
+}
+
+SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count, double *out,
+                                   size_t ldo, const sl_int *rows, sl_int n_rows,
+                                   const sl_threads *threads, sl_work *const *works, sl_int *failed,
+                                   sl_stats *stats) {
+    const sl_threads none = {0, NULL, NULL};
+    sli_diagonals d;
+    sl_status status;
+    sl_int at = -1;
+    sli_stats_clear_error(stats);
+    threads = threads == NULL ? &none : threads;
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    d.factors = factors;
+    d.count = count;
+    d.workers = sli_min(sli_workers(threads), count);
+    d.out = out;
+    d.ldo = ldo;
+    d.rows = rows;
+    d.n_rows = n_rows;
+    d.works = works;
+    status = sli_diagonals_check(&d, &at, stats);
+    if (failed != NULL) {
+        *failed = at;
+    }
+    if (status != SL_OK || count == 0) {
+        return status;
+    }
+    n_rows = rows == NULL ? factors[0]->S->n : n_rows;
+    if (n_rows < 0 || (n_rows > 0 && (out == NULL || ldo < (size_t)n_rows))) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = works == NULL ? SL_OK : sli_works_check(works, d.workers);
+    return status == SL_OK && n_rows > 0 ? sli_diagonals_run(&d, threads) : status;
+}
+
+#endif
+/* end src/impl/batch_inverse.h */
 /* begin src/impl/selected.h */
 /* selected.h: the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's */
 #ifndef SLI_SELECTED_H

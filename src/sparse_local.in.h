@@ -15,6 +15,7 @@ extern "C" {
 #include "public/plan.h"
 #include "public/inverse.h"
 #include "public/batch.h"
+#include "public/several.h"
 #include "public/selected.h"
 #ifdef __cplusplus
 }
@@ -42,6 +43,7 @@ extern "C" {
 /* L2 storage */
 #include "impl/csc.h"
 #include "impl/permute.h"
+#include "impl/sum.h"
 #include "impl/io.h"
 /* L3 patterns: never see a value array */
 #include "impl/symbolic_types.h"
@@ -59,11 +61,13 @@ extern "C" {
 #include "impl/reach.h"
 /* L4 numbers */
 #include "impl/factor_parts.h"
+#include "impl/spread.h"
 #include "impl/uplooking.h"
 #include "impl/multifrontal.h"
 #include "impl/leftlooking.h"
 #include "impl/factor.h"
 #include "impl/factor_ask.h"
+#include "impl/combination.h"
 #include "impl/work.h"
 #include "impl/sweep.h"
 #include "impl/solve.h"
@@ -73,6 +77,8 @@ extern "C" {
 #include "impl/inverse.h"
 #include "impl/inverse_block.h"
 #include "impl/batch.h"
+#include "impl/batch_factor.h"
+#include "impl/batch_inverse.h"
 #include "impl/selected.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"

@@ -90,11 +90,12 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
-/* An entry that is not finite: where it stands in A, or in the lower triangle of a sum. */
+/* What is not finite: an entry, where it stands in A or in the lower triangle of a sum, or a coefficient. */
 static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     const sl_symbolic *S = F->S;
-    sl_int row, column;
-    if (A != NULL) {
+    sl_int row = -1, column = -1;
+    if (f->position < 0) { /* a coefficient: it has no place */
+    } else if (A != NULL) {
         const sl_int p = S->map_from[f->position];
         row = A->i[p];
         column = sli_column_of(A, p);
@@ -121,6 +122,13 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
     F->stats.null += f->status == SL_ERR_PIVOT;
 }
 
+static void sli_factor_stats_tell(const sl_factor *F, sl_stats *stats) {
+    sli_factor_stats_copy(&F->stats, stats);
+    stats->error_row = F->stats.error_row;
+    stats->error_column = F->stats.error_column;
+    stats->error_value = F->stats.error_value;
+}
+
 /* What a factorization came to, for the caller and for F itself. */
 static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failure *failure,
                                  double started, sl_stats *stats) {
@@ -128,11 +136,9 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     sli_factor_tell(F, A, failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
+    F->status = failure->status;
     if (stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-        stats->error_row = F->stats.error_row;
-        stats->error_column = F->stats.error_column;
-        stats->error_value = F->stats.error_value;
+        sli_factor_stats_tell(F, stats);
     }
     return failure->status;
 }
@@ -141,9 +147,17 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
 static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
                                     sl_stats *stats) {
     sli_failure failure;
+    sl_int t;
     memset(&failure, 0, sizeof failure);
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
-                                             : sli_uplooking(F, from, &failure));
+    for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
+        if (!sli_is_finite(from->coefficients[t])) {
+            (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
+        }
+    }
+    if (failure.status == SL_OK) {
+        (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
+                                                 : sli_uplooking(F, from, &failure));
+    }
     return sli_factor_done(F, from->A, &failure, started, stats);
 }
 

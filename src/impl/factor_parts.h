@@ -19,9 +19,10 @@ typedef struct sli_source {
 /* The first thing that went wrong in a factorization. */
 typedef struct sli_failure {
     sl_status status;
-    sl_int super;    /* the supernode it happened in */
-    sl_int pivot;    /* the pivot that is null or not finite, or -1 */
-    sl_off position; /* the entry that is not finite, in the order of the map, or -1 */
+    sl_int super; /* the supernode it happened in */
+    sl_int pivot; /* the pivot that is null or not finite, or -1 */
+    sl_off
+        position; /* the entry that is not finite, in the order of the map, or -1: a coefficient */
     double value;
 } sli_failure;
 
@@ -33,10 +34,11 @@ struct sl_factor {
     double null_tolerance;
     sl_definiteness definiteness;
     sl_method method;
-    int is_good;    /* L and D hold a factor */
-    double *L;      /* the panels */
-    double *D;      /* n pivots */
-    double *buffer; /* kernel scratch, for each worker */
+    int is_good;      /* L and D hold a factor */
+    sl_status status; /* what the last factorization came to */
+    double *L;        /* the panels */
+    double *D;        /* n pivots */
+    double *buffer;   /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
     sl_threads threads;
     sli_schedule schedule;

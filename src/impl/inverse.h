@@ -100,13 +100,10 @@ static void sli_pairs_answer(const sl_factor *F, const sli_requests *r, const sl
     }
 }
 
-/* Entries one by one. The room is known only once the requests are sorted and grouped: where W is too
- * small for it, it grows and they are sorted again, before anything is written. */
-static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
-                                     sl_stats *stats) {
+/* Sorts and groups requests in W and lays out the sweep. The room is known only once they are grouped:
+ * where W is too small for it, it grows and they are sorted again. */
+static sl_status sli_inverse_prepare(sli_requests *r, sli_forward *f, sl_work *W) {
     size_t bytes = 0;
-    sli_forward f;
-    sl_int k = 0, m;
     for (;;) {
         sli_block b = {NULL, 0, 0};
         sli_room room = {0, 0, 0, 0};
@@ -118,15 +115,26 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_reques
         }
         sli_requests_layout(r, &b);
         sli_requests_group(r, &room);
-        sli_forward_layout(&f, &b, &room);
-        sli_forward_layout_run(&f, &b, &room);
+        sli_forward_layout(f, &b, &room);
+        sli_forward_layout_run(f, &b, &room);
         if (b.overflow) {
             return SL_ERR_TOO_LARGE;
         }
         if (b.used <= W->size) {
-            break;
+            return SL_OK;
         }
         bytes = b.used;
+    }
+}
+
+/* Entries one by one. */
+static sl_status sli_inverse_entries(const sl_factor *F, double *out, sli_requests *r, sl_work *W,
+                                     sl_stats *stats) {
+    sli_forward f;
+    sl_int k = 0, m;
+    const sl_status status = sli_inverse_prepare(r, &f, W);
+    if (status != SL_OK) {
+        return status;
     }
     for (m = 0; m < r->n_groups; m++) {
         const sl_int taken = (sl_int)r->taken[m];
@@ -170,6 +178,14 @@ SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_i
     return F == NULL
                ? SL_ERR_ARGUMENT
                : sli_inverse_pairs(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
+}
+
+/* Grows W so that sl_inverse_diagonal of these rows allocates nothing. */
+static sl_status sli_inverse_reserve(const sl_factor *F, const sl_int *rows, sl_int count,
+                                     sl_work *W) {
+    sli_requests r = sli_requests_of(F, rows, rows, rows == NULL ? F->S->n : count);
+    sli_forward f;
+    return sli_inverse_prepare(&r, &f, W);
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
