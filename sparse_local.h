@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 1bc1c2b364e5c103
+ * FNV-1a of all that follows this comment, license aside: 780fc7aa9ae4ed23
  *
  * Contents
  *         (what a user reads)
@@ -63,26 +63,26 @@
  *         (L4 numbers)
  *  13635  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
  *  13814  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  13985  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14071  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14331  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14419  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14776  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14891  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  14950  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  15010  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15247  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15289  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13983  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14069  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14329  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14417  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14774  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14889  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  14948  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15008  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15245  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15287  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15587  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15827  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16162  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16389  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16567  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  16764  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  16897  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15585  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15825  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16160  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16387  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16565  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  16762  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  16895  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17341  impl/leave.h               takes every internal macro away again
+ *  17339  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13895,9 +13895,7 @@ static sl_int sli_spreading_find(sli_spreading *w, sl_int j, sl_int head, sl_int
                                  sl_int bad) {
     sl_int m, q;
     for (m = head; m != -1; m = w->next[m]) {
-        if (w->place[w->row[m]] == -1) { /* of places for duplicates the first takes all */
-            w->place[w->row[m]] = start + m;
-        }
+        w->place[w->row[m]] = start + m; /* of several for duplicates the last takes all */
     }
     for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
         w->to[q] = w->place[w->to[q]];

@@ -436,7 +436,19 @@ static void diagonals_over_t(void **state) {
     }
 }
 
-/* Factors of several instruction sets, whose sweeps need different room, in one call. */
+/* A parallel-for in which nothing may be allocated. */
+static void run_without_memory(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                               void *data) {
+    counter_t *counter = (counter_t *)context;
+    counter->fail_at = (int64_t)counter->calls;
+    for (sl_int k = count - 1; k >= 0; k--) {
+        body(data, k);
+    }
+    assert_int_equal(counter->fail_at, counter->calls);
+    counter->fail_at = -1;
+}
+
+/* Factors of several instruction sets, whose sweeps need different room, in one call: that is found beforehand. */
 static void diagonals_of_several_instruction_sets(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
@@ -446,8 +458,7 @@ static void diagonals_of_several_instruction_sets(void **state) {
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
     double *out = test_reals((size_t)y.n * 4), *one = test_reals((size_t)y.n);
-    int calls = 0;
-    const sl_threads threads = threads_of(3, &calls);
+    const sl_threads threads = {3, run_without_memory, &counter};
     for (int k = 0; k < isas.count; k++) {
         opt.isa = isas.isa[k];
         SL_CHECK(

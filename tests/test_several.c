@@ -419,6 +419,29 @@ static void what_is_not_finite_is_refused(void **state) {
     }
 }
 
+/* Whatever order the rows are eliminated in: row and column are those of the lower triangle. */
+static void every_entry_that_is_not_finite_is_named(void **state) {
+    (void)state;
+    const double c[TERMS] = {1, 1};
+    several_t y = several_make(GEN_GRID2, 49, 1, 0, NULL);
+    sl_csc K = y.K.view;
+    for (sl_int j = 0; j < y.n; j++) {
+        for (sl_int p = K.p[j]; p < K.p[j + 1]; p++) {
+            sl_factor *F = NULL;
+            sl_stats stats;
+            double keep = y.K.x[p];
+            y.K.x[p] = NAN;
+            SL_CHECK(sl_symbolic_spread(y.S, y.values[1], &K, NULL));
+            SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create_combination(
+                                             &F, y.S, c, several_values(&y), TERMS, NULL, &stats));
+            assert_int_equal(stats.error_row, K.i[p]);
+            assert_int_equal(stats.error_column, j);
+            y.K.x[p] = keep;
+        }
+    }
+    several_free(&y);
+}
+
 static void a_null_pivot_is_named(void **state) {
     (void)state;
     gen_list_t t = gen_make(GEN_SINGULAR, 49, 1, 1);
@@ -537,6 +560,7 @@ int main(void) {
         cmocka_unit_test(many_terms),
         cmocka_unit_test(no_term_is_the_zero_matrix),
         cmocka_unit_test(what_is_not_finite_is_refused),
+        cmocka_unit_test(every_entry_that_is_not_finite_is_named),
         cmocka_unit_test(a_null_pivot_is_named),
         cmocka_unit_test(wrong_calls_of_combinations),
         cmocka_unit_test(memory_may_fail),

@@ -85,9 +85,7 @@ static sl_int sli_spreading_find(sli_spreading *w, sl_int j, sl_int head, sl_int
                                  sl_int bad) {
     sl_int m, q;
     for (m = head; m != -1; m = w->next[m]) {
-        if (w->place[w->row[m]] == -1) { /* of places for duplicates the first takes all */
-            w->place[w->row[m]] = start + m;
-        }
+        w->place[w->row[m]] = start + m; /* of several for duplicates the last takes all */
     }
     for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
         w->to[q] = w->place[w->to[q]];
