@@ -42,6 +42,7 @@ extern "C" {
 #include "impl/select.h"
 /* L2 storage */
 #include "impl/csc.h"
+#include "impl/csc_products.h"
 #include "impl/permute.h"
 #include "impl/sum.h"
 #include "impl/io.h"
