@@ -1,88 +1,89 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 780fc7aa9ae4ed23
+ * FNV-1a of all that follows this comment, license aside: 00a5458b9d0b0b9a
  *
  * Contents
  *         (what a user reads)
- *     90  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    141  public/config.h            what a user may set before including the header, the version, and the integer types
- *    190  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    379  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    499  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    561  public/factor.h            the numbers: P A P' = L D L'
- *    667  public/solve.h             full solves, and the workspace that every solve writes to
- *    736  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    822  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    901  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
- *    943  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
- *   1108  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *     91  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    142  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    191  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    380  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    500  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    562  public/factor.h            the numbers: P A P' = L D L'
+ *    668  public/solve.h             full solves, and the workspace that every solve writes to
+ *    737  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    823  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    902  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *    944  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1109  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1215  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1306  impl/status.h              status codes in words, and the error fields of stats
- *   1362  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1487  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1562  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1599  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1216  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1307  impl/status.h              status codes in words, and the error fields of stats
+ *   1363  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1488  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1563  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1600  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1633  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1898  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2036  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2066  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3237  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3283  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3420  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3635  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3901  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4063  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4335  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4386  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4531  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5344  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6623  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8796  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11026  impl/select.h              the kernel table for an instruction set
+ *   1634  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1899  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2037  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2067  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3238  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3284  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3421  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3636  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3902  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4064  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4336  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4387  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4532  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5345  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6624  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8797  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11027  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11059  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11487  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11560  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
- *  11650  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11060  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11371  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  11495  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11568  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  11658  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12004  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12043  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12190  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12304  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12448  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12533  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12606  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12772  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12848  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  12882  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12923  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13116  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13402  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12012  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12051  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12198  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12312  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12456  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12541  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12614  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12780  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12856  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  12890  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12931  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13124  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13410  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13635  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13814  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  13983  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14069  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14329  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14417  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14774  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14889  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  14948  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  15008  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15245  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15287  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13643  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13819  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  13988  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14074  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14334  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14434  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14796  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14911  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  14970  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15030  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15267  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15309  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15585  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15825  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16160  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16387  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16565  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  16762  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  16895  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15607  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15847  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16182  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16409  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16587  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  16785  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  16918  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17339  impl/leave.h               takes every internal macro away again
+ *  17362  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -611,8 +612,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  A        [in]      the pattern that was analysed, the new values.
  *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
- *  Cost     the update matrices of all descendants of the supernodes reached; 16 bytes an entry of the columns while
- *           it runs.
+ *  Cost     the update matrices of all descendants of the supernodes reached; while it runs 16 bytes an entry of the
+ *           columns, 4 a row of A, of which it touches those reached, and 4 a row of the tallest supernode.
  *  Threads  nobody else may use F meanwhile.
  *  Source   left-looking supernodes [NP93] over the reach of the changes.
  *  Example  tests/test_changed.c
@@ -11057,7 +11058,7 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
 /* end src/impl/select.h */
 /* L2 storage */
 /* begin src/impl/csc.h */
-/* csc.h: compressed columns: checks, owned matrices, triplets, transpose, products, residuals */
+/* csc.h: compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored */
 #ifndef SLI_CSC_H
 #define SLI_CSC_H
 
@@ -11365,6 +11366,13 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     return sli_csc_triangle(A, out, opt, stats);
 }
 
+#endif
+/* end src/impl/csc.h */
+/* begin src/impl/csc_products.h */
+/* csc_products.h: what is computed with a matrix in compressed columns: products, norms, residuals */
+#ifndef SLI_CSC_PRODUCTS_H
+#define SLI_CSC_PRODUCTS_H
+
 /* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a
  * diagonal matrix. */
 static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
@@ -11483,7 +11491,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
 }
 
 #endif
-/* end src/impl/csc.h */
+/* end src/impl/csc_products.h */
 /* begin src/impl/permute.h */
 /* permute.h: permutations: validity, inverse, and P A P' of a stored matrix */
 #ifndef SLI_PERMUTE_H
@@ -13676,9 +13684,6 @@ struct sl_factor {
     double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
     double *inverse;       /* SLI_FRONT_INVERSE */
     sli_failure *failures; /* one */
-    /* left-looking */
-    sl_int *local;  /* n: local rows in the supernode at hand */
-    sl_int *places; /* rows of the tallest front: those of a descendant in it */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
@@ -14331,9 +14336,21 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
 #ifndef SLI_LEFTLOOKING_H
 #define SLI_LEFTLOOKING_H
 
+/* What pulling needs while it runs. */
+typedef struct sli_pulling {
+    sl_int *local;  /* n: local rows in the supernode at hand; elsewhere it means nothing */
+    sl_int *places; /* rows of the tallest front: those of a descendant in it */
+} sli_pulling;
+
+static void sli_pulling_layout(sli_pulling *p, sli_block *b, const sl_symbolic *S) {
+    p->local = SLI_TAKE(b, sl_int, S->n);
+    p->places = SLI_TAKE(b, sl_int, S->tallest);
+}
+
 /* What descendant d takes from supernode s: its rows from number `first` on are rows of s, the ones
  * before `last` are columns of s. */
-static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, sl_int last) {
+static void sli_pull(sl_factor *F, const sli_pulling *p, const sli_front *f, sl_int d, sl_int first,
+                     sl_int last) {
     const sl_symbolic *S = F->S;
     const sl_int *rows = S->rows + S->rows_begin[d];
     sli_front from = sli_front_of(F, d, 0);
@@ -14347,14 +14364,14 @@ static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, s
     }
     F->kernels->update(&from, c0, c1, c0, tiles, F->buffer);
     for (r = first; r < from.below; r++) {
-        F->places[r - first] = F->local[rows[r]];
+        p->places[r - first] = p->local[rows[r]];
     }
-    F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, F->places, last - first, 0,
+    F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->places, last - first, 0,
                          from.below - first);
     for (r = first; r < last; r++) { /* |l d l| of the pivots to come */
         const double *l = from.panel + sli_panel_at(w, w + r, 0);
         for (j = 0; j < w; j++) {
-            f->magnitude[F->places[r - first]] +=
+            f->magnitude[p->places[r - first]] +=
                 fabs(l[SLI_TILE * (ptrdiff_t)j] * l[SLI_TILE * (ptrdiff_t)j] * from.D[j]);
         }
     }
@@ -14362,8 +14379,8 @@ static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, s
 
 /* Supernode s from A and its descendants, parents before children: those that have no row among the
  * columns of s have no descendant with one. */
-static sl_status sli_left_looking(sl_factor *F, const sli_source *from, sl_int s,
-                                  sli_failure *failure) {
+static sl_status sli_left_looking(sl_factor *F, const sli_pulling *p, const sli_source *from,
+                                  sl_int s, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sli_front f = sli_front_of(F, s, 0);
     const sl_int *rows = S->rows + S->rows_begin[s];
@@ -14371,10 +14388,10 @@ static sl_status sli_left_looking(sl_factor *F, const sli_source *from, sl_int s
     sl_int k, d;
     sl_status status;
     for (k = 0; k < f.width; k++) {
-        F->local[start + k] = k;
+        p->local[start + k] = k;
     }
     for (k = 0; k < f.below; k++) {
-        F->local[rows[k]] = f.width + k;
+        p->local[rows[k]] = f.width + k;
     }
     memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
     status = sli_front_load(F, from, &f, s, failure);
@@ -14386,7 +14403,7 @@ static sl_status sli_left_looking(sl_factor *F, const sli_source *from, sl_int s
         const sl_int first = sli_lower_bound(of, below, start);
         const sl_int last = first + sli_lower_bound(of + first, below - first, end);
         if (first < last) {
-            sli_pull(F, &f, d, first, last);
+            sli_pull(F, p, &f, d, first, last);
             d--;
         } else {
             d = S->descendant[d] - 1;
@@ -14397,8 +14414,8 @@ static sl_status sli_left_looking(sl_factor *F, const sli_source *from, sl_int s
 }
 
 /* Every supernode on the way from the seeds, columns of L in ascending order, to the roots. */
-static sl_status sli_left_looking_all(sl_factor *F, const sli_source *from, const uint64_t *seeds,
-                                      sl_int count, sli_failure *failure) {
+static sl_status sli_left_looking_all(sl_factor *F, const sli_pulling *p, const sli_source *from,
+                                      const uint64_t *seeds, sl_int count, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k = 0, s, next;
@@ -14406,7 +14423,7 @@ static sl_status sli_left_looking_all(sl_factor *F, const sli_source *from, cons
         s = S->super_of[sli_key(seeds[k])];
         next = sli_next_seed(S, seeds, count, &k);
         for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
-            status = sli_left_looking(F, from, s, failure);
+            status = sli_left_looking(F, p, from, s, failure);
         }
     }
     return status;
@@ -14431,8 +14448,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
-        F->local = SLI_TAKE(b, sl_int, n);
-        F->places = SLI_TAKE(b, sl_int, S->tallest);
         sli_schedule_layout(&F->schedule, b, S);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
@@ -14575,6 +14590,11 @@ static sli_source sli_source_matrix(const sl_csc *A) {
     return from;
 }
 
+/* Before the numbers change: there is no factor until they are all there. */
+static void sli_factor_begin(sl_factor *F) {
+    F->is_good = 0;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
@@ -14583,7 +14603,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    F->is_good = 0;
+    sli_factor_begin(F);
     status = sli_factor_check(F->S, A);
     return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
@@ -14611,6 +14631,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
+    sli_pulling pulling;
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sli_failure failure;
@@ -14640,15 +14661,16 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
+        sli_pulling_layout(&pulling, &b, F->S);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
     memset(&failure, 0, sizeof failure);
-    F->is_good = 0;
+    sli_factor_begin(F);
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    (void)sli_left_looking_all(F, &from, seeds, count, &failure);
+    (void)sli_left_looking_all(F, &pulling, &from, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
     return sli_factor_done(F, A, &failure, started, stats);
 }
@@ -14938,7 +14960,7 @@ SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coef
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    F->is_good = 0;
+    sli_factor_begin(F);
     status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
     return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
@@ -16583,6 +16605,7 @@ static void sli_family_numbers(const sli_family *f, sl_int k) {
     if (from.terms > 0) {
         from.coefficients += (size_t)k * (size_t)from.terms;
     }
+    sli_factor_begin(f->factors[k]);
     (void)sli_factor_numbers(f->factors[k], &from, sli_seconds(), NULL);
 }
 

@@ -20,6 +20,7 @@ static void sli_family_numbers(const sli_family *f, sl_int k) {
     if (from.terms > 0) {
         from.coefficients += (size_t)k * (size_t)from.terms;
     }
+    sli_factor_begin(f->factors[k]);
     (void)sli_factor_numbers(f->factors[k], &from, sli_seconds(), NULL);
 }
 

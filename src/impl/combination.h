@@ -52,7 +52,7 @@ SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coef
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    F->is_good = 0;
+    sli_factor_begin(F);
     status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
     return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }

@@ -23,8 +23,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
-        F->local = SLI_TAKE(b, sl_int, n);
-        F->places = SLI_TAKE(b, sl_int, S->tallest);
         sli_schedule_layout(&F->schedule, b, S);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
@@ -167,6 +165,11 @@ static sli_source sli_source_matrix(const sl_csc *A) {
     return from;
 }
 
+/* Before the numbers change: there is no factor until they are all there. */
+static void sli_factor_begin(sl_factor *F) {
+    F->is_good = 0;
+}
+
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
@@ -175,7 +178,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    F->is_good = 0;
+    sli_factor_begin(F);
     status = sli_factor_check(F->S, A);
     return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
@@ -203,6 +206,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
+    sli_pulling pulling;
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sli_failure failure;
@@ -232,15 +236,16 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
+        sli_pulling_layout(&pulling, &b, F->S);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
     memset(&failure, 0, sizeof failure);
-    F->is_good = 0;
+    sli_factor_begin(F);
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    (void)sli_left_looking_all(F, &from, seeds, count, &failure);
+    (void)sli_left_looking_all(F, &pulling, &from, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
     return sli_factor_done(F, A, &failure, started, stats);
 }

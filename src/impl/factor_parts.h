@@ -46,9 +46,6 @@ struct sl_factor {
     double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
     double *inverse;       /* SLI_FRONT_INVERSE */
     sli_failure *failures; /* one */
-    /* left-looking */
-    sl_int *local;  /* n: local rows in the supernode at hand */
-    sl_int *places; /* rows of the tallest front: those of a descendant in it */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
