@@ -208,7 +208,7 @@ sanitize: deps sparse_local.h ## the tests with address and undefined-behaviour 
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all'
 
-THREADED = test_threads test_batch test_batch_factor
+THREADED = test_threads test_batch test_batch_factor test_batch_inverse
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
 	@$(MAKE) --no-print-directory run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \

@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 00a5458b9d0b0b9a
+ * FNV-1a of all that follows this comment, license aside: 8b0ee65932c03933
  *
  * Contents
  *         (what a user reads)
@@ -14,76 +14,76 @@
  *    823  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
  *    902  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
  *    944  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
- *   1109  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1111  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1216  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1307  impl/status.h              status codes in words, and the error fields of stats
- *   1363  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1488  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1563  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1600  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1218  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1309  impl/status.h              status codes in words, and the error fields of stats
+ *   1365  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1490  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1565  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1602  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1634  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1899  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2037  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2067  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3238  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3284  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3421  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3636  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3902  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4064  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4336  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4387  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4532  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5345  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6624  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8797  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11027  impl/select.h              the kernel table for an instruction set
+ *   1636  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1901  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2039  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2069  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3240  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3286  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3423  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3638  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3904  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4066  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4338  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4389  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4534  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5347  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6626  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8799  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11029  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11060  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
- *  11371  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
- *  11495  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11568  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
- *  11658  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11062  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11373  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  11497  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11570  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  11660  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12012  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12051  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12198  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12312  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12456  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12541  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12614  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12780  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12856  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  12890  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12931  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13124  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13410  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12014  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12053  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12200  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12314  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12458  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12543  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12616  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12782  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12858  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  12892  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12933  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13126  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13412  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13643  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13819  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  13988  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14074  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14334  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14434  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14796  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14911  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  14970  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  15030  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15267  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15309  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13645  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13821  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  13990  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14076  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14336  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14436  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14798  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14913  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  14972  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15032  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15269  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15311  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15607  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15847  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16182  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16409  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16587  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  16785  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  16918  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15609  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15849  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16184  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16411  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16589  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  16787  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  16920  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17362  impl/leave.h               takes every internal macro away again
+ *  17364  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -962,10 +962,11 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  * A plan belongs to the analysis: it serves all of them, one by one or in a batch whose requests name their factors.
  *
  * Heat-kernel signatures: with M the masses and K = L, the positive semi-definite cotangent Laplacian, one implicit step
- * of length t is (M + t L) u(t) = M u(0). Unit heat put into vertex i is u(0) = e_i / M(i,i), so that
- * h_t(i,i) = (A_t^-1)(i,i) is the signature of i at time t, a density that the masses integrate; a unit temperature is
- * u(0) = e_i, and what is left of it, the auto-diffusion of [HDA17] 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide
- * each column by the trace, the sum over all i of (A_t^-1)(i,i) M(i,i).
+ * of length t is (M + t L) u(t) = M u(0). Unit heat put into vertex i is u(0) = e_i / M(i,i), so that the heat kernel is
+ * h_t(i,j) = (A_t^-1)(i,j), as near as one step comes, and h_t(i,i) the signature of i at time t: a density, which the
+ * masses integrate to 1 over j. A unit temperature is u(0) = e_i, and what is left of it at i, the auto-diffusion of
+ * [HDA17] 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide each column by the trace, the sum over all i of
+ * (A_t^-1)(i,i) M(i,i).
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, stored as its lower triangle, rows ascending.
@@ -980,7 +981,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *           2^31 or more entries in all; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number on distinct outputs.
- *  Example  tests/test_several.c
+ *  Example  tests/test_spread.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
                                               const sl_csc *terms, sl_int count,
@@ -1001,7 +1002,7 @@ SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
  *           unsymmetric, or an entry off the pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); memory of the analysis's allocator while it runs.
  *  Threads  reads S; any number on distinct arrays.
- *  Example  tests/test_several.c
+ *  Example  tests/test_spread.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_spread(const sl_symbolic *S, double *values,
                                                    const sl_csc *K, sl_stats *stats);
@@ -1022,7 +1023,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_spread(const sl_symbolic *S, double 
  *           error_row >= error_column.
  *  Cost     as sl_factor_create; the terms are read once, in order.
  *  Threads  as sl_factor_create.
- *  Example  tests/test_several.c
+ *  Example  tests/test_combination.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
                                                              const double *coefficients,
@@ -1053,10 +1054,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_combination(sl_factor *F,
  *  opt           [in]   as in sl_factor_create; may be NULL.
  *  failed        [out]  the first that failed, or -1; may be NULL.
  *  stats         [out]  the factor group and the error of that one, or the group of the last; seconds and bytes of all
- *                       together. May be NULL.
+ *                       together (the seconds that a factor tells of itself count what other threads did meanwhile). May
+ *                       be NULL.
  *  Returns  SL_OK; what the first that failed came to, as sl_factor_create_combination.
  *  Cost     that of the factors, shared out; each keeps what a factor keeps.
- *  Threads  memory is asked for by the calling thread alone.
+ *  Threads  as sl_factor_create; memory is asked for by the calling thread alone.
  *  Example  tests/test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
@@ -1096,7 +1098,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *  Cost     that of sl_inverse_diagonal for each, shared out.
  *  Threads  as sl_inverse_diagonal.
  *  Source   [HDA17] 5.
- *  Example  tests/test_batch_factor.c
+ *  Example  tests/test_batch_inverse.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
                                                   double *out, size_t ldo, const sl_int *rows,

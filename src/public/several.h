@@ -20,10 +20,11 @@
  * A plan belongs to the analysis: it serves all of them, one by one or in a batch whose requests name their factors.
  *
  * Heat-kernel signatures: with M the masses and K = L, the positive semi-definite cotangent Laplacian, one implicit step
- * of length t is (M + t L) u(t) = M u(0). Unit heat put into vertex i is u(0) = e_i / M(i,i), so that
- * h_t(i,i) = (A_t^-1)(i,i) is the signature of i at time t, a density that the masses integrate; a unit temperature is
- * u(0) = e_i, and what is left of it, the auto-diffusion of [HDA17] 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide
- * each column by the trace, the sum over all i of (A_t^-1)(i,i) M(i,i).
+ * of length t is (M + t L) u(t) = M u(0). Unit heat put into vertex i is u(0) = e_i / M(i,i), so that the heat kernel is
+ * h_t(i,j) = (A_t^-1)(i,j), as near as one step comes, and h_t(i,i) the signature of i at time t: a density, which the
+ * masses integrate to 1 over j. A unit temperature is u(0) = e_i, and what is left of it at i, the auto-diffusion of
+ * [HDA17] 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide each column by the trace, the sum over all i of
+ * (A_t^-1)(i,i) M(i,i).
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, stored as its lower triangle, rows ascending.
@@ -38,7 +39,7 @@
  *           2^31 or more entries in all; SL_ERR_MEMORY.
  *  Cost     O(n + entries of all terms).
  *  Threads  any number on distinct outputs.
- *  Example  tests/test_several.c
+ *  Example  tests/test_spread.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
                                               const sl_csc *terms, sl_int count,
@@ -59,7 +60,7 @@ SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
  *           unsymmetric, or an entry off the pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + entries of S and of K); memory of the analysis's allocator while it runs.
  *  Threads  reads S; any number on distinct arrays.
- *  Example  tests/test_several.c
+ *  Example  tests/test_spread.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_spread(const sl_symbolic *S, double *values,
                                                    const sl_csc *K, sl_stats *stats);
@@ -80,7 +81,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_spread(const sl_symbolic *S, double 
  *           error_row >= error_column.
  *  Cost     as sl_factor_create; the terms are read once, in order.
  *  Threads  as sl_factor_create.
- *  Example  tests/test_several.c
+ *  Example  tests/test_combination.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
                                                              const double *coefficients,
@@ -111,10 +112,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_combination(sl_factor *F,
  *  opt           [in]   as in sl_factor_create; may be NULL.
  *  failed        [out]  the first that failed, or -1; may be NULL.
  *  stats         [out]  the factor group and the error of that one, or the group of the last; seconds and bytes of all
- *                       together. May be NULL.
+ *                       together (the seconds that a factor tells of itself count what other threads did meanwhile). May
+ *                       be NULL.
  *  Returns  SL_OK; what the first that failed came to, as sl_factor_create_combination.
  *  Cost     that of the factors, shared out; each keeps what a factor keeps.
- *  Threads  memory is asked for by the calling thread alone.
+ *  Threads  as sl_factor_create; memory is asked for by the calling thread alone.
  *  Example  tests/test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
@@ -154,7 +156,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
  *  Cost     that of sl_inverse_diagonal for each, shared out.
  *  Threads  as sl_inverse_diagonal.
  *  Source   [HDA17] 5.
- *  Example  tests/test_batch_factor.c
+ *  Example  tests/test_batch_inverse.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
                                                   double *out, size_t ldo, const sl_int *rows,
