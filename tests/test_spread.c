@@ -145,6 +145,58 @@ static void every_way_of_storing_spreads_alike(void **state) {
     }
 }
 
+/* All patterns of 4 rows as the analysed one, each part of each spread: the entries go where those of the whole went,
+ * found by their values, and nothing else is written. What is no part is refused. */
+static void all_patterns_of_four_rows(void **state) {
+    (void)state;
+    enum { ROWS = 4, PLACES = ROWS * (ROWS + 1) / 2 };
+    static const sl_int rows[PLACES] = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
+    static const sl_int columns[PLACES] = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
+    sl_options natural = options_none();
+    natural.ordering = SL_ORDERING_NATURAL;
+    gen_matrix_t M[1 << PLACES];
+    for (int bits = 0; bits < 1 << PLACES; bits++) {
+        gen_list_t t = gen_list(ROWS);
+        for (int k = 0; k < PLACES; k++) {
+            if (bits >> k & 1) {
+                gen_add(&t, rows[k], columns[k], k + 1);
+            }
+        }
+        M[bits] = gen_store(&t, gen_style(bits % 6), (uint64_t)bits + 1); /* no duplicates */
+        gen_list_free(&t);
+    }
+    for (int whole = 0; whole < 1 << PLACES; whole++) {
+        double all[PLACES], part[PLACES + 1];
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M[whole].view, &natural, NULL));
+        sl_int count = sl_symbolic_entries(S);
+        SL_CHECK(sl_symbolic_spread(S, all, &M[whole].view, NULL));
+        for (int k = 0; k < PLACES; k++) {
+            int found = 0;
+            for (sl_int p = 0; p < count; p++) {
+                found += all[p] == k + 1;
+            }
+            assert_int_equal(found, whole >> k & 1);
+        }
+        for (int bits = 0; bits < 1 << PLACES; bits++) {
+            part[count] = 4321;
+            if (bits & ~whole) {
+                SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_spread(S, part, &M[bits].view, NULL));
+                continue;
+            }
+            SL_CHECK(sl_symbolic_spread(S, part, &M[bits].view, NULL));
+            for (sl_int p = 0; p < count; p++) {
+                assert_true(part[p] == ((bits >> ((int)all[p] - 1) & 1) ? all[p] : 0.0));
+            }
+            assert_true(part[count] == 4321);
+        }
+        sl_symbolic_free(S);
+    }
+    for (int bits = 0; bits < 1 << PLACES; bits++) {
+        gen_matrix_free(&M[bits]);
+    }
+}
+
 /* Panels of every width, in their growing part and below it, each entry a number of its own: two that change places
  * change the factor. */
 static void every_place_of_wide_panels_is_found(void **state) {
@@ -271,6 +323,7 @@ int main(void) {
         cmocka_unit_test(one_term_is_its_lower_triangle),
         cmocka_unit_test(wrong_sums),
         cmocka_unit_test(every_way_of_storing_spreads_alike),
+        cmocka_unit_test(all_patterns_of_four_rows),
         cmocka_unit_test(every_place_of_wide_panels_is_found),
         cmocka_unit_test(entries_off_the_pattern_are_named),
         cmocka_unit_test(wrong_calls_of_spread),
