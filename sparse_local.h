@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 8b0ee65932c03933
+ * FNV-1a of all that follows this comment, license aside: 54e4ddd57ca1c1ac
  *
  * Contents
  *         (what a user reads)
@@ -57,33 +57,33 @@
  *  12616  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
  *  12782  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
  *  12858  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  12892  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12933  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13126  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13412  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12888  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12929  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13122  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13408  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13645  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13821  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  13990  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14076  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14336  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14436  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14798  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14913  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  14972  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  15032  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15269  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15311  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13641  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13817  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  13986  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14072  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14332  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14432  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14794  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14909  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  14968  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15028  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15265  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15307  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15609  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15849  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16184  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16411  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16589  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  16787  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  16920  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15605  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15845  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16180  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16407  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16585  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  16783  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  16916  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17364  impl/leave.h               takes every internal macro away again
+ *  17360  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12860,31 +12860,27 @@ static void sli_fill_steps(sl_symbolic *S) {
 #ifndef SLI_MAPPING_H
 #define SLI_MAPPING_H
 
-/* The tile of a panel of w columns in which a place stands: where the trapezoid still grows, the last t
- * with 32 t (t + 1) <= at. */
-static sl_int sli_tile_of(sl_int w, sl_off at) {
-    const sl_int whole = w / SLI_TILE;
-    const sl_off grown = sli_tile_offset(w, whole);
-    sl_int t;
-    if (at >= grown) {
-        return whole + (sl_int)((at - grown) / (SLI_TILE * (sl_off)w));
-    }
-    t = (sl_int)((sqrt(1.0 + (double)at / 8.0) - 1.0) / 2.0);
-    t += sli_tile_offset(w, t + 1) <= at; /* the root may be off by a rounding */
-    t -= sli_tile_offset(w, t) > at;
-    return t;
+/* The last row tile of supernode s. */
+SLI_INLINE sl_int sli_last_tile(const sl_symbolic *S, sl_int s) {
+    return sli_tiles(S->steps[s].width + S->steps[s].below) - 1;
 }
 
-/* Pivots k >= j of the entry m of the map, which belongs to supernode s: it stands at L(k, j). */
-static void sli_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_int *k, sl_int *j) {
-    const sl_int first = S->super_first[s], w = S->super_first[s + 1] - first;
-    const sl_off at = S->map_to[m] - S->panel_begin[s];
-    const sl_int t = sli_tile_of(w, at);
-    const sl_off in_tile = at - sli_tile_offset(w, t);
-    const sl_int local = SLI_TILE * t + (sl_int)(in_tile % SLI_TILE);
+/* Pivots k >= j of the entry m of the map, which belongs to supernode s: it stands at L(k, j). tile: where
+ * to look from, the row tile of m or a later one; then that of m. Rows ascend in a supernode's part of the
+ * map: whoever goes backwards through it from the last tile looks at each tile once. */
+static void sli_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_int *tile, sl_int *k,
+                           sl_int *j) {
+    const sl_int first = S->super_first[s], w = S->steps[s].width;
+    sl_off in_tile = S->map_to[m] - S->panel_begin[s];
+    sl_int local;
+    while (sli_tile_offset(w, *tile) > in_tile) {
+        --*tile;
+    }
+    in_tile -= sli_tile_offset(w, *tile);
+    local = SLI_TILE * *tile + (sl_int)(in_tile % SLI_TILE);
     *j = first + (sl_int)(in_tile / SLI_TILE);
     *k = local < w ? first + local : S->rows[S->rows_begin[s] + local - w];
-    SLI_ASSERT(sli_panel_at(w, local, *j - first) == at);
+    SLI_ASSERT(S->panel_begin[s] + sli_panel_at(w, local, *j - first) == S->map_to[m]);
 }
 
 #endif
@@ -13884,12 +13880,12 @@ static void sli_spreading_sort(const sl_symbolic *S, sli_spreading *w, const sl_
 /* A supernode's part of the map by columns, ascending in each. */
 static void sli_spreading_list(const sl_symbolic *S, sli_spreading *w, sl_int s) {
     const sl_off start = S->map_begin[s];
-    sl_int k, j, m;
+    sl_int k, j, m, tile = sli_last_tile(S, s);
     for (j = 0; j < S->steps[s].width; j++) {
         w->head[j] = -1;
     }
     for (m = (sl_int)(S->map_begin[s + 1] - start) - 1; m >= 0; m--) {
-        sli_map_pivots(S, s, start + m, &k, &j);
+        sli_map_pivots(S, s, start + m, &tile, &k, &j);
         j -= S->super_first[s];
         w->row[m] = k;
         w->next[m] = w->head[j];
@@ -14525,8 +14521,8 @@ static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failu
         row = A->i[p];
         column = sli_column_of(A, p);
     } else {
-        sl_int k, j;
-        sli_map_pivots(S, f->super, f->position, &k, &j);
+        sl_int k, j, tile = sli_last_tile(S, f->super);
+        sli_map_pivots(S, f->super, f->position, &tile, &k, &j);
         row = sli_max(S->perm[k], S->perm[j]);
         column = sli_min(S->perm[k], S->perm[j]);
     }

@@ -98,8 +98,8 @@ static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failu
         row = A->i[p];
         column = sli_column_of(A, p);
     } else {
-        sl_int k, j;
-        sli_map_pivots(S, f->super, f->position, &k, &j);
+        sl_int k, j, tile = sli_last_tile(S, f->super);
+        sli_map_pivots(S, f->super, f->position, &tile, &k, &j);
         row = sli_max(S->perm[k], S->perm[j]);
         column = sli_min(S->perm[k], S->perm[j]);
     }

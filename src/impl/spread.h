@@ -67,12 +67,12 @@ static void sli_spreading_sort(const sl_symbolic *S, sli_spreading *w, const sl_
 /* A supernode's part of the map by columns, ascending in each. */
 static void sli_spreading_list(const sl_symbolic *S, sli_spreading *w, sl_int s) {
     const sl_off start = S->map_begin[s];
-    sl_int k, j, m;
+    sl_int k, j, m, tile = sli_last_tile(S, s);
     for (j = 0; j < S->steps[s].width; j++) {
         w->head[j] = -1;
     }
     for (m = (sl_int)(S->map_begin[s + 1] - start) - 1; m >= 0; m--) {
-        sli_map_pivots(S, s, start + m, &k, &j);
+        sli_map_pivots(S, s, start + m, &tile, &k, &j);
         j -= S->super_first[s];
         w->row[m] = k;
         w->next[m] = w->head[j];
