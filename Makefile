@@ -208,7 +208,7 @@ sanitize: deps sparse_local.h ## the tests with address and undefined-behaviour 
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all'
 
-THREADED = test_threads test_batch test_inverse_threads
+THREADED = test_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
 	@$(MAKE) --no-print-directory run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \
@@ -261,8 +261,8 @@ bench: deps sparse_local.h ## times factorization, full and local solves on this
 # Peers in their best setting: OpenBLAS chooses its kernels by itself, whatever core the environment forces on it.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen picks its vector instructions when it is compiled: its best setting is -march=native, for its own file alone.
-bench-peers: deps deps-peers sparse_local.h ## the questions peers and peers_harmonic: beside CHOLMOD and Eigen
-	@$(MAKE) --no-print-directory run-bench B=build/peers ASK_FIRST="peers peers_harmonic" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic and peers_several: beside CHOLMOD and Eigen
+	@$(MAKE) --no-print-directory run-bench B=build/peers ASK_FIRST="peers peers_harmonic peers_several" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'

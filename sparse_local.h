@@ -1,88 +1,96 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 26564b8b9df86a81
+ * FNV-1a of all that follows this comment, license aside: b5b891cd0ce2031b
  *
  * Contents
  *         (what a user reads)
- *     90  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    141  public/config.h            what a user may set before including the header, the version, and the integer types
- *    190  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    407  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    527  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    589  public/factor.h            the numbers: P A P' = L D L'
- *    695  public/solve.h             full solves, and the workspace that every solve writes to
- *    764  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    852  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
- *    946  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    983  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1082  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *     98  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    149  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    198  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    415  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    535  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    597  public/factor.h            the numbers: P A P' = L D L'
+ *    703  public/solve.h             full solves, and the workspace that every solve writes to
+ *    772  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    860  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *    954  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *    996  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1163  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1262  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1171  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1262  impl/status.h              status codes in words, and the error fields of stats
- *   1318  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1443  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1518  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1555  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1351  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1442  impl/status.h              status codes in words, and the error fields of stats
+ *   1498  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1623  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1698  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1735  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1596  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1911  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2049  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2079  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3250  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3296  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3433  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3648  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3945  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4107  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4380  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4431  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4576  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5389  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6700  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8905  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11167  impl/select.h              the kernel table for an instruction set
+ *   1776  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   2091  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2229  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2259  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3430  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3476  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3613  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3828  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   4125  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4287  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4560  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4611  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4756  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5569  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6880  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   9085  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11347  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11200  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11628  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11701  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11380  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11691  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  11815  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11888  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  11978  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12055  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12094  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12241  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12355  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12499  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12584  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12657  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12823  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12899  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12940  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13151  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13437  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12332  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12371  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12518  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12632  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12776  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12861  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12934  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  13100  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  13176  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  13206  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  13247  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13458  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13744  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13735  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13868  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13954  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14204  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14291  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14591  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14706  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14810  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14907  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15169  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15211  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  14042  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  14219  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  14388  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14474  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14724  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14824  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  15188  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  15303  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  15407  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  15466  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15563  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15825  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15867  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15614  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  15878  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  16050  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  16298  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16510  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  16798  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  17039  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  17194  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  17416  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  17516  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  16270  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  16534  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  16706  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  16954  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  17166  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  17468  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  17709  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17888  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  18086  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  18228  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  18450  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  18550  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  18013  impl/leave.h               takes every internal macro away again
+ *  19047  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -639,8 +647,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  A        [in]      the pattern that was analysed, the new values.
  *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
- *  Cost     the update matrices of all descendants of the supernodes reached; 16 bytes an entry of the columns while
- *           it runs.
+ *  Cost     the update matrices of all descendants of the supernodes reached; while it runs 16 bytes an entry of the
+ *           columns, 4 a row of A, of which it touches those reached, and 4 a row of the tallest supernode.
  *  Threads  nobody else may use F meanwhile.
  *  Source   left-looking supernodes [NP93] over the reach of the changes.
  *  Example  tests/test_changed.c
@@ -944,7 +952,7 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
 #endif
 /* end src/public/inverse.h */
 /* begin src/public/batch.h */
-/* batch.h: many independent solves with one factor, spread over threads by one call */
+/* batch.h: many independent solves, with one factor or with several, spread over threads by one call */
 #ifndef SL_PUBLIC_BATCH_H
 #define SL_PUBLIC_BATCH_H
 
@@ -958,11 +966,16 @@ typedef struct sl_request {
     int is_interleaved; /* 0: X and B column-major; else row-major, as in the calls named interleaved */
     sl_int
         nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
+    const sl_factor *factor; /* NULL: that of the call */
 } sl_request;
 
-/** Answers requests with one factor: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
+/** Answers requests: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
  *
- *  F         [in]      the factor; every plan belongs to its analysis.
+ *  One plan on m factors of one analysis is m requests with that plan, each with its own factor and X, and with one B or
+ *  each its own.
+ *
+ *  F         [in]      the factor of the requests that name none; NULL where all do. A plan belongs to the analysis of its
+ *                      factor.
  *  requests  [in]      count of them; each X may be its own B (then ldx = ldb), and overlaps nothing else of the batch.
  *  threads   [in]      how many and whose; NULL: the calling thread alone.
  *  works     [in,out]  a workspace for each thread, threads->count of them (1 where that is 0), or NULL: allocated for
@@ -980,6 +993,173 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
 
 #endif
 /* end src/public/batch.h */
+/* begin src/public/several.h */
+/* several.h: several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call */
+#ifndef SL_PUBLIC_SEVERAL_H
+#define SL_PUBLIC_SEVERAL_H
+
+/* M + t K for many t is one pattern, the union of both. Each term is spread once into an array in the order of the
+ * analysis, and a factorization adds weighted arrays up while it reads them: nothing is permuted, sorted or searched for
+ * a second time. For m values of t:
+ *
+ *     sl_csc terms[2] = {M, K};                                  any triangles, any two patterns
+ *     sl_matrix_sum(&U, NULL, terms, 2, NULL, NULL);             their union
+ *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, NULL);
+ *     v[0] = malloc(sl_symbolic_entries(S) * sizeof(double));    v[1] alike
+ *     sl_symbolic_spread(S, v[0], &M, NULL);  sl_symbolic_spread(S, v[1], &K, NULL);
+ *     for k < m: c[2 k] = 1, c[2 k + 1] = t[k];
+ *     sl_batch_factor(F, m, S, c, v, 2, &opt, NULL, NULL);       F: m factors, of M + t[k] K
+ *     sl_batch_diagonal(F, m, h, n_rows, rows, n_rows, &opt.threads, NULL, NULL, NULL);
+ *
+ * A plan belongs to the analysis: it serves all of them, one by one or in a batch whose requests name their factors.
+ *
+ * Heat-kernel signatures: with M the masses and K = L, the positive semi-definite cotangent Laplacian, one implicit step
+ * of length t is (M + t L) u(t) = M u(0). Unit heat put into vertex i is u(0) = e_i / M(i,i), so that the heat kernel is
+ * h_t(i,j) = (A_t^-1)(i,j), as near as one step comes, and h_t(i,i) the signature of i at time t: a density, which the
+ * masses integrate to 1 over j. A unit temperature is u(0) = e_i, and what is left of it at i, the auto-diffusion of
+ * [HDA17] 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide each column by the trace, the sum over all i of
+ * (A_t^-1)(i,i) M(i,i).
+ */
+
+/** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, stored as its lower triangle, rows ascending.
+ *
+ *  out           [out]  the matrix, n x n, or NULL on error; release with sl_matrix_free.
+ *  coefficients  [in]   count numbers; NULL: the union of the patterns, without values.
+ *  terms         [in]   count >= 1 square matrices of one size, each storing any triangle, read as a factorization
+ *                       reads it. An entry of the pattern stays, whatever it sums up to.
+ *  opt           [in]   allocator; may be NULL.
+ *  stats         [out]  error_row, error_column of what is malformed; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: sizes that differ, no term, values missing; SL_ERR_PATTERN; SL_ERR_TOO_LARGE:
+ *           2^31 or more entries in all; SL_ERR_MEMORY.
+ *  Cost     O(n + entries of all terms).
+ *  Threads  any number on distinct outputs.
+ *  Example  tests/test_spread.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients,
+                                              const sl_csc *terms, sl_int count,
+                                              const sl_options *opt, sl_stats *stats);
+
+/** Length of an array of values in the order of the analysis: nnz_a of its statistics. A NULL S has 0. */
+SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
+
+/** Spreads a matrix over an array in the order of the analysis, zeros where it has no entry.
+ *
+ *  values  [out]  sl_symbolic_entries(S) doubles; on error untouched. Their order is the map's: a supernode's stand side
+ *                 by side. Valid for S alone.
+ *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any order, duplicates
+ *                 summed. Its pattern is a part of the analysed one; values are not looked at.
+ *  stats   [out]  error_row, error_column: an entry that the analysed pattern has not, the first as K stores them, or one
+ *                 that is malformed; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, no values; SL_ERR_PATTERN: another size, malformed, both triangles and
+ *           unsymmetric, or an entry off the pattern; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n + entries of S and of K); memory of the analysis's allocator while it runs.
+ *  Threads  reads S; any number on distinct arrays.
+ *  Example  tests/test_spread.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_spread(const sl_symbolic *S, double *values,
+                                                   const sl_csc *K, sl_stats *stats);
+
+/** Factors A = coefficients[0] values[0] + .. + coefficients[terms-1] values[terms-1].
+ *
+ *  The same bits as sl_factor_create over an analysed matrix without duplicates whose entries are these sums, each product
+ *  rounded, then added up in this order to a first 0.
+ *
+ *  out           [out]  the factor, or NULL on error; release with sl_factor_free. As any other.
+ *  S             [in]   the analysis; borrowed, must outlive the factor.
+ *  coefficients  [in]   terms finite numbers.
+ *  values        [in]   terms arrays in the order of S (sl_symbolic_spread); not kept.
+ *  terms         [in]   0 or more; a sum of none is the zero matrix.
+ *  opt, stats           as in sl_factor_create.
+ *  Returns  as sl_factor_create, SL_ERR_PATTERN aside. SL_ERR_NOT_FINITE: a coefficient (error_value, no row), or a sum:
+ *           an infinity that meets another or a 0 is a NaN. Such an entry is told as one of the lower triangle:
+ *           error_row >= error_column.
+ *  Cost     as sl_factor_create; the terms are read once, in order.
+ *  Threads  as sl_factor_create.
+ *  Example  tests/test_combination.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
+                                                             const double *coefficients,
+                                                             const double *const *values,
+                                                             sl_int terms, const sl_options *opt,
+                                                             sl_stats *stats);
+
+/** Factors again with other coefficients or values over the factor's analysis. Allocates nothing.
+ *
+ *  F        [in,out]  any factor, also one of sl_factor_create. On error it holds no factor, as in sl_factor_refactor.
+ *  Returns, Cost      as sl_factor_create_combination, SL_ERR_MEMORY, SL_ERR_TOO_LARGE and SL_ERR_UNSUPPORTED aside.
+ *  Threads            nobody else may use F meanwhile.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_combination(sl_factor *F,
+                                                               const double *coefficients,
+                                                               const double *const *values,
+                                                               sl_int terms, sl_stats *stats);
+
+/** Factors several combinations of the same terms, spread over threads: the bits of sl_factor_create_combination.
+ *
+ *  Each thread takes whole factors; those that are left over when every thread has had as many are made by all threads
+ *  together, one after the other.
+ *
+ *  out           [out]  count factors. Where one fails, its out is NULL and the others are made all the same: release
+ *                       those. On SL_ERR_ARGUMENT of the whole call (failed = -1) all are NULL.
+ *  coefficients  [in]   terms x count, column-major, leading dimension terms: a column a factor.
+ *  values, terms [in]   as in sl_factor_create_combination.
+ *  opt           [in]   as in sl_factor_create; may be NULL.
+ *  failed        [out]  the first that failed, or -1; may be NULL.
+ *  stats         [out]  the factor group and the error of that one, or the group of the last; seconds and bytes of all
+ *                       together (the seconds that a factor tells of itself count what other threads did meanwhile). May
+ *                       be NULL.
+ *  Returns  SL_OK; what the first that failed came to, as sl_factor_create_combination.
+ *  Cost     that of the factors, shared out; each keeps what a factor keeps.
+ *  Threads  as sl_factor_create; memory is asked for by the calling thread alone.
+ *  Example  tests/test_batch_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
+                                                const double *coefficients,
+                                                const double *const *values, sl_int terms,
+                                                const sl_options *opt, sl_int *failed,
+                                                sl_stats *stats);
+
+/** Factors several factors of one analysis again. Allocates nothing.
+ *
+ *  factors   [in,out]  count factors, none twice. One that fails holds no factor; the others are made all the same.
+ *  threads   [in]      how many and whose; NULL: the calling thread alone. Factors that have threads of their own are made
+ *                      by these, one after the other.
+ *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a factor that is NULL or given twice; SL_ERR_STATE: factors of several
+ *           analyses; then no factor has been touched. Else what the first that failed came to.
+ *  Threads  nobody else may use the factors meanwhile.
+ *  Example  tests/test_batch_factor.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
+                                                  const double *coefficients,
+                                                  const double *const *values, sl_int terms,
+                                                  const sl_threads *threads, sl_int *failed,
+                                                  sl_stats *stats);
+
+/** Diagonal entries of several inverses: out(i, k) = (A_k^-1)(rows[i], rows[i]), the bits of sl_inverse_diagonal.
+ *
+ *  factors  [in]      count factors of one analysis; one may be given twice.
+ *  out      [out]     n_rows x count, column-major, leading dimension ldo >= n_rows elements. On error untouched.
+ *  rows     [in]      n_rows rows of A, any order, repeated or not; NULL (with n_rows ignored): all n.
+ *  threads  [in]      how many and whose; NULL: the calling thread alone. Each takes whole factors.
+ *  works    [in,out]  a workspace for each thread, as in sl_batch_solve, or NULL: allocated for this call.
+ *  failed   [out]     the factor at fault, or -1; may be NULL.
+ *  stats    [out]     error_row: an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range; SL_ERR_STATE: a failed factor, or several analyses;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     that of sl_inverse_diagonal for each, shared out.
+ *  Threads  as sl_inverse_diagonal.
+ *  Source   [HDA17] 5.
+ *  Example  tests/test_batch_inverse.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count,
+                                                  double *out, size_t ldo, const sl_int *rows,
+                                                  sl_int n_rows, const sl_threads *threads,
+                                                  sl_work *const *works, sl_int *failed,
+                                                  sl_stats *stats);
+
+#endif
+/* end src/public/several.h */
 /* begin src/public/selected.h */
 /* selected.h: the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach */
 #ifndef SL_PUBLIC_SELECTED_H
@@ -11198,7 +11378,7 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
 /* end src/impl/select.h */
 /* L2 storage */
 /* begin src/impl/csc.h */
-/* csc.h: compressed columns: checks, owned matrices, triplets, transpose, products, residuals */
+/* csc.h: compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored */
 #ifndef SLI_CSC_H
 #define SLI_CSC_H
 
@@ -11506,6 +11686,13 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     return sli_csc_triangle(A, out, opt, stats);
 }
 
+#endif
+/* end src/impl/csc.h */
+/* begin src/impl/csc_products.h */
+/* csc_products.h: what is computed with a matrix in compressed columns: products, norms, residuals */
+#ifndef SLI_CSC_PRODUCTS_H
+#define SLI_CSC_PRODUCTS_H
+
 /* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a
  * diagonal matrix. */
 static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
@@ -11624,7 +11811,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
 }
 
 #endif
-/* end src/impl/csc.h */
+/* end src/impl/csc_products.h */
 /* begin src/impl/permute.h */
 /* permute.h: permutations: validity, inverse, and P A P' of a stored matrix */
 #ifndef SLI_PERMUTE_H
@@ -11698,6 +11885,96 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
 
 #endif
 /* end src/impl/permute.h */
+/* begin src/impl/sum.h */
+/* sum.h: weighted sums of symmetric matrices, whatever triangles they store */
+#ifndef SLI_SUM_H
+#define SLI_SUM_H
+
+/* The entries of all terms as triplets of the lower triangle. */
+typedef struct sli_summands {
+    sl_int count;
+    sl_int *row, *column;
+    double *x; /* NULL: patterns alone */
+} sli_summands;
+
+/* Whether the terms are matrices that can be added; their entries in all. */
+static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
+                               sl_off *entries, sl_stats *stats) {
+    sl_int t;
+    *entries = 0;
+    for (t = 0; t < count; t++) {
+        const sl_csc *A = &terms[t];
+        const sl_status status = sl_csc_check(A, stats);
+        if (status != SL_OK) {
+            return status;
+        }
+        if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
+            (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
+            return SL_ERR_ARGUMENT;
+        }
+        *entries += sli_nnz(A);
+    }
+    return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+}
+
+/* Appends c A; c is not read where patterns alone are wanted. */
+static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
+    sl_int j, p;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                all->row[all->count] = sli_max(A->i[p], j);
+                all->column[all->count] = sli_min(A->i[p], j);
+                if (all->x != NULL) {
+                    all->x[all->count] = c * A->x[p];
+                }
+                all->count++;
+            }
+        }
+    }
+}
+
+SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
+                               sl_int count, const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sli_block b = {NULL, 0, 0};
+    sli_summands all = {0, NULL, NULL, NULL};
+    sl_off entries;
+    sl_status status;
+    sl_int t;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (terms == NULL || count < 1 || !sli_allocator_is_whole(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_sum_check(coefficients, terms, count, &entries, stats);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        all.row = SLI_TAKE(&b, sl_int, entries);
+        all.column = SLI_TAKE(&b, sl_int, entries);
+        all.x = coefficients != NULL ? SLI_TAKE(&b, double, entries) : NULL;
+        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    for (t = 0; t < count && status == SL_OK; t++) {
+        sl_triangle triangle = SL_TRIANGLE_NONE;
+        status = sli_csc_triangle(&terms[t], &triangle, opt, stats);
+        if (status == SL_OK) {
+            sli_sum_append(&all, &terms[t], triangle, coefficients != NULL ? coefficients[t] : 0.0);
+        }
+    }
+    if (status == SL_OK) {
+        const sl_int n = terms[0].n_cols;
+        status = sli_from_triplets(out, n, n, all.count, all.row, all.column, all.x, &a);
+    }
+    sli_free(&a, b.base);
+    return status;
+}
+
+#endif
+/* end src/impl/sum.h */
 /* begin src/impl/io.h */
 /* io.h: Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric */
 #ifndef SLI_IO_H
@@ -12896,6 +13173,36 @@ static void sli_fill_steps(sl_symbolic *S) {
 
 #endif
 /* end src/impl/structure.h */
+/* begin src/impl/mapping.h */
+/* mapping.h: the map of A into L read backwards: the row and the column that a place stands for */
+#ifndef SLI_MAPPING_H
+#define SLI_MAPPING_H
+
+/* The last row tile of supernode s. */
+SLI_INLINE sl_int sli_last_tile(const sl_symbolic *S, sl_int s) {
+    return sli_tiles(S->steps[s].width + S->steps[s].below) - 1;
+}
+
+/* Pivots k >= j of the entry m of the map, which belongs to supernode s: it stands at L(k, j). tile: where
+ * to look from, the row tile of m or a later one; then that of m. Rows ascend in a supernode's part of the
+ * map: whoever goes backwards through it from the last tile looks at each tile once. */
+static void sli_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_int *tile, sl_int *k,
+                           sl_int *j) {
+    const sl_int first = S->super_first[s], w = S->steps[s].width;
+    sl_off in_tile = S->map_to[m] - S->panel_begin[s];
+    sl_int local;
+    while (sli_tile_offset(w, *tile) > in_tile) {
+        --*tile;
+    }
+    in_tile -= sli_tile_offset(w, *tile);
+    local = SLI_TILE * *tile + (sl_int)(in_tile % SLI_TILE);
+    *j = first + (sl_int)(in_tile / SLI_TILE);
+    *k = local < w ? first + local : S->rows[S->rows_begin[s] + local - w];
+    SLI_ASSERT(S->panel_begin[s] + sli_panel_at(w, local, *j - first) == S->map_to[m]);
+}
+
+#endif
+/* end src/impl/mapping.h */
 /* begin src/impl/fronts.h */
 /* fronts.h: the tree of fronts: the children of each supernode, and where their rows stand in its front */
 #ifndef SLI_FRONTS_H
@@ -13737,12 +14044,22 @@ SLI_INLINE int sli_meet(sli_meeting *m) {
 #ifndef SLI_FACTOR_PARTS_H
 #define SLI_FACTOR_PARTS_H
 
+/* Where a factorization takes the entries of its matrix from: A, or a sum of arrays in the order of the
+ * analysis's map. */
+typedef struct sli_source {
+    const sl_csc *A;             /* NULL: the sum over t of coefficients[t] values[t] */
+    const double *const *values; /* terms arrays of map_begin[n_supers] */
+    const double *coefficients;  /* terms */
+    sl_int terms;
+} sli_source;
+
 /* The first thing that went wrong in a factorization. */
 typedef struct sli_failure {
     sl_status status;
-    sl_int super;    /* the supernode it happened in */
-    sl_int pivot;    /* the pivot that is null or not finite, or -1 */
-    sl_int position; /* the entry of A that is not finite, or -1 */
+    sl_int super; /* the supernode it happened in */
+    sl_int pivot; /* the pivot that is null or not finite, or -1 */
+    sl_off
+        position; /* the entry that is not finite, in the order of the map, or -1: a coefficient */
     double value;
 } sli_failure;
 
@@ -13755,6 +14072,7 @@ struct sl_factor {
     sl_definiteness definiteness;
     sl_method method;
     int is_good;         /* L and D hold a factor */
+    sl_status status;    /* what the last factorization came to */
     uint64_t generation; /* of the numbers: how often they were begun anew */
     double *L;           /* the panels */
     double *D;           /* n pivots */
@@ -13766,9 +14084,6 @@ struct sl_factor {
     double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
     double *inverse;       /* SLI_FRONT_INVERSE */
     sli_failure *failures; /* one */
-    /* left-looking */
-    sl_int *local;  /* n: local rows in the supernode at hand */
-    sl_int *places; /* rows of the tallest front: those of a descendant in it */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
@@ -13780,7 +14095,7 @@ struct sl_factor {
 
 /* Fills a failure in and returns its status. */
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
-                              sl_int position, double value) {
+                              sl_off position, double value) {
     f->status = status;
     f->super = super;
     f->pivot = pivot;
@@ -13809,19 +14124,55 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Adds A's entries to supernode s's panel. */
-static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
-                               sli_failure *failure) {
-    const sl_symbolic *S = F->S;
+/* Adds the entries first .. last-1 of the map to supernode s's panel: each from its own place in x, or,
+ * with map_from NULL, x holds them alone. */
+SLI_ALWAYS_INLINE sl_status sli_panel_add_entries(const sl_factor *F, sl_int s, sl_off first,
+                                                  sl_off last, const double *x,
+                                                  const sl_int *map_from, sli_failure *failure) {
+    const sl_off *to = F->S->map_to;
     sl_off m;
-    for (m = S->map_begin[s]; m < S->map_begin[s + 1]; m++) {
-        const double a = A->x[S->map_from[m]];
+    for (m = first; m < last; m++) {
+        const double a = map_from != NULL ? x[map_from[m]] : x[m - first];
         if (!sli_is_finite(a)) {
-            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, S->map_from[m], a);
+            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
-        F->L[S->map_to[m]] += a;
+        F->L[to[m]] += a;
     }
     return SL_OK;
+}
+
+#define SLI_SUMMED 64 /* entries that are summed at a time: most supernodes have no more */
+
+/* sums := the entries of the map from first on */
+static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
+    sl_int k, t;
+    memset(sums, 0, (size_t)count * sizeof(double));
+    for (t = 0; t < from->terms; t++) {
+        const double c = from->coefficients[t], *v = from->values[t] + first;
+        for (k = 0; k < count; k++) {
+            const double product = c * v[k]; /* rounded, as in a sum that the caller makes */
+            sums[k] += product;
+        }
+    }
+}
+
+/* Adds the matrix's entries to supernode s's panel. */
+static sl_status sli_panel_add(const sl_factor *F, const sli_source *from, sl_int s,
+                               sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sl_off end = S->map_begin[s + 1];
+    sl_off m = S->map_begin[s], last;
+    double sums[SLI_SUMMED];
+    sl_status status = SL_OK;
+    if (from->A != NULL) {
+        return sli_panel_add_entries(F, s, m, end, from->A->x, S->map_from, failure);
+    }
+    for (; m < end && status == SL_OK; m = last) {
+        last = end - m < SLI_SUMMED ? end : m + SLI_SUMMED;
+        sli_source_sum(from, m, (sl_int)(last - m), sums);
+        status = sli_panel_add_entries(F, s, m, last, sums, NULL, failure);
+    }
+    return status;
 }
 
 /* Refuses a pivot that is not a number or null against what it was made of. */
@@ -13865,6 +14216,175 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
 
 #endif
 /* end src/impl/factor_parts.h */
+/* begin src/impl/spread.h */
+/* spread.h: a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations */
+#ifndef SLI_SPREAD_H
+#define SLI_SPREAD_H
+
+/* What spreading a matrix K needs. Both sides of the search are sorted by column, the earlier pivot of an
+ * entry: there the rows of the map are marked with their places, and those of K look them up. */
+typedef struct sli_spreading {
+    sl_int *begin; /* n + 1: where each column starts in .. */
+    sl_int *from;  /* .. the entries of K that are read, and .. */
+    sl_int *to;    /* .. their rows, and at last their places in the map, -1 for none */
+    sl_int *place; /* n: where row k of the column at hand stands in the map, -1 between columns */
+    sl_int *head;  /* the widest supernode: for each of its columns the first entry of the map .. */
+    sl_int *next;  /* .. and the one after each, -1 at the end; the most that one supernode has */
+    sl_int *row;   /* the same: its row */
+} sli_spreading;
+
+static void sli_spreading_layout(sli_spreading *w, sli_block *b, const sl_symbolic *S,
+                                 sl_int entries) {
+    sl_off most = 0;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_off here = S->map_begin[s + 1] - S->map_begin[s];
+        most = here > most ? here : most;
+    }
+    w->begin = SLI_TAKE(b, sl_int, (size_t)S->n + 1);
+    w->from = SLI_TAKE(b, sl_int, entries);
+    w->to = SLI_TAKE(b, sl_int, entries);
+    w->place = SLI_TAKE(b, sl_int, S->n);
+    w->head = SLI_TAKE(b, sl_int, S->widest);
+    w->next = SLI_TAKE(b, sl_int, most);
+    w->row = SLI_TAKE(b, sl_int, most);
+}
+
+/* K's entries by columns, each column in the order of K, so that duplicates are summed in it. */
+static void sli_spreading_sort(const sl_symbolic *S, sli_spreading *w, const sl_csc *K,
+                               sl_triangle triangle) {
+    const sl_int *iperm = S->iperm;
+    sl_int j, p, total = 0;
+    memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
+    for (j = 0; j < S->n; j++) {
+        for (p = K->p[j]; p < K->p[j + 1]; p++) {
+            w->begin[sli_min(iperm[K->i[p]], iperm[j])] += sli_is_read(triangle, K->i[p], j);
+        }
+    }
+    for (j = 0; j <= S->n; j++) {
+        const sl_int here = w->begin[j];
+        w->begin[j] = total;
+        total += here;
+    }
+    for (j = 0; j < S->n; j++) { /* every begin moves to its end, and back afterwards */
+        for (p = K->p[j]; p < K->p[j + 1]; p++) {
+            if (sli_is_read(triangle, K->i[p], j)) {
+                const sl_int at = w->begin[sli_min(iperm[K->i[p]], iperm[j])]++;
+                w->from[at] = p;
+                w->to[at] = sli_max(iperm[K->i[p]], iperm[j]);
+            }
+        }
+    }
+    memmove(w->begin + 1, w->begin, (size_t)S->n * sizeof(sl_int));
+    w->begin[0] = 0;
+}
+
+/* A supernode's part of the map by columns, ascending in each. */
+static void sli_spreading_list(const sl_symbolic *S, sli_spreading *w, sl_int s) {
+    const sl_off start = S->map_begin[s];
+    sl_int k, j, m, tile = sli_last_tile(S, s);
+    for (j = 0; j < S->steps[s].width; j++) {
+        w->head[j] = -1;
+    }
+    for (m = (sl_int)(S->map_begin[s + 1] - start) - 1; m >= 0; m--) {
+        sli_map_pivots(S, s, start + m, &tile, &k, &j);
+        j -= S->super_first[s];
+        w->row[m] = k;
+        w->next[m] = w->head[j];
+        w->head[j] = m;
+    }
+}
+
+/* The places of column j's entries of K. Returns the first entry of K so far that has none, or bad. */
+static sl_int sli_spreading_find(sli_spreading *w, sl_int j, sl_int head, sl_int start,
+                                 sl_int bad) {
+    sl_int m, q;
+    for (m = head; m != -1; m = w->next[m]) {
+        w->place[w->row[m]] = start + m; /* of several for duplicates the last takes all */
+    }
+    for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
+        w->to[q] = w->place[w->to[q]];
+        bad = w->to[q] == -1 ? sli_min(bad, w->from[q]) : bad;
+    }
+    for (m = head; m != -1; m = w->next[m]) {
+        w->place[w->row[m]] = -1;
+    }
+    return bad;
+}
+
+/* Every entry's place. Returns the first entry of K that has none, or INT32_MAX. */
+static sl_int sli_spreading_find_all(const sl_symbolic *S, sli_spreading *w) {
+    sl_int s, j, bad = INT32_MAX;
+    for (j = 0; j < S->n; j++) {
+        w->place[j] = -1;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int first = S->super_first[s], last = S->super_first[s + 1];
+        if (w->begin[first] < w->begin[last]) {
+            sli_spreading_list(S, w, s);
+            for (j = first; j < last; j++) {
+                if (w->begin[j] < w->begin[j + 1]) {
+                    bad =
+                        sli_spreading_find(w, j, w->head[j - first], (sl_int)S->map_begin[s], bad);
+                }
+            }
+        }
+    }
+    return bad;
+}
+
+SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
+    return S == NULL ? 0 : (sl_int)S->map_begin[S->n_supers]; /* no more than A has */
+}
+
+SL_API sl_status sl_symbolic_spread(const sl_symbolic *S, double *values, const sl_csc *K,
+                                    sl_stats *stats) {
+    sl_options opt;
+    sli_spreading w;
+    sli_block b = {NULL, 0, 0};
+    sl_triangle triangle = SL_TRIANGLE_NONE;
+    sl_int q, bad;
+    int pass;
+    sl_status status = sl_csc_check(K, stats);
+    if (S == NULL || status != SL_OK) {
+        return S == NULL ? SL_ERR_ARGUMENT : status;
+    }
+    if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
+        (sl_symbolic_entries(S) > 0 && values == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (K->n_cols != S->n) {
+        return SL_ERR_PATTERN;
+    }
+    memset(&w, 0, sizeof w);
+    memset(&opt, 0, sizeof opt);
+    opt.allocator = S->allocator;
+    status = sli_csc_triangle(K, &triangle, &opt, stats);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_spreading_layout(&w, &b, S, sli_nnz(K));
+        status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_spreading_sort(S, &w, K, triangle);
+    bad = sli_spreading_find_all(S, &w);
+    if (bad == INT32_MAX) {
+        for (q = 0; q < sl_symbolic_entries(S); q++) {
+            values[q] = 0.0;
+        }
+        for (q = 0; q < w.begin[S->n]; q++) {
+            values[w.to[q]] += K->x[w.from[q]];
+        }
+    } else {
+        status = sli_fail_at(stats, SL_ERR_PATTERN, K->i[bad], sli_column_of(K, bad), K->x[bad]);
+    }
+    sli_free(&S->allocator, b.base);
+    return status;
+}
+
+#endif
+/* end src/impl/spread.h */
 /* begin src/impl/uplooking.h */
 /* uplooking.h: the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A */
 #ifndef SLI_UPLOOKING_H
@@ -13909,8 +14429,8 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
     }
 }
 
-/* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
-static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+/* The whole factorization. The matrix fits the analysis. [LDL05], [Davis06] 4.7 */
+static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k;
@@ -13924,7 +14444,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_add(F, A, s, failure);
+            status = sli_panel_add(F, from, s, failure);
             if (status != SL_OK) {
                 break;
             }
@@ -13960,7 +14480,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
  * above them in which each takes some row tiles. */
 typedef struct sli_job {
     sl_factor *F;
-    const sl_csc *A;
+    const sli_source *from;
     sl_int super, group; /* the front, and its group of column tiles */
     sli_front front;
 } sli_job;
@@ -13996,10 +14516,10 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
     }
 }
 
-/* A's entries onto the cleared panel, and what its diagonal is made of so far. */
-static sl_status sli_front_load(sl_factor *F, const sl_csc *A, const sli_front *f, sl_int s,
+/* The matrix's entries onto the cleared panel, and what its diagonal is made of so far. */
+static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                                 sli_failure *failure) {
-    const sl_status status = sli_panel_add(F, A, s, failure);
+    const sl_status status = sli_panel_add(F, from, s, failure);
     sl_int k;
     for (k = 0; k < f->width; k++) {
         f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
@@ -14071,14 +14591,14 @@ static void sli_front_update(const sli_kernels *kernels, const sli_front *f, dou
 }
 
 /* The whole of supernode s's front by one worker. */
-static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
+static sl_status sli_front_alone(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                                  sli_failure *failure) {
     const sli_front f = sli_front_of(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
     sli_front_clear(&f, 0, tiles);
-    status = sli_front_load(F, A, &f, s, failure);
+    status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -14101,7 +14621,7 @@ static void sli_do_tasks(void *data, sl_int k) {
             continue;
         }
         for (s = plan->first[m]; s <= plan->last[m] && status == SL_OK; s++) {
-            status = sli_front_alone(job->F, job->A, s, k, &failure);
+            status = sli_front_alone(job->F, job->from, s, k, &failure);
             if (status != SL_OK) {
                 sli_keep_first_failure(&job->F->failures[k], &failure);
             }
@@ -14151,7 +14671,7 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     sl_status status;
     job->front = sli_front_of(F, job->super, 0);
     sli_parallel(threads, workers, sli_shared_clear, job);
-    status = sli_front_load(F, job->A, &job->front, job->super, failure);
+    status = sli_front_load(F, job->from, &job->front, job->super, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -14167,14 +14687,14 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     return sli_front_check(F, &job->front, job->super, failure);
 }
 
-/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
-static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+/* The whole factorization. The matrix fits the analysis. [DR83], [Liu92] */
+static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sli_schedule *plan = &F->schedule;
     sli_job job;
     sl_int m, k;
     memset(&job, 0, sizeof job);
     job.F = F;
-    job.A = A;
+    job.from = from;
     for (k = 0; k < plan->workers; k++) {
         F->failures[k].status = SL_OK;
     }
@@ -14192,7 +14712,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
         if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
             (void)sli_front_shared(&job, &here);
         } else {
-            (void)sli_front_alone(F, A, job.super, 0, &here);
+            (void)sli_front_alone(F, from, job.super, 0, &here);
         }
         sli_keep_first_failure(failure, &here);
     }
@@ -14206,9 +14726,21 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
 #ifndef SLI_LEFTLOOKING_H
 #define SLI_LEFTLOOKING_H
 
+/* What pulling needs while it runs. */
+typedef struct sli_pulling {
+    sl_int *local;  /* n: local rows in the supernode at hand; elsewhere it means nothing */
+    sl_int *places; /* rows of the tallest front: those of a descendant in it */
+} sli_pulling;
+
+static void sli_pulling_layout(sli_pulling *p, sli_block *b, const sl_symbolic *S) {
+    p->local = SLI_TAKE(b, sl_int, S->n);
+    p->places = SLI_TAKE(b, sl_int, S->tallest);
+}
+
 /* What descendant d takes from supernode s: its rows from number `first` on are rows of s, the ones
  * before `last` are columns of s. */
-static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, sl_int last) {
+static void sli_pull(sl_factor *F, const sli_pulling *p, const sli_front *f, sl_int d, sl_int first,
+                     sl_int last) {
     const sl_symbolic *S = F->S;
     const sl_int *rows = S->rows + S->rows_begin[d];
     sli_front from = sli_front_of(F, d, 0);
@@ -14222,14 +14754,14 @@ static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, s
     }
     F->kernels->update(&from, c0, c1, c0, tiles, F->buffer);
     for (r = first; r < from.below; r++) {
-        F->places[r - first] = F->local[rows[r]];
+        p->places[r - first] = p->local[rows[r]];
     }
-    F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, F->places, last - first, 0,
+    F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->places, last - first, 0,
                          from.below - first);
     for (r = first; r < last; r++) { /* |l d l| of the pivots to come */
         const double *l = from.panel + sli_panel_at(w, w + r, 0);
         for (j = 0; j < w; j++) {
-            f->magnitude[F->places[r - first]] +=
+            f->magnitude[p->places[r - first]] +=
                 fabs(l[SLI_TILE * (ptrdiff_t)j] * l[SLI_TILE * (ptrdiff_t)j] * from.D[j]);
         }
     }
@@ -14237,7 +14769,8 @@ static void sli_pull(sl_factor *F, const sli_front *f, sl_int d, sl_int first, s
 
 /* Supernode s from A and its descendants, parents before children: those that have no row among the
  * columns of s have no descendant with one. */
-static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_failure *failure) {
+static sl_status sli_left_looking(sl_factor *F, const sli_pulling *p, const sli_source *from,
+                                  sl_int s, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sli_front f = sli_front_of(F, s, 0);
     const sl_int *rows = S->rows + S->rows_begin[s];
@@ -14245,13 +14778,13 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
     sl_int k, d;
     sl_status status;
     for (k = 0; k < f.width; k++) {
-        F->local[start + k] = k;
+        p->local[start + k] = k;
     }
     for (k = 0; k < f.below; k++) {
-        F->local[rows[k]] = f.width + k;
+        p->local[rows[k]] = f.width + k;
     }
     memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
-    status = sli_front_load(F, A, &f, s, failure);
+    status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -14260,7 +14793,7 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
         const sl_int first = sli_lower_bound(of, below, start);
         const sl_int last = first + sli_lower_bound(of + first, below - first, end);
         if (first < last) {
-            sli_pull(F, &f, d, first, last);
+            sli_pull(F, p, &f, d, first, last);
             d--;
         } else {
             d = S->descendant[d] - 1;
@@ -14271,8 +14804,8 @@ static sl_status sli_left_looking(sl_factor *F, const sl_csc *A, sl_int s, sli_f
 }
 
 /* Every supernode on the way from the seeds, columns of L in ascending order, to the roots. */
-static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint64_t *seeds,
-                                      sl_int count, sli_failure *failure) {
+static sl_status sli_left_looking_all(sl_factor *F, const sli_pulling *p, const sli_source *from,
+                                      const uint64_t *seeds, sl_int count, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k = 0, s, next;
@@ -14280,7 +14813,7 @@ static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint6
         s = S->super_of[sli_key(seeds[k])];
         next = sli_next_seed(S, seeds, count, &k);
         for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
-            status = sli_left_looking(F, A, s, failure);
+            status = sli_left_looking(F, p, from, s, failure);
         }
     }
     return status;
@@ -14305,8 +14838,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
-        F->local = SLI_TAKE(b, sl_int, n);
-        F->places = SLI_TAKE(b, sl_int, S->tallest);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
@@ -14372,6 +14903,24 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
+/* What is not finite: an entry, where it stands in A or in the lower triangle of a sum, or a coefficient. */
+static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+    const sl_symbolic *S = F->S;
+    sl_int row = -1, column = -1;
+    if (f->position < 0) { /* a coefficient: it has no place */
+    } else if (A != NULL) {
+        const sl_int p = S->map_from[f->position];
+        row = A->i[p];
+        column = sli_column_of(A, p);
+    } else {
+        sl_int k, j, tile = sli_last_tile(S, f->super);
+        sli_map_pivots(S, f->super, f->position, &tile, &k, &j);
+        row = sli_max(S->perm[k], S->perm[j]);
+        column = sli_min(S->perm[k], S->perm[j]);
+    }
+    sli_fail_at(&F->stats, f->status, row, column, f->value);
+}
+
 /* Pivots in numbers, and a failure in the caller's rows. */
 static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int good = F->S->n; /* pivots before the failure */
@@ -14380,11 +14929,17 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
     } else if (f->status != SL_OK) {
         good = F->S->super_first[f->super];
-        sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
-                    f->value);
+        sli_factor_tell_entry(F, A, f);
     }
     sli_count_pivots(F, good);
     F->stats.null += f->status == SL_ERR_PIVOT;
+}
+
+static void sli_factor_stats_tell(const sl_factor *F, sl_stats *stats) {
+    sli_factor_stats_copy(&F->stats, stats);
+    stats->error_row = F->stats.error_row;
+    stats->error_column = F->stats.error_column;
+    stats->error_value = F->stats.error_value;
 }
 
 /* What a factorization came to, for the caller and for F itself. */
@@ -14394,13 +14949,35 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     sli_factor_tell(F, A, failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
+    F->status = failure->status;
     if (stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-        stats->error_row = F->stats.error_row;
-        stats->error_column = F->stats.error_column;
-        stats->error_value = F->stats.error_value;
+        sli_factor_stats_tell(F, stats);
     }
     return failure->status;
+}
+
+/* The numbers of a matrix that fits the analysis. */
+static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
+                                    sl_stats *stats) {
+    sli_failure failure;
+    sl_int t;
+    memset(&failure, 0, sizeof failure);
+    for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
+        if (!sli_is_finite(from->coefficients[t])) {
+            (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
+        }
+    }
+    if (failure.status == SL_OK) {
+        (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
+                                                 : sli_uplooking(F, from, &failure));
+    }
+    return sli_factor_done(F, from->A, &failure, started, stats);
+}
+
+static sli_source sli_source_matrix(const sl_csc *A) {
+    sli_source from = {NULL, NULL, NULL, 0};
+    from.A = A;
+    return from;
 }
 
 /* Before the numbers change: whatever was made of them is out of date, even if this fails. */
@@ -14411,7 +14988,7 @@ static void sli_factor_begin(sl_factor *F) {
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
-    sli_failure failure;
+    const sli_source from = sli_source_matrix(A);
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL) {
@@ -14419,13 +14996,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     }
     sli_factor_begin(F);
     status = sli_factor_check(F->S, A);
-    if (status != SL_OK) {
-        return status;
-    }
-    memset(&failure, 0, sizeof failure);
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
-                                             : sli_uplooking(F, A, &failure));
-    return sli_factor_done(F, A, &failure, started, stats);
+    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
 
 /* The columns of L in which the entries of some columns of A stand, sorted. Returns how many. */
@@ -14450,6 +15021,8 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
+    const sli_source from = sli_source_matrix(A);
+    sli_pulling pulling;
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sli_failure failure;
@@ -14479,6 +15052,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
+        sli_pulling_layout(&pulling, &b, F->S);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
@@ -14487,7 +15061,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     memset(&failure, 0, sizeof failure);
     sli_factor_begin(F);
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    (void)sli_left_looking_all(F, A, seeds, count, &failure);
+    (void)sli_left_looking_all(F, &pulling, &from, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
     return sli_factor_done(F, A, &failure, started, stats);
 }
@@ -14515,27 +15089,20 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     return S->stats.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
-SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                                  const sl_options *opt, sl_stats *stats) {
+/* Are the wishes for a factor such as can be followed? */
+static int sli_factor_wishes_are_sound(const sl_options *opt) {
+    return sli_allocator_is_whole(opt) && sli_way_is_known(opt) &&
+           (opt == NULL || opt->null_tolerance == opt->null_tolerance);
+}
+
+/* A factor with its memory and its schedule, without numbers. */
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
-    sl_status status;
+    sl_status status = SL_OK;
     int pass;
-    sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
-        !sli_allocator_is_whole(opt) || !sli_way_is_known(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_check(S, A);
-    if (status != SL_OK) {
-        return status;
-    }
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
@@ -14567,15 +15134,45 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         }
         F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
-            status = sl_factor_refactor(F, A, stats);
-        }
-        if (status == SL_OK) {
             *out = F;
         } else {
             sl_factor_free(F);
         }
     }
     return status;
+}
+
+/* A factor of a matrix that fits the analysis. *out is NULL on entry. */
+static sl_status sli_factor_make(sl_factor **out, const sl_symbolic *S, const sli_source *from,
+                                 const sl_options *opt, sl_stats *stats) {
+    sl_factor *F = NULL;
+    sl_status status = sli_factor_new(&F, S, opt);
+    if (status == SL_OK) {
+        sli_factor_begin(F);
+        status = sli_factor_numbers(F, from, sli_seconds(), stats);
+    }
+    if (status == SL_OK) {
+        *out = F;
+    } else {
+        sl_factor_free(F);
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_options *opt, sl_stats *stats) {
+    const sli_source from = sli_source_matrix(A);
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_factor_check(S, A);
+    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
@@ -14807,6 +15404,65 @@ static void sli_region_apply(const sl_region *R, const sli_shore *shore, const s
 
 #endif
 /* end src/impl/region_parts.h */
+/* begin src/impl/combination.h */
+/* combination.h: factorizations of weighted sums of value arrays that stand in the order of the analysis */
+#ifndef SLI_COMBINATION_H
+#define SLI_COMBINATION_H
+
+/* A sum as the source of a factorization. */
+static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
+                                   const double *const *values, sl_int terms, sli_source *from) {
+    sl_int t;
+    if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (t = 0; t < terms; t++) {
+        if (values[t] == NULL && S->map_begin[S->n_supers] > 0) {
+            return SL_ERR_ARGUMENT;
+        }
+    }
+    from->A = NULL;
+    from->values = values;
+    from->coefficients = coefficients;
+    from->terms = terms;
+    return SL_OK;
+}
+
+SL_API sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
+                                              const double *coefficients,
+                                              const double *const *values, sl_int terms,
+                                              const sl_options *opt, sl_stats *stats) {
+    sli_source from;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_source_of_sum(S, coefficients, values, terms, &from);
+    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
+}
+
+SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coefficients,
+                                                const double *const *values, sl_int terms,
+                                                sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_source from;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    sli_factor_begin(F);
+    status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
+    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
+}
+
+#endif
+/* end src/impl/combination.h */
 /* begin src/impl/work.h */
 /* work.h: the workspace: one block of a thread's scratch that only grows */
 #ifndef SLI_WORK_H
@@ -16516,6 +17172,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
  * its first column. */
 typedef struct sli_entries {
     const sl_factor *F;
+    const sl_threads *threads;
     double *out;
     sli_requests requests;
     sl_inverse_method method;
@@ -16610,7 +17267,7 @@ static void sli_entries_choose(void *call) {
                         : SL_INVERSE_SELECTED;
     }
     if (q->method == SL_INVERSE_SELECTED) {
-        q->descent = sli_descent_of(q->F->S, supers, sli_workers(&q->F->threads));
+        q->descent = sli_descent_of(q->F->S, supers, sli_workers(q->threads));
         q->descent.is_partial = !sli_entries_is_all(q);
     }
 }
@@ -16720,11 +17377,27 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     }
 }
 
-static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
+                                  const sl_int *columns, sl_int count, const sl_threads *threads) {
+    sli_entries q;
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.threads = threads;
+    q.out = out;
+    q.requests = sli_requests_of(F, rows, columns, count);
+    return q;
+}
+
+/* Everything up to the numbers, in W, which grows to what they need. */
+static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
     static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
                                         {sli_entries_lay_way, sli_entries_plan},
                                         {sli_entries_lay_run, NULL}};
-    const sl_status status = sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, stages, 3, q);
+}
+
+static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+    const sl_status status = sli_entries_prepare(q, W);
     if (status != SL_OK) {
         return status;
     }
@@ -16733,7 +17406,7 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
     } else {
         q->run.F = q->F;
         q->run.d = &q->descent;
-        q->run.threads = &q->F->threads;
+        q->run.threads = q->threads;
         q->run.take = sli_entries_take;
         q->run.to = q;
         sli_descend(&q->run);
@@ -16766,10 +17439,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
         return status;
     }
     sli_inverse_stats(stats);
-    memset(&q, 0, sizeof q);
-    q.F = F;
-    q.out = out;
-    q.requests = sli_requests_of(F, rows, columns, count);
+    q = sli_entries_of(F, out, rows, columns, count, &F->threads);
     own = sli_work_own(F);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
@@ -17042,7 +17712,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
 #define SLI_BATCH_H
 
 typedef struct sli_batch {
-    const sl_factor *F;
+    const sl_factor *F; /* of requests that name none */
     const sl_request *requests;
     sl_int count, workers;
     sl_off blocks;         /* of up to 8 right-hand sides */
@@ -17051,6 +17721,10 @@ typedef struct sli_batch {
     unsigned char *memory; /* then `bytes` a worker */
     size_t bytes;
 } sli_batch;
+
+SLI_INLINE const sl_factor *sli_request_factor(const sli_batch *b, const sl_request *r) {
+    return r->factor != NULL ? r->factor : b->F;
+}
 
 static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
     return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
@@ -17082,7 +17756,8 @@ static void sli_batch_share(void *data, sl_int k) {
     sl_int m;
     for (m = 0; m < b->count && before < to; m++) {
         const sl_request *r = &b->requests[m];
-        const sli_query q = sli_request_query(b->F, r);
+        const sl_factor *F = sli_request_factor(b, r);
+        const sli_query q = sli_request_query(F, r);
         const double weight = sli_query_weight(&q);
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
@@ -17091,7 +17766,7 @@ static void sli_batch_share(void *data, sl_int k) {
             const sli_layout layout = sli_request_layout(r);
             const sli_dense x_at = sli_dense_of(layout, r->ldx),
                             b_at = sli_dense_of(layout, r->ldb);
-            sli_sweep(b->F, &q, r->X + (size_t)first * x_at.column, x_at,
+            sli_sweep(F, &q, r->X + (size_t)first * x_at.column, x_at,
                       q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
                       memory);
         }
@@ -17103,14 +17778,20 @@ static void sli_batch_share(void *data, sl_int k) {
 static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     for (*at = 0; *at < b->count; ++*at) {
         const sl_request *r = &b->requests[*at];
-        const sli_query q = sli_request_query(b->F, r);
+        const sl_factor *F = sli_request_factor(b, r);
+        sli_query q;
         size_t bytes;
-        const sl_status status =
+        sl_status status;
+        if (F == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        q = sli_request_query(F, r);
+        status =
             sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, sli_request_layout(r), r->nrhs);
         if (status != SL_OK) {
             return status;
         }
-        if (!sli_query_fits(&q, b->F)) {
+        if (!sli_query_fits(&q, F)) {
             return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
@@ -17125,18 +17806,30 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     return SL_OK;
 }
 
-/* Scratch for every worker: in the caller's workspaces, or in one block to be freed. */
-static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
-    sli_block block = {NULL, 0, 0};
-    sl_status status = SL_OK;
+/* Refuses workspaces that are not there, or given twice. */
+static sl_status sli_works_check(sl_work *const *works, sl_int workers) {
     sl_int k, other;
+    for (k = 0; k < workers; k++) {
+        if (works[k] == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        for (other = 0; other < k; other++) {
+            if (works[k] == works[other]) {
+                return SL_ERR_ARGUMENT;
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* Scratch for every worker: in the caller's workspaces, or in one block of a's to be freed. */
+static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works, const sl_allocator *a) {
+    sli_block block = {NULL, 0, 0};
+    sl_status status = works == NULL ? SL_OK : sli_works_check(works, b->workers);
+    sl_int k;
     int pass;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
-        for (other = 0; other < k; other++) {
-            status = works[k] == works[other] ? SL_ERR_ARGUMENT : status;
-        }
-        status = works[k] == NULL ? SL_ERR_ARGUMENT : status;
-        status = status == SL_OK ? sli_work_grow(works[k], b->bytes) : status;
+        status = sli_work_grow(works[k], b->bytes);
     }
     b->works = works;
     b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
@@ -17145,7 +17838,7 @@ static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
             unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
             b->memory = k == 0 ? memory : b->memory;
         }
-        status = pass == 0 ? sli_block_alloc(&block, &b->F->allocator) : SL_OK;
+        status = pass == 0 ? sli_block_alloc(&block, a) : SL_OK;
     }
     return status;
 }
@@ -17162,10 +17855,10 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     if (failed != NULL) {
         *failed = -1;
     }
-    if (F == NULL || count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
+    if (count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (F != NULL && !F->is_good) {
         return SL_ERR_STATE;
     }
     b.F = F;
@@ -17178,12 +17871,13 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
         *failed = at;
     }
     if (status == SL_OK && b.blocks > 0) {
-        status = sli_batch_reserve(&b, works);
+        const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
+        status = sli_batch_reserve(&b, works, a);
         if (status == SL_OK) {
             sli_parallel(threads, b.workers, sli_batch_share, &b);
         }
         if (works == NULL) {
-            sli_free(&F->allocator, b.memory);
+            sli_free(a, b.memory);
         }
     }
     return status;
@@ -17191,6 +17885,346 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
 
 #endif
 /* end src/impl/batch.h */
+/* begin src/impl/batch_factor.h */
+/* batch_factor.h: several factorizations over one analysis, whole factors shared out among workers */
+#ifndef SLI_BATCH_FACTOR_H
+#define SLI_BATCH_FACTOR_H
+
+typedef struct sli_family {
+    sl_factor *const *factors; /* count; NULL: not there */
+    sl_int count, workers;
+    sli_source from; /* of the first: each has a column of coefficients */
+} sli_family;
+
+/* Has factor k no threads of its own? */
+SLI_INLINE int sli_family_is_single(const sli_family *f, sl_int k) {
+    return f->factors[k] != NULL && f->factors[k]->schedule.workers == 1;
+}
+
+static void sli_family_numbers(const sli_family *f, sl_int k) {
+    sli_source from = f->from;
+    if (from.terms > 0) {
+        from.coefficients += (size_t)k * (size_t)from.terms;
+    }
+    sli_factor_begin(f->factors[k]);
+    (void)sli_factor_numbers(f->factors[k], &from, sli_seconds(), NULL);
+}
+
+/* Worker w's turns among the factors without threads: they cost all alike. */
+static void sli_family_share(void *data, sl_int w) {
+    const sli_family *f = (const sli_family *)data;
+    sl_int k, turn = 0;
+    for (k = 0; k < f->count; k++) {
+        if (sli_family_is_single(f, k) && turn++ % f->workers == w) {
+            sli_family_numbers(f, k);
+        }
+    }
+}
+
+/* The numbers of all of them. Returns the first that failed, or count. */
+static sl_int sli_family_run(sli_family *f, const sl_threads *threads) {
+    sl_int k, singles = 0;
+    for (k = 0; k < f->count; k++) {
+        singles += sli_family_is_single(f, k);
+    }
+    f->workers = sli_max(sli_min(sli_workers(threads), singles), 1);
+    sli_parallel(threads, f->workers, sli_family_share, f);
+    for (k = 0; k < f->count; k++) {
+        if (f->factors[k] != NULL && !sli_family_is_single(f, k)) {
+            sli_family_numbers(f, k);
+        }
+    }
+    for (k = 0; k < f->count && (f->factors[k] == NULL || f->factors[k]->is_good); k++) {
+    }
+    return k;
+}
+
+/* What the caller hears of them: of the first that failed, or of the last. */
+static void sli_family_tell(const sli_family *f, sl_int at, double started, sl_stats *stats) {
+    const sl_factor *F = f->count == 0 ? NULL : f->factors[sli_min(at, f->count - 1)];
+    sl_int k;
+    if (stats == NULL || F == NULL) {
+        return;
+    }
+    sli_factor_stats_tell(F, stats);
+    stats->seconds_setup = 0.0;
+    stats->seconds_factor = sli_seconds() - started;
+    stats->bytes_factor = 0;
+    for (k = 0; k < f->count; k++) {
+        if (f->factors[k] != NULL) {
+            stats->seconds_setup += f->factors[k]->stats.seconds_setup;
+            stats->bytes_factor += f->factors[k]->stats.bytes_factor;
+        }
+    }
+}
+
+/* Their memory, by this thread alone: whole rounds without threads, the rest with. Returns the first that
+ * has none, or count. */
+static sl_int sli_family_make(sl_factor **out, sl_int count, const sl_symbolic *S,
+                              const sl_options *opt, sl_status *status) {
+    const sl_threads none = {0, NULL, NULL};
+    const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
+    sl_options alone;
+    sl_int k, at = count;
+    memset(&alone, 0, sizeof alone);
+    if (opt != NULL) {
+        alone = *opt;
+        alone.threads = none;
+    }
+    for (k = 0; k < count; k++) {
+        const sl_status here =
+            sli_factor_new(&out[k], S, k < count / workers * workers ? &alone : opt);
+        if (here != SL_OK && at == count) {
+            at = k;
+            *status = here;
+        }
+    }
+    return at;
+}
+
+SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
+                                 const double *coefficients, const double *const *values,
+                                 sl_int terms, const sl_options *opt, sl_int *failed,
+                                 sl_stats *stats) {
+    const sl_threads none = {0, NULL, NULL};
+    double started;
+    sli_family f;
+    sl_status status;
+    sl_int k, bare, at;
+    sli_stats_clear_error(stats);
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    for (k = 0; k < count && out != NULL; k++) {
+        out[k] = NULL;
+    }
+    if (count < 0 || (count > 0 && out == NULL) || S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    f.factors = out;
+    f.count = count;
+    status = sli_source_of_sum(S, coefficients, values, terms, &f.from);
+    if (status != SL_OK || count == 0) {
+        return status;
+    }
+    bare = sli_family_make(out, count, S, opt, &status);
+    started = sli_seconds();
+    at = sli_family_run(&f, opt == NULL ? &none : &opt->threads);
+    status = at < bare ? out[at]->status : status;
+    sli_family_tell(&f, sli_min(at, bare), started, stats);
+    for (k = at; k < count; k++) {
+        if (out[k] != NULL && !out[k]->is_good) {
+            sl_factor_free(out[k]);
+            out[k] = NULL;
+        }
+    }
+    at = sli_min(at, bare);
+    if (failed != NULL && at < count) {
+        *failed = at;
+    }
+    return status;
+}
+
+/* Whether the factors can be made again together; *at: the one at fault, -1 for all or none. */
+static sl_status sli_family_check(sl_factor *const *factors, sl_int count, sl_int *at) {
+    sl_int k, other;
+    for (k = 0; k < count; k++) {
+        *at = k;
+        if (factors[k] == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        for (other = 0; other < k; other++) {
+            if (factors[other] == factors[k]) {
+                return SL_ERR_ARGUMENT;
+            }
+        }
+        if (factors[k]->S != factors[0]->S) {
+            return SL_ERR_STATE;
+        }
+    }
+    *at = -1;
+    return SL_OK;
+}
+
+SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
+                                   const double *coefficients, const double *const *values,
+                                   sl_int terms, const sl_threads *threads, sl_int *failed,
+                                   sl_stats *stats) {
+    const sl_threads none = {0, NULL, NULL};
+    const double started = sli_seconds();
+    sli_family f;
+    sl_status status;
+    sl_int k, at = -1;
+    sli_stats_clear_error(stats);
+    threads = threads == NULL ? &none : threads;
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_family_check(factors, count, &at);
+    if (status == SL_OK && count > 0) {
+        status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.from);
+    }
+    if (status == SL_OK && count > 0) {
+        f.factors = factors;
+        f.count = count;
+        k = sli_family_run(&f, threads);
+        sli_family_tell(&f, k, started, stats);
+        at = k < count ? k : -1;
+        status = k < count ? factors[k]->status : SL_OK;
+    }
+    if (failed != NULL) {
+        *failed = at;
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/batch_factor.h */
+/* begin src/impl/batch_inverse.h */
+/* batch_inverse.h: diagonals of several inverses over one analysis, whole factors shared out among workers */
+#ifndef SLI_BATCH_INVERSE_H
+#define SLI_BATCH_INVERSE_H
+
+typedef struct sli_diagonals {
+    const sl_factor *const *factors;
+    sl_int count, workers;
+    double *out; /* n_rows x count */
+    size_t ldo;
+    const sl_int *rows; /* NULL: all n_rows */
+    sl_int n_rows;
+    sl_work *const *works; /* one a worker, with room for any of the factors */
+} sli_diagonals;
+
+/* One factor's. Inside a loop over several workers none of them begins another. */
+static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
+    static const sl_threads none = {0, NULL, NULL};
+    const sl_factor *F = d->factors[k];
+    return sli_entries_of(F, d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows,
+                          d->workers > 1 ? &none : &F->threads);
+}
+
+/* Worker w's turns among the factors. */
+static void sli_diagonals_share(void *data, sl_int w) {
+    const sli_diagonals *d = (const sli_diagonals *)data;
+    sl_int k;
+    for (k = w; k < d->count; k += d->workers) {
+        sli_entries q = sli_diagonals_entries(d, k);
+        const sl_status status = sli_entries_run(&q, d->works[w], NULL);
+        SLI_ASSERT(status == SL_OK); /* all that could go wrong was tried before */
+        (void)status;
+    }
+}
+
+/* Checks every factor; *at: the one at fault. */
+static sl_status sli_diagonals_check(const sli_diagonals *d, sl_int *at, sl_stats *stats) {
+    for (*at = 0; *at < d->count; ++*at) {
+        const sl_factor *F = d->factors[*at];
+        if (F == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        if (!F->is_good || F->S != d->factors[0]->S) {
+            return SL_ERR_STATE;
+        }
+    }
+    *at = -1;
+    return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
+}
+
+/* Room in every workspace for any of the factors: it depends on the rows, and on the instruction set. */
+static sl_status sli_diagonals_reserve(const sli_diagonals *d) {
+    sl_status status = SL_OK;
+    sl_int k;
+    for (k = 0; k < d->count && status == SL_OK; k++) {
+        if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels ||
+            d->workers == 1) { /* then threads of their own count */
+            sli_entries q = sli_diagonals_entries(d, k);
+            status = sli_entries_prepare(&q, d->works[0]);
+        }
+    }
+    for (k = 1; k < d->workers && status == SL_OK; k++) {
+        status = sli_work_grow(d->works[k], d->works[0]->size);
+    }
+    return status;
+}
+
+/* The same with workspaces of the call's own. */
+static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) {
+    const sl_allocator *a = &d->factors[0]->allocator;
+    sl_work *own = NULL, **works = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int w;
+    int pass;
+    for (pass = 0; pass < 2 && d->works == NULL && status == SL_OK; pass++) {
+        own = SLI_TAKE(&b, sl_work, d->workers);
+        works = SLI_TAKE(&b, sl_work *, d->workers);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    if (d->works == NULL) {
+        for (w = 0; w < d->workers; w++) {
+            own[w] = sli_work_own(d->factors[0]);
+            works[w] = &own[w];
+        }
+        d->works = works;
+    }
+    status = sli_diagonals_reserve(d);
+    if (status == SL_OK) {
+        sli_parallel(threads, d->workers, sli_diagonals_share, d);
+    }
+    for (w = 0; w < d->workers && own != NULL; w++) {
+        sli_free(a, own[w].block);
+    }
+    sli_free(a, b.base);
+    return status;
+}
+
+SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count, double *out,
+                                   size_t ldo, const sl_int *rows, sl_int n_rows,
+                                   const sl_threads *threads, sl_work *const *works, sl_int *failed,
+                                   sl_stats *stats) {
+    const sl_threads none = {0, NULL, NULL};
+    sli_diagonals d;
+    sl_status status;
+    sl_int at = -1;
+    sli_stats_clear_error(stats);
+    threads = threads == NULL ? &none : threads;
+    if (failed != NULL) {
+        *failed = -1;
+    }
+    if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    d.factors = factors;
+    d.count = count;
+    d.workers = sli_min(sli_workers(threads), count);
+    d.out = out;
+    d.ldo = ldo;
+    d.rows = rows;
+    d.n_rows = n_rows;
+    d.works = works;
+    status = sli_diagonals_check(&d, &at, stats);
+    if (failed != NULL) {
+        *failed = at;
+    }
+    if (status != SL_OK || count == 0) {
+        return status;
+    }
+    n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
+    if (n_rows < 0 || (n_rows > 0 && (out == NULL || ldo < (size_t)n_rows))) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = works == NULL ? SL_OK : sli_works_check(works, d.workers);
+    return status == SL_OK && n_rows > 0 ? sli_diagonals_run(&d, threads) : status;
+}
+
+#endif
+/* end src/impl/batch_inverse.h */
 /* begin src/impl/selected.h */
 /* selected.h: the selected inverse: the panels that a descent of a list of supernodes leaves */
 #ifndef SLI_SELECTED_H
@@ -18054,6 +19088,7 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_PANEL_AHEAD
 #undef SLI_TASKS_A_WORKER
 #undef SLI_SHARED_FLOPS
+#undef SLI_SUMMED
 #undef SLI_ROWS_AHEAD
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY

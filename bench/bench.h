@@ -34,9 +34,11 @@ void bench_locality(bench_run *run);
 void bench_selected(bench_run *run);
 void bench_region(bench_run *run);
 void bench_adf(bench_run *run);
+void bench_several(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);
+void bench_peers_several(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, chance (harness.c) ---- */

@@ -36,11 +36,15 @@ static const question questions[] = {
      bench_region},
     {"adf", "the auto-diffusion of every vertex: the diagonal of the inverse (section 5)",
      bench_adf},
+    {"several", "M + t L for eight t: factors, one plan on all of them, heat-kernel signatures",
+     bench_several},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},
     {"peers_harmonic", "the same on harmonic, biharmonic and triharmonic systems",
      bench_peers_harmonic},
+    {"peers_several", "eight refactorizations M + t L beside CHOLMOD's over one analysis",
+     bench_peers_several},
 #endif
 };
 

@@ -23,6 +23,9 @@ void peer_cholmod_analyse(peer_cholmod *peer);
 void peer_cholmod_factor(peer_cholmod *peer);
 void peer_cholmod_factor_simple(peer_cholmod *peer);
 
+/** Other values of the same pattern, for the factorizations to come; x must outlive them. */
+void peer_cholmod_values(peer_cholmod *peer, const double *x);
+
 /** A first supernodal factorization, its memory included; ready, before each, drops the last one. */
 void peer_cholmod_first_ready(peer_cholmod *peer);
 void peer_cholmod_first(peer_cholmod *peer);

@@ -140,6 +140,10 @@ void peer_cholmod_analyse(peer_cholmod *peer) {
     cholmod_free_factor(&L, &peer->super.common);
 }
 
+void peer_cholmod_values(peer_cholmod *peer, const double *x) {
+    memcpy(&peer->A.x, &x, sizeof x);
+}
+
 void peer_cholmod_factor(peer_cholmod *peer) {
     factor(peer, &peer->super);
 }

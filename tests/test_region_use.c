@@ -128,7 +128,7 @@ static void numbers_out_of_date_are_refused(void **state) {
     scene_is_right(t, t->y.F);
     SL_CHECK(sl_selected_create(&Z, t->y.F, t->set, COUNT, NULL, NULL));
     for (int how = 0; how < 4; how++) {
-        sl_request request = {t->P, t->X, COUNT, t->B, COUNT, 0, 3};
+        sl_request request = {t->P, t->X, COUNT, t->B, COUNT, 0, 3, NULL};
         sl_region *none = t->R;
         sl_int failed = 7;
         switch (how) {
@@ -396,6 +396,7 @@ static void batches(void **state) {
     sl_request requests[REQUESTS];
     double *wanted[REQUESTS];
     sl_int far[COUNT];
+    memset(requests, 0, sizeof requests);
     square(far, 110);
     opt.region = t->R;
     SL_CHECK(sl_plan_create(&narrow, t->y.S, t->set + 7, 1, t->set, 9, &opt, NULL));

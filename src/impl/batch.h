@@ -7,7 +7,7 @@
 #include "plan.h"
 
 typedef struct sli_batch {
-    const sl_factor *F;
+    const sl_factor *F; /* of requests that name none */
     const sl_request *requests;
     sl_int count, workers;
     sl_off blocks;         /* of up to 8 right-hand sides */
@@ -16,6 +16,10 @@ typedef struct sli_batch {
     unsigned char *memory; /* then `bytes` a worker */
     size_t bytes;
 } sli_batch;
+
+SLI_INLINE const sl_factor *sli_request_factor(const sli_batch *b, const sl_request *r) {
+    return r->factor != NULL ? r->factor : b->F;
+}
 
 static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
     return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
@@ -47,7 +51,8 @@ static void sli_batch_share(void *data, sl_int k) {
     sl_int m;
     for (m = 0; m < b->count && before < to; m++) {
         const sl_request *r = &b->requests[m];
-        const sli_query q = sli_request_query(b->F, r);
+        const sl_factor *F = sli_request_factor(b, r);
+        const sli_query q = sli_request_query(F, r);
         const double weight = sli_query_weight(&q);
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
@@ -56,7 +61,7 @@ static void sli_batch_share(void *data, sl_int k) {
             const sli_layout layout = sli_request_layout(r);
             const sli_dense x_at = sli_dense_of(layout, r->ldx),
                             b_at = sli_dense_of(layout, r->ldb);
-            sli_sweep(b->F, &q, r->X + (size_t)first * x_at.column, x_at,
+            sli_sweep(F, &q, r->X + (size_t)first * x_at.column, x_at,
                       q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
                       memory);
         }
@@ -68,14 +73,20 @@ static void sli_batch_share(void *data, sl_int k) {
 static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     for (*at = 0; *at < b->count; ++*at) {
         const sl_request *r = &b->requests[*at];
-        const sli_query q = sli_request_query(b->F, r);
+        const sl_factor *F = sli_request_factor(b, r);
+        sli_query q;
         size_t bytes;
-        const sl_status status =
+        sl_status status;
+        if (F == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        q = sli_request_query(F, r);
+        status =
             sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, sli_request_layout(r), r->nrhs);
         if (status != SL_OK) {
             return status;
         }
-        if (!sli_query_fits(&q, b->F)) {
+        if (!sli_query_fits(&q, F)) {
             return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
@@ -90,18 +101,30 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     return SL_OK;
 }
 
-/* Scratch for every worker: in the caller's workspaces, or in one block to be freed. */
-static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
-    sli_block block = {NULL, 0, 0};
-    sl_status status = SL_OK;
+/* Refuses workspaces that are not there, or given twice. */
+static sl_status sli_works_check(sl_work *const *works, sl_int workers) {
     sl_int k, other;
+    for (k = 0; k < workers; k++) {
+        if (works[k] == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+        for (other = 0; other < k; other++) {
+            if (works[k] == works[other]) {
+                return SL_ERR_ARGUMENT;
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* Scratch for every worker: in the caller's workspaces, or in one block of a's to be freed. */
+static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works, const sl_allocator *a) {
+    sli_block block = {NULL, 0, 0};
+    sl_status status = works == NULL ? SL_OK : sli_works_check(works, b->workers);
+    sl_int k;
     int pass;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
-        for (other = 0; other < k; other++) {
-            status = works[k] == works[other] ? SL_ERR_ARGUMENT : status;
-        }
-        status = works[k] == NULL ? SL_ERR_ARGUMENT : status;
-        status = status == SL_OK ? sli_work_grow(works[k], b->bytes) : status;
+        status = sli_work_grow(works[k], b->bytes);
     }
     b->works = works;
     b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
@@ -110,7 +133,7 @@ static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works) {
             unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
             b->memory = k == 0 ? memory : b->memory;
         }
-        status = pass == 0 ? sli_block_alloc(&block, &b->F->allocator) : SL_OK;
+        status = pass == 0 ? sli_block_alloc(&block, a) : SL_OK;
     }
     return status;
 }
@@ -127,10 +150,10 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     if (failed != NULL) {
         *failed = -1;
     }
-    if (F == NULL || count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
+    if (count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (F != NULL && !F->is_good) {
         return SL_ERR_STATE;
     }
     b.F = F;
@@ -143,12 +166,13 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
         *failed = at;
     }
     if (status == SL_OK && b.blocks > 0) {
-        status = sli_batch_reserve(&b, works);
+        const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
+        status = sli_batch_reserve(&b, works, a);
         if (status == SL_OK) {
             sli_parallel(threads, b.workers, sli_batch_share, &b);
         }
         if (works == NULL) {
-            sli_free(&F->allocator, b.memory);
+            sli_free(a, b.memory);
         }
     }
     return status;

@@ -6,6 +6,7 @@
 #include "csc.h"
 #include "graph.h"
 #include "leftlooking.h"
+#include "mapping.h"
 #include "multifrontal.h"
 #include "select.h"
 #include "uplooking.h"
@@ -22,8 +23,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->magnitude = SLI_TAKE(b, double, workers *rows);
         F->inverse = SLI_TAKE(b, double, workers *SLI_FRONT_INVERSE);
         F->failures = SLI_TAKE(b, sli_failure, workers);
-        F->local = SLI_TAKE(b, sl_int, n);
-        F->places = SLI_TAKE(b, sl_int, S->tallest);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
     } else {
         F->buffer = SLI_TAKE(b, double, sli_scratch_size(S->tallest, 0, 1));
@@ -89,6 +88,24 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->bytes_factor = from->bytes_factor;
 }
 
+/* What is not finite: an entry, where it stands in A or in the lower triangle of a sum, or a coefficient. */
+static void sli_factor_tell_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+    const sl_symbolic *S = F->S;
+    sl_int row = -1, column = -1;
+    if (f->position < 0) { /* a coefficient: it has no place */
+    } else if (A != NULL) {
+        const sl_int p = S->map_from[f->position];
+        row = A->i[p];
+        column = sli_column_of(A, p);
+    } else {
+        sl_int k, j, tile = sli_last_tile(S, f->super);
+        sli_map_pivots(S, f->super, f->position, &tile, &k, &j);
+        row = sli_max(S->perm[k], S->perm[j]);
+        column = sli_min(S->perm[k], S->perm[j]);
+    }
+    sli_fail_at(&F->stats, f->status, row, column, f->value);
+}
+
 /* Pivots in numbers, and a failure in the caller's rows. */
 static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int good = F->S->n; /* pivots before the failure */
@@ -97,11 +114,17 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
     } else if (f->status != SL_OK) {
         good = F->S->super_first[f->super];
-        sli_fail_at(&F->stats, f->status, A->i[f->position], sli_column_of(A, f->position),
-                    f->value);
+        sli_factor_tell_entry(F, A, f);
     }
     sli_count_pivots(F, good);
     F->stats.null += f->status == SL_ERR_PIVOT;
+}
+
+static void sli_factor_stats_tell(const sl_factor *F, sl_stats *stats) {
+    sli_factor_stats_copy(&F->stats, stats);
+    stats->error_row = F->stats.error_row;
+    stats->error_column = F->stats.error_column;
+    stats->error_value = F->stats.error_value;
 }
 
 /* What a factorization came to, for the caller and for F itself. */
@@ -111,13 +134,35 @@ static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failur
     sli_factor_tell(F, A, failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
+    F->status = failure->status;
     if (stats != NULL) {
-        sli_factor_stats_copy(&F->stats, stats);
-        stats->error_row = F->stats.error_row;
-        stats->error_column = F->stats.error_column;
-        stats->error_value = F->stats.error_value;
+        sli_factor_stats_tell(F, stats);
     }
     return failure->status;
+}
+
+/* The numbers of a matrix that fits the analysis. */
+static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
+                                    sl_stats *stats) {
+    sli_failure failure;
+    sl_int t;
+    memset(&failure, 0, sizeof failure);
+    for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
+        if (!sli_is_finite(from->coefficients[t])) {
+            (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
+        }
+    }
+    if (failure.status == SL_OK) {
+        (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
+                                                 : sli_uplooking(F, from, &failure));
+    }
+    return sli_factor_done(F, from->A, &failure, started, stats);
+}
+
+static sli_source sli_source_matrix(const sl_csc *A) {
+    sli_source from = {NULL, NULL, NULL, 0};
+    from.A = A;
+    return from;
 }
 
 /* Before the numbers change: whatever was made of them is out of date, even if this fails. */
@@ -128,7 +173,7 @@ static void sli_factor_begin(sl_factor *F) {
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
     const double started = sli_seconds();
-    sli_failure failure;
+    const sli_source from = sli_source_matrix(A);
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL) {
@@ -136,13 +181,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     }
     sli_factor_begin(F);
     status = sli_factor_check(F->S, A);
-    if (status != SL_OK) {
-        return status;
-    }
-    memset(&failure, 0, sizeof failure);
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, A, &failure)
-                                             : sli_uplooking(F, A, &failure));
-    return sli_factor_done(F, A, &failure, started, stats);
+    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
 }
 
 /* The columns of L in which the entries of some columns of A stand, sorted. Returns how many. */
@@ -167,6 +206,8 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
+    const sli_source from = sli_source_matrix(A);
+    sli_pulling pulling;
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sli_failure failure;
@@ -196,6 +237,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
+        sli_pulling_layout(&pulling, &b, F->S);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
@@ -204,7 +246,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     memset(&failure, 0, sizeof failure);
     sli_factor_begin(F);
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    (void)sli_left_looking_all(F, A, seeds, count, &failure);
+    (void)sli_left_looking_all(F, &pulling, &from, seeds, count, &failure);
     sli_free(&F->allocator, b.base);
     return sli_factor_done(F, A, &failure, started, stats);
 }
@@ -232,27 +274,20 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     return S->stats.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING : SL_METHOD_SUPERNODAL;
 }
 
-SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
-                                  const sl_options *opt, sl_stats *stats) {
+/* Are the wishes for a factor such as can be followed? */
+static int sli_factor_wishes_are_sound(const sl_options *opt) {
+    return sli_allocator_is_whole(opt) && sli_way_is_known(opt) &&
+           (opt == NULL || opt->null_tolerance == opt->null_tolerance);
+}
+
+/* A factor with its memory and its schedule, without numbers. */
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
-    sl_status status;
+    sl_status status = SL_OK;
     int pass;
-    sli_stats_clear_error(stats);
-    if (out == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *out = NULL;
-    if (S == NULL || (opt != NULL && opt->null_tolerance != opt->null_tolerance) ||
-        !sli_allocator_is_whole(opt) || !sli_way_is_known(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_check(S, A);
-    if (status != SL_OK) {
-        return status;
-    }
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
@@ -284,15 +319,45 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         }
         F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
-            status = sl_factor_refactor(F, A, stats);
-        }
-        if (status == SL_OK) {
             *out = F;
         } else {
             sl_factor_free(F);
         }
     }
     return status;
+}
+
+/* A factor of a matrix that fits the analysis. *out is NULL on entry. */
+static sl_status sli_factor_make(sl_factor **out, const sl_symbolic *S, const sli_source *from,
+                                 const sl_options *opt, sl_stats *stats) {
+    sl_factor *F = NULL;
+    sl_status status = sli_factor_new(&F, S, opt);
+    if (status == SL_OK) {
+        sli_factor_begin(F);
+        status = sli_factor_numbers(F, from, sli_seconds(), stats);
+    }
+    if (status == SL_OK) {
+        *out = F;
+    } else {
+        sl_factor_free(F);
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_options *opt, sl_stats *stats) {
+    const sli_source from = sli_source_matrix(A);
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_factor_check(S, A);
+    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {

@@ -7,12 +7,22 @@
 #include "select.h"
 #include "status.h"
 
+/* Where a factorization takes the entries of its matrix from: A, or a sum of arrays in the order of the
+ * analysis's map. */
+typedef struct sli_source {
+    const sl_csc *A;             /* NULL: the sum over t of coefficients[t] values[t] */
+    const double *const *values; /* terms arrays of map_begin[n_supers] */
+    const double *coefficients;  /* terms */
+    sl_int terms;
+} sli_source;
+
 /* The first thing that went wrong in a factorization. */
 typedef struct sli_failure {
     sl_status status;
-    sl_int super;    /* the supernode it happened in */
-    sl_int pivot;    /* the pivot that is null or not finite, or -1 */
-    sl_int position; /* the entry of A that is not finite, or -1 */
+    sl_int super; /* the supernode it happened in */
+    sl_int pivot; /* the pivot that is null or not finite, or -1 */
+    sl_off
+        position; /* the entry that is not finite, in the order of the map, or -1: a coefficient */
     double value;
 } sli_failure;
 
@@ -25,6 +35,7 @@ struct sl_factor {
     sl_definiteness definiteness;
     sl_method method;
     int is_good;         /* L and D hold a factor */
+    sl_status status;    /* what the last factorization came to */
     uint64_t generation; /* of the numbers: how often they were begun anew */
     double *L;           /* the panels */
     double *D;           /* n pivots */
@@ -36,9 +47,6 @@ struct sl_factor {
     double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
     double *inverse;       /* SLI_FRONT_INVERSE */
     sli_failure *failures; /* one */
-    /* left-looking */
-    sl_int *local;  /* n: local rows in the supernode at hand */
-    sl_int *places; /* rows of the tallest front: those of a descendant in it */
     /* up-looking */
     double *x;        /* n: updates on their way up row k; all 0 between rows */
     sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
@@ -50,7 +58,7 @@ struct sl_factor {
 
 /* Fills a failure in and returns its status. */
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
-                              sl_int position, double value) {
+                              sl_off position, double value) {
     f->status = status;
     f->super = super;
     f->pivot = pivot;
@@ -79,19 +87,55 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Adds A's entries to supernode s's panel. */
-static sl_status sli_panel_add(const sl_factor *F, const sl_csc *A, sl_int s,
-                               sli_failure *failure) {
-    const sl_symbolic *S = F->S;
+/* Adds the entries first .. last-1 of the map to supernode s's panel: each from its own place in x, or,
+ * with map_from NULL, x holds them alone. */
+SLI_ALWAYS_INLINE sl_status sli_panel_add_entries(const sl_factor *F, sl_int s, sl_off first,
+                                                  sl_off last, const double *x,
+                                                  const sl_int *map_from, sli_failure *failure) {
+    const sl_off *to = F->S->map_to;
     sl_off m;
-    for (m = S->map_begin[s]; m < S->map_begin[s + 1]; m++) {
-        const double a = A->x[S->map_from[m]];
+    for (m = first; m < last; m++) {
+        const double a = map_from != NULL ? x[map_from[m]] : x[m - first];
         if (!sli_is_finite(a)) {
-            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, S->map_from[m], a);
+            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
-        F->L[S->map_to[m]] += a;
+        F->L[to[m]] += a;
     }
     return SL_OK;
+}
+
+#define SLI_SUMMED 64 /* entries that are summed at a time: most supernodes have no more */
+
+/* sums := the entries of the map from first on */
+static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
+    sl_int k, t;
+    memset(sums, 0, (size_t)count * sizeof(double));
+    for (t = 0; t < from->terms; t++) {
+        const double c = from->coefficients[t], *v = from->values[t] + first;
+        for (k = 0; k < count; k++) {
+            const double product = c * v[k]; /* rounded, as in a sum that the caller makes */
+            sums[k] += product;
+        }
+    }
+}
+
+/* Adds the matrix's entries to supernode s's panel. */
+static sl_status sli_panel_add(const sl_factor *F, const sli_source *from, sl_int s,
+                               sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sl_off end = S->map_begin[s + 1];
+    sl_off m = S->map_begin[s], last;
+    double sums[SLI_SUMMED];
+    sl_status status = SL_OK;
+    if (from->A != NULL) {
+        return sli_panel_add_entries(F, s, m, end, from->A->x, S->map_from, failure);
+    }
+    for (; m < end && status == SL_OK; m = last) {
+        last = end - m < SLI_SUMMED ? end : m + SLI_SUMMED;
+        sli_source_sum(from, m, (sl_int)(last - m), sums);
+        status = sli_panel_add_entries(F, s, m, last, sums, NULL, failure);
+    }
+    return status;
 }
 
 /* Refuses a pivot that is not a number or null against what it was made of. */

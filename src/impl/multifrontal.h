@@ -8,7 +8,7 @@
  * above them in which each takes some row tiles. */
 typedef struct sli_job {
     sl_factor *F;
-    const sl_csc *A;
+    const sli_source *from;
     sl_int super, group; /* the front, and its group of column tiles */
     sli_front front;
 } sli_job;
@@ -44,10 +44,10 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
     }
 }
 
-/* A's entries onto the cleared panel, and what its diagonal is made of so far. */
-static sl_status sli_front_load(sl_factor *F, const sl_csc *A, const sli_front *f, sl_int s,
+/* The matrix's entries onto the cleared panel, and what its diagonal is made of so far. */
+static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                                 sli_failure *failure) {
-    const sl_status status = sli_panel_add(F, A, s, failure);
+    const sl_status status = sli_panel_add(F, from, s, failure);
     sl_int k;
     for (k = 0; k < f->width; k++) {
         f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
@@ -119,14 +119,14 @@ static void sli_front_update(const sli_kernels *kernels, const sli_front *f, dou
 }
 
 /* The whole of supernode s's front by one worker. */
-static sl_status sli_front_alone(sl_factor *F, const sl_csc *A, sl_int s, sl_int worker,
+static sl_status sli_front_alone(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                                  sli_failure *failure) {
     const sli_front f = sli_front_of(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
     sli_front_clear(&f, 0, tiles);
-    status = sli_front_load(F, A, &f, s, failure);
+    status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -149,7 +149,7 @@ static void sli_do_tasks(void *data, sl_int k) {
             continue;
         }
         for (s = plan->first[m]; s <= plan->last[m] && status == SL_OK; s++) {
-            status = sli_front_alone(job->F, job->A, s, k, &failure);
+            status = sli_front_alone(job->F, job->from, s, k, &failure);
             if (status != SL_OK) {
                 sli_keep_first_failure(&job->F->failures[k], &failure);
             }
@@ -199,7 +199,7 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     sl_status status;
     job->front = sli_front_of(F, job->super, 0);
     sli_parallel(threads, workers, sli_shared_clear, job);
-    status = sli_front_load(F, job->A, &job->front, job->super, failure);
+    status = sli_front_load(F, job->from, &job->front, job->super, failure);
     if (status != SL_OK) {
         return status;
     }
@@ -215,14 +215,14 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     return sli_front_check(F, &job->front, job->super, failure);
 }
 
-/* The whole factorization. A fits the analysis. [DR83], [Liu92] */
-static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+/* The whole factorization. The matrix fits the analysis. [DR83], [Liu92] */
+static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sli_schedule *plan = &F->schedule;
     sli_job job;
     sl_int m, k;
     memset(&job, 0, sizeof job);
     job.F = F;
-    job.A = A;
+    job.from = from;
     for (k = 0; k < plan->workers; k++) {
         F->failures[k].status = SL_OK;
     }
@@ -240,7 +240,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sl_csc *A, sli_failure *fa
         if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
             (void)sli_front_shared(&job, &here);
         } else {
-            (void)sli_front_alone(F, A, job.super, 0, &here);
+            (void)sli_front_alone(F, from, job.super, 0, &here);
         }
         sli_keep_first_failure(failure, &here);
     }

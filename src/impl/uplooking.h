@@ -44,8 +44,8 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
     }
 }
 
-/* The whole factorization. A fits the analysis. [LDL05], [Davis06] 4.7 */
-static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failure) {
+/* The whole factorization. The matrix fits the analysis. [LDL05], [Davis06] 4.7 */
+static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k;
@@ -59,7 +59,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_add(F, A, s, failure);
+            status = sli_panel_add(F, from, s, failure);
             if (status != SL_OK) {
                 break;
             }

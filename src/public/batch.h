@@ -1,4 +1,4 @@
-/* batch.h: many independent solves with one factor, spread over threads by one call */
+/* batch.h: many independent solves, with one factor or with several, spread over threads by one call */
 #ifndef SL_PUBLIC_BATCH_H
 #define SL_PUBLIC_BATCH_H
 
@@ -14,11 +14,16 @@ typedef struct sl_request {
     int is_interleaved; /* 0: X and B column-major; else row-major, as in the calls named interleaved */
     sl_int
         nrhs; /* 0 or more; many right-hand sides are shared out in blocks of 8, like many requests */
+    const sl_factor *factor; /* NULL: that of the call */
 } sl_request;
 
-/** Answers requests with one factor: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
+/** Answers requests: the bits that sl_plan_solve and sl_factor_solve give, for any number of threads.
  *
- *  F         [in]      the factor; every plan belongs to its analysis.
+ *  One plan on m factors of one analysis is m requests with that plan, each with its own factor and X, and with one B or
+ *  each its own.
+ *
+ *  F         [in]      the factor of the requests that name none; NULL where all do. A plan belongs to the analysis of its
+ *                      factor.
  *  requests  [in]      count of them; each X may be its own B (then ldx = ldb), and overlaps nothing else of the batch.
  *  threads   [in]      how many and whose; NULL: the calling thread alone.
  *  works     [in,out]  a workspace for each thread, threads->count of them (1 where that is 0), or NULL: allocated for

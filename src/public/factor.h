@@ -52,8 +52,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  A        [in]      the pattern that was analysed, the new values.
  *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
- *  Cost     the update matrices of all descendants of the supernodes reached; 16 bytes an entry of the columns while
- *           it runs.
+ *  Cost     the update matrices of all descendants of the supernodes reached; while it runs 16 bytes an entry of the
+ *           columns, 4 a row of A, of which it touches those reached, and 4 a row of the tallest supernode.
  *  Threads  nobody else may use F meanwhile.
  *  Source   left-looking supernodes [NP93] over the reach of the changes.
  *  Example  tests/test_changed.c

@@ -1,0 +1,124 @@
+/* csc_products.h: what is computed with a matrix in compressed columns: products, norms, residuals */
+#ifndef SLI_CSC_PRODUCTS_H
+#define SLI_CSC_PRODUCTS_H
+
+#include "csc.h"
+
+/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a
+ * diagonal matrix. */
+static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
+                            const double *x) {
+    sl_int j, p;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            const sl_int i = A->i[p];
+            if (sli_is_read(triangle, i, j)) {
+                y[i] += sign * A->x[p] * x[j];
+                if (triangle != SL_TRIANGLE_NONE && i != j) {
+                    y[j] += sign * A->x[p] * x[i];
+                }
+            }
+        }
+    }
+}
+
+SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
+                                 const double *X, size_t ldx, sl_int nrhs) {
+    sl_triangle triangle;
+    sl_int r;
+    if (A == NULL || nrhs < 0 || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
+        (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (nrhs == 0 || A->n_rows == 0) {
+        return SL_OK;
+    }
+    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols ||
+        (A->n_cols > 0 && X == NULL) || (sli_nnz(A) > 0 && A->x == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
+    for (r = 0; r < nrhs; r++) {
+        memset(Y + (size_t)r * ldy, 0, (size_t)A->n_rows * sizeof(double));
+        sli_add_product(A, triangle, 1.0, Y + (size_t)r * ldy, X + (size_t)r * ldx);
+    }
+    return SL_OK;
+}
+
+/* The largest magnitude among n numbers, NaN if one is: fmax would pass over it. */
+static double sli_largest(const double *x, sl_int n) {
+    double largest = 0.0;
+    sl_int i;
+    for (i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
+        largest = size <= largest || largest != largest ? largest : size;
+    }
+    return largest;
+}
+
+/* The largest row sum of |A|, A symmetric, NaN if A has one; sums: n numbers of scratch. */
+static double sli_csc_norm(const sl_csc *A, double *sums) {
+    const sl_triangle triangle = sli_triangle_scan(A);
+    sl_int j, p;
+    memset(sums, 0, (size_t)A->n_cols * sizeof(double));
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (sli_is_read(triangle, A->i[p], j)) {
+                sums[j] += fabs(A->x[p]);
+                sums[A->i[p]] += A->i[p] != j ? fabs(A->x[p]) : 0.0;
+            }
+        }
+    }
+    return sli_largest(sums, A->n_cols);
+}
+
+/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0
+ * that the quotient would be. */
+static double sli_backward_error(double r, double a, double x, double b) {
+    const double size = a * x + b;
+    return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
+}
+
+SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double *backward_error,
+                                 const double *X, size_t ldx, const double *B, size_t ldb,
+                                 sl_int nrhs) {
+    double norm = 0.0;
+    sl_int r, n;
+    size_t rows;
+    sl_triangle triangle;
+    if (A == NULL || A->n_rows != A->n_cols || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    n = A->n_cols;
+    rows = (size_t)n;
+    if (nrhs == 0 || n == 0) {
+        for (r = 0; r < nrhs && backward_error != NULL; r++) {
+            backward_error[r] = 0.0;
+        }
+        return SL_OK;
+    }
+    if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
+        (sli_nnz(A) > 0 && A->x == NULL) || R == X ||
+        (R == B && (backward_error != NULL || ldr != ldb))) {
+        return SL_ERR_ARGUMENT;
+    }
+    triangle = sli_triangle_scan(A);
+    if (backward_error != NULL) {
+        norm = sli_csc_norm(A, R);
+    }
+    for (r = 0; r < nrhs; r++) {
+        const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;
+        double *res = R + (size_t)r * ldr;
+        if (res != b) {
+            memcpy(res, b, rows * sizeof(double));
+        }
+        sli_add_product(A, triangle, -1.0, res, x);
+        if (backward_error != NULL) {
+            backward_error[r] =
+                sli_backward_error(sli_largest(res, n), norm, sli_largest(x, n), sli_largest(b, n));
+        }
+    }
+    return SL_OK;
+}
+
+#endif

@@ -1,0 +1,34 @@
+/* family.h: what the tests of several factors share: values of t, threads, release */
+#ifndef SL_TEST_FAMILY_H
+#define SL_TEST_FAMILY_H
+
+#include "parallel_for.h"
+#include "several.h"
+
+enum { MOST = 8 };
+
+/* 1 and t, t from small to large. */
+static inline void coefficients_of(double *c, int count, double first) {
+    for (int k = 0; k < count; k++) {
+        c[TERMS * k] = 1;
+        c[TERMS * k + 1] = ldexp(first, k);
+    }
+}
+
+static inline sl_threads threads_of(int count, int *calls) {
+    sl_threads threads = {count, count % 2 ? run_threads : run_backwards, calls};
+    return threads;
+}
+
+static inline void free_all(sl_factor **F, int count) {
+    for (int k = 0; k < count; k++) {
+        sl_factor_free(F[k]);
+        F[k] = NULL;
+    }
+}
+
+static inline const sl_factor *const *read_only(sl_factor *const *F) {
+    return (const sl_factor *const *)F;
+}
+
+#endif

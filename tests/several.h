@@ -1,0 +1,86 @@
+/* several.h: two matrices of different patterns, stored in any way, their union analysed, both spread over it */
+#ifndef SL_TEST_SEVERAL_H
+#define SL_TEST_SEVERAL_H
+
+#include "problem.h"
+
+enum { TERMS = 2 };
+
+typedef struct several_t {
+    sl_int n;
+    gen_matrix_t M, K; /* a diagonal with a few edges of K; one of the zoo */
+    sl_csc terms[TERMS];
+    sl_matrix *U; /* their union */
+    sl_symbolic *S;
+    double *values[TERMS];
+} several_t;
+
+/* A diagonal of the signs of K's, so that sums with positive coefficients stay as definite as K, and every third edge
+ * of K, too small to matter for that. */
+static inline gen_list_t several_mass(const gen_list_t *K, uint64_t seed) {
+    gen_list_t t = gen_list(K->n);
+    for (size_t k = 0; k < K->count; k++) {
+        if (K->row[k] == K->col[k]) {
+            gen_add(&t, K->row[k], K->row[k], copysign(1.0 + fabs(gen_real(&seed)), K->x[k]));
+        } else if (k % 3 == 0) {
+            gen_add(&t, K->row[k], K->col[k], K->x[k] / 64);
+        }
+    }
+    return t;
+}
+
+static inline several_t several_make(gen_kind_t kind, sl_int size, int style_m, int style_k,
+                                     const sl_options *opt) {
+    gen_list_t k = gen_make(kind, size, 1, 42), m = several_mass(&k, 7);
+    several_t y;
+    memset(&y, 0, sizeof y);
+    y.n = k.n;
+    y.M = gen_store(&m, gen_style(style_m), 1);
+    y.K = gen_store(&k, gen_style(style_k), 2);
+    y.terms[0] = y.M.view;
+    y.terms[1] = y.K.view;
+    SL_CHECK(sl_matrix_sum(&y.U, NULL, y.terms, TERMS, NULL, NULL));
+    sl_csc U = sl_matrix_view(y.U);
+    assert_null(U.x);
+    SL_CHECK(sl_symbolic_create(&y.S, &U, opt, NULL));
+    for (int t = 0; t < TERMS; t++) {
+        y.values[t] = test_reals((size_t)sl_symbolic_entries(y.S));
+        SL_CHECK(sl_symbolic_spread(y.S, y.values[t], &y.terms[t], NULL));
+    }
+    gen_list_free(&k);
+    gen_list_free(&m);
+    return y;
+}
+
+static inline void several_free(several_t *y) {
+    gen_matrix_free(&y->M);
+    gen_matrix_free(&y->K);
+    sl_matrix_free(y->U);
+    sl_symbolic_free(y->S);
+    for (int t = 0; t < TERMS; t++) {
+        free(y->values[t]);
+    }
+}
+
+/* c[0] M + c[1] K as a matrix of the analysed pattern, to be released. */
+static inline sl_matrix *several_sum(const several_t *y, const double *c) {
+    sl_matrix *A = NULL;
+    SL_CHECK(sl_matrix_sum(&A, c, y->terms, TERMS, NULL, NULL));
+    return A;
+}
+
+static inline const double *const *several_values(const several_t *y) {
+    return (const double *const *)y->values;
+}
+
+/* The factor of that sum by the plain way. */
+static inline sl_factor *several_plain(const several_t *y, const double *c, const sl_options *opt) {
+    sl_matrix *A = several_sum(y, c);
+    sl_csc view = sl_matrix_view(A);
+    sl_factor *F = NULL;
+    SL_CHECK(sl_factor_create(&F, y->S, &view, opt, NULL));
+    sl_matrix_free(A);
+    return F;
+}
+
+#endif
