@@ -16,7 +16,8 @@ typedef enum sl_status {
     SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
     SL_ERR_IO,       /* a file could not be opened, read, parsed or written; stats name the line */
     SL_ERR_ORDERING, /* the ordering library failed */
-    SL_ERR_STATE     /* a failed factor, or objects that do not belong together */
+    SL_ERR_STATE,    /* a failed factor, or objects that do not belong together */
+    SL_ERR_INCONSISTENT /* a singular system whose right-hand side has no solution */
 } sl_status;
 
 /** A name for a status, in words, static storage. Any value is accepted. */
@@ -122,6 +123,19 @@ typedef struct sl_options {
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
+
+    /* SL_SEMIDEFINITE: which of many solutions is meant, and when there is none; sl_factor_create */
+    const double *mass; /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and
+                           b is made consistent by a multiple of m; NULL: x is 0 in the null rows */
+    double consistency_tolerance; /* without mass a solve refuses b where |z' b| > consistency_tolerance *
+                                     (sum of |b|) for a null vector z, 1 in the null row; 0: 1e-6, which
+                                     lets pass what single precision loses; negative: nothing is refused */
+
+    /* signed regularization, for SL_DEFINITE; sl_factor_create */
+    double regularization; /* a null pivot, or one of the wrong sign, becomes sign * regularization *
+                              (the sum of the magnitudes that made it, 1 where that is 0); 0: none */
+    const sl_int *signs;   /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do;
+                              copied; NULL: all 1 */
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -161,6 +175,7 @@ typedef struct sl_stats {
     double seconds_setup; /* processor seconds in the schedule and the memory of sl_factor_create */
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
+    sl_int regularized; /* pivots that regularization changed; they count by their new sign */
 
     /* sl_plan_create, sl_local_solve; sl_inverse_*, which have no backward sweep */
     sl_int b_supernodes; /* visited by the forward sweep */
@@ -177,6 +192,10 @@ typedef struct sl_stats {
     sl_off z_entries;        /* doubles kept for them */
     double seconds_selected; /* processor seconds, those of all threads summed up */
     size_t bytes_selected;
+
+    /* sl_factor_refine, sl_plan_solve_refined */
+    sl_int refine_steps;   /* corrections that were taken, the most of all right-hand sides */
+    double backward_error; /* what is left, the largest of all right-hand sides */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
