@@ -1,86 +1,86 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 87102849b7cb4942
+ * FNV-1a of all that follows this comment, license aside: 77e60c5ffcf7853b
  *
  * Contents
  *         (what a user reads)
  *     88  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    141  public/config.h            what a user may set before including the header, the version, and the integer types
  *    190  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    398  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    518  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    580  public/factor.h            the numbers: P A P' = L D L'
- *    711  public/solve.h             full solves, and the workspace that every solve writes to
- *    780  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    866  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
- *    958  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *   1037  public/batch.h             many independent solves with one factor, spread over threads by one call
- *   1074  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    399  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    519  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    581  public/factor.h            the numbers: P A P' = L D L'
+ *    712  public/solve.h             full solves, and the workspace that every solve writes to
+ *    781  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    867  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *    959  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *   1038  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *   1075  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1181  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1272  impl/status.h              status codes in words, and the error fields of stats
- *   1330  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1455  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1530  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1567  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1182  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1273  impl/status.h              status codes in words, and the error fields of stats
+ *   1331  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1456  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1531  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1568  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1601  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1896  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2034  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2064  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3235  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3281  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3418  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3633  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3899  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4061  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4333  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4384  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4529  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5342  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6621  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8794  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11024  impl/select.h              the kernel table for an instruction set
+ *   1602  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1900  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2038  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2068  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3239  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3285  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3422  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3637  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3903  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4065  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4337  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4388  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4533  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5346  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6625  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8798  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11028  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11057  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11485  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11558  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11061  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11489  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11562  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11912  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11951  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12098  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12212  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12356  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12441  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12514  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12680  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12756  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12797  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12990  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13276  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11916  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11955  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12102  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12216  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12360  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12445  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12518  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12684  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12760  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12801  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12994  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13280  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13509  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13658  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13742  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14000  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14087  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  14292  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14634  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14773  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14833  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15129  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15171  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13513  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13662  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13746  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14004  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14091  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  14296  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14638  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14777  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14837  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15133  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15175  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15470  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15710  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16029  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16256  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  16432  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  16632  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  16810  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16998  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15474  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15714  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16033  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16260  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  16436  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  16636  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  16814  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17002  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17442  impl/leave.h               takes every internal macro away again
+ *  17446  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -320,8 +320,9 @@ typedef struct sl_options {
                                      lets pass what single precision loses; negative: nothing is refused */
 
     /* signed regularization, for SL_DEFINITE; sl_factor_create */
-    double regularization; /* a null pivot, or one of the wrong sign, becomes sign * regularization *
-                              (the sum of the magnitudes that made it, 1 where that is 0); 0: none */
+    double regularization; /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|,
+                              regularization * the sum of the magnitudes that made it, 1 where that is 0);
+                              1e-8 suits refinement; 0: none */
     const sl_int *signs;   /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do;
                               copied; NULL: all 1 */
 } sl_options;
@@ -1780,10 +1781,12 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
 }
 
 /* Applies a rule that replaces to the pivot of column k; returns whether it did. A regularized pivot has
- * the size of what it was made of, times a factor: a scaling of A changes nothing. */
+ * the size of what it was made of, times a factor: a scaling of A changes nothing. One whose wrong sign is
+ * no rounding error is only turned: made small it would let L grow beyond all bounds. */
 SLI_INLINE int sli_pivot_replaced(const sli_pivot_rule *rule, sl_int k, double *pivot,
                                   double magnitude) {
     const double d = *pivot;
+    double least;
     const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
     int sign = rule->signs == NULL ? 1 : rule->signs[k];
     if (rule->regularization == 0.0) {
@@ -1795,7 +1798,8 @@ SLI_INLINE int sli_pivot_replaced(const sli_pivot_rule *rule, sl_int k, double *
         return 0;
     }
     sign = sign != 0 ? sign : d < 0.0 ? -1 : 1;
-    *pivot = sign * rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
+    least = rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
+    *pivot = sign * (fabs(d) > least ? fabs(d) : least);
     rule->shifts[k] = *pivot - d;
     return 1;
 }

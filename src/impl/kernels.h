@@ -182,10 +182,12 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
 }
 
 /* Applies a rule that replaces to the pivot of column k; returns whether it did. A regularized pivot has
- * the size of what it was made of, times a factor: a scaling of A changes nothing. */
+ * the size of what it was made of, times a factor: a scaling of A changes nothing. One whose wrong sign is
+ * no rounding error is only turned: made small it would let L grow beyond all bounds. */
 SLI_INLINE int sli_pivot_replaced(const sli_pivot_rule *rule, sl_int k, double *pivot,
                                   double magnitude) {
     const double d = *pivot;
+    double least;
     const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
     int sign = rule->signs == NULL ? 1 : rule->signs[k];
     if (rule->regularization == 0.0) {
@@ -197,7 +199,8 @@ SLI_INLINE int sli_pivot_replaced(const sli_pivot_rule *rule, sl_int k, double *
         return 0;
     }
     sign = sign != 0 ? sign : d < 0.0 ? -1 : 1;
-    *pivot = sign * rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
+    least = rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
+    *pivot = sign * (fabs(d) > least ? fabs(d) : least);
     rule->shifts[k] = *pivot - d;
     return 1;
 }

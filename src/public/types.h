@@ -132,8 +132,9 @@ typedef struct sl_options {
                                      lets pass what single precision loses; negative: nothing is refused */
 
     /* signed regularization, for SL_DEFINITE; sl_factor_create */
-    double regularization; /* a null pivot, or one of the wrong sign, becomes sign * regularization *
-                              (the sum of the magnitudes that made it, 1 where that is 0); 0: none */
+    double regularization; /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|,
+                              regularization * the sum of the magnitudes that made it, 1 where that is 0);
+                              1e-8 suits refinement; 0: none */
     const sl_int *signs;   /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do;
                               copied; NULL: all 1 */
 } sl_options;
