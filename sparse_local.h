@@ -1,86 +1,86 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 77e60c5ffcf7853b
+ * FNV-1a of all that follows this comment, license aside: 8f4637a3cb587bb7
  *
  * Contents
  *         (what a user reads)
  *     88  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    141  public/config.h            what a user may set before including the header, the version, and the integer types
  *    190  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    399  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    519  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    581  public/factor.h            the numbers: P A P' = L D L'
- *    712  public/solve.h             full solves, and the workspace that every solve writes to
- *    781  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    867  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
- *    959  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *   1038  public/batch.h             many independent solves with one factor, spread over threads by one call
- *   1075  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    402  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    522  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    584  public/factor.h            the numbers: P A P' = L D L'
+ *    718  public/solve.h             full solves, and the workspace that every solve writes to
+ *    788  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    875  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *    967  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *   1046  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *   1085  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1182  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1273  impl/status.h              status codes in words, and the error fields of stats
- *   1331  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1456  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1531  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1568  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1192  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1283  impl/status.h              status codes in words, and the error fields of stats
+ *   1341  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1466  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1541  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1578  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1602  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1900  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2038  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2068  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3239  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3285  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3422  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3637  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3903  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4065  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4337  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4388  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4533  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5346  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6625  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8798  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11028  impl/select.h              the kernel table for an instruction set
+ *   1612  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1910  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2048  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2078  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3249  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3295  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3432  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3647  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3913  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4075  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4347  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4398  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4543  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5356  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6635  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8808  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11038  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11061  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11489  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11562  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11071  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11499  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11572  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11916  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11955  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12102  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12216  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12360  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12445  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12518  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12684  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12760  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12801  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12994  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13280  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11926  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11965  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12112  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12226  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12370  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12455  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12528  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12694  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12770  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12811  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13004  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13290  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13513  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13662  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13746  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14004  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14091  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  14296  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14638  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14777  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14837  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15133  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15175  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13523  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13673  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13757  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14015  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14102  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  14307  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14648  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14787  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14847  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15143  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15185  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15474  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15714  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16033  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16260  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  16436  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  16636  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  16814  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  17002  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15484  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15724  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16043  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16270  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  16447  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  16647  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  16825  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17012  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17446  impl/leave.h               takes every internal macro away again
+ *  17456  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -312,19 +312,22 @@ typedef struct sl_options {
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
 
-    /* SL_SEMIDEFINITE: which of many solutions is meant, and when there is none; sl_factor_create */
-    const double *mass; /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and
-                           b is made consistent by a multiple of m; NULL: x is 0 in the null rows */
-    double consistency_tolerance; /* without mass a solve refuses b where |z' b| > consistency_tolerance *
-                                     (sum of |b|) for a null vector z, 1 in the null row; 0: 1e-6, which
-                                     lets pass what single precision loses; negative: nothing is refused */
+    /* SL_SEMIDEFINITE, sl_factor_create: which of many solutions is meant, and when there is none */
 
-    /* signed regularization, for SL_DEFINITE; sl_factor_create */
-    double regularization; /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|,
-                              regularization * the sum of the magnitudes that made it, 1 where that is 0);
-                              1e-8 suits refinement; 0: none */
-    const sl_int *signs;   /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do;
-                              copied; NULL: all 1 */
+    /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and b is made consistent by a
+     * multiple of m; NULL: x is 0 in the null rows */
+    const double *mass;
+    /* without mass a solve refuses b where |z' b| > consistency_tolerance * (sum of |b|) for a null vector z that is
+     * 1 in its null row; 0: 1e-6, which lets pass what single precision loses; negative: nothing is refused */
+    double consistency_tolerance;
+
+    /* SL_DEFINITE, sl_factor_create: signed regularization */
+
+    /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|, regularization * the sum of the magnitudes
+     * that made it, 1 where that is 0); 1e-8 suits refinement; 0: none */
+    double regularization;
+    /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do; copied; NULL: all 1 */
+    const sl_int *signs;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -679,7 +682,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_regularized_rows(const sl_factor *F, s
                                                            double *shifts, sl_int most,
                                                            sl_int *count);
 
-/** log |det A| and the sign of det A (-1 or 1) from D, skipped null pivots left out; det of a 0 x 0 matrix is 1.
+/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+ *
+ *  Where null pivots were skipped it is the determinant of A without their rows and columns: of a Laplacian, in each
+ *  component the product of the eigenvalues that are not 0 over the number of rows.
  *
  *  Where regularization changed pivots it is that of A + E. A sum of logarithms: nothing overflows.
  *
@@ -738,7 +744,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_fact
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
 
-/** Solves A X = B.
+/** Solves A X = B. Of a singular A: the solution that sl_factor_create tells of.
  *
  *  F      [in]   factor of A, n x n.
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
@@ -746,9 +752,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of two to three alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
- *           could not.
- *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: a column of B has no solution
+ *           (SL_SEMIDEFINITE without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not.
+ *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)). Where B
+ *           has to be consistent, right-hand sides beyond the eighth are swept forward once more beforehand.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
  */
@@ -822,8 +829,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or one of another analysis; SL_ERR_INCONSISTENT: as in
+ *           sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     2 (b_entries + x_entries) flops a right-hand side; nothing O(n); no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -852,7 +859,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, cons
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: as in sl_factor_solve;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -1061,8 +1069,10 @@ typedef struct sl_request {
  *                      this call.
  *  failed    [out]     the request at fault, or -1; may be NULL. On error no X has been touched.
  *  Returns   SL_OK; SL_ERR_ARGUMENT, also for works that hold a NULL or one workspace twice; SL_ERR_STATE: failed
- *            factor, or a plan of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *            factor, or a plan of another analysis; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *            SL_ERR_MEMORY.
  *  Cost      that of the solves, shared out by the entries of L that each reads; threads times the largest workspace.
+ *            Where right-hand sides have to be consistent, all of them are swept forward once more beforehand.
  *  Threads   as sl_plan_solve.
  *  Example   tests/test_batch.c
  */
@@ -1752,7 +1762,7 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
 /* What becomes of a pivot that is null, or of the wrong sign. Its arrays go by the column of L. */
 typedef struct sli_pivot_rule {
     double null_tolerance;
-    int replaces;             /* anything at all; else null pivots are the caller's to find */
+    int replaces;          /* anything at all; else null pivots are the caller's to find */
     double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
     signed char *signs;    /* n: 1, -1, or 0 where either will do; NULL: all 1 */
     double *shifts;        /* n: what regularization added to each pivot; NULL: there is none */
@@ -13532,10 +13542,11 @@ struct sl_factor {
     sli_pivot_rule rule;
     sl_definiteness definiteness;
     sl_method method;
-    int is_good;    /* L and D hold a factor */
-    double *L;      /* the panels */
-    double *D;      /* n pivots */
-    sl_int *regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
+    int is_good; /* L and D hold a factor */
+    double *L;   /* the panels */
+    double *D;   /* n pivots */
+    sl_int *
+        regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
     /* null pivots */
     double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
     int checks;         /* there are null pivots, and solves look whether b is consistent */
@@ -14517,13 +14528,12 @@ static double sli_null_tolerance(sl_int n) {
 /* Are the method, the definiteness and the number of threads such as exist, the tolerances numbers? What is
  * null is either skipped or regularized. */
 static int sli_way_is_known(const sl_options *opt) {
-    return opt == NULL ||
-           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE && opt->threads.count >= 0 &&
-            opt->null_tolerance == opt->null_tolerance &&
-            opt->consistency_tolerance == opt->consistency_tolerance &&
-            opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
-            (opt->regularization == 0.0 || opt->definiteness == SL_DEFINITE));
+    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
+                           opt->threads.count >= 0 && opt->null_tolerance == opt->null_tolerance &&
+                           opt->consistency_tolerance == opt->consistency_tolerance &&
+                           opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
+                           (opt->regularization == 0.0 || opt->definiteness == SL_DEFINITE));
 }
 
 /* What the options say about null pivots, but for the arrays, which come later. */
@@ -16267,8 +16277,8 @@ typedef struct sli_refinement {
     const sl_factor *F;
     const sl_csc *A;
     sl_triangle triangle;
-    double *R, *T; /* n x columns: residuals, then corrections; what is tried */
-    double *size;  /* n: |A| |x| + |b| */
+    double *R, *T;         /* n x columns: residuals, then corrections; what is tried */
+    double *size;          /* n: |A| |x| + |b| */
     unsigned char *memory; /* for solves */
     double error[SLI_TILE];
     int is_done[SLI_TILE];
@@ -16352,7 +16362,8 @@ static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const dou
     const size_t n = (size_t)f->F->S->n;
     sl_int c, step, todo = 0;
     for (c = 0; c < columns; c++) {
-        f->error[c] = sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
+        f->error[c] =
+            sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
         f->is_done[c] = f->error[c] <= DBL_EPSILON;
         todo += !f->is_done[c];
     }
@@ -16443,12 +16454,12 @@ typedef struct sli_mending {
     const sl_factor *F;
     const sli_query *q;
     sl_int count, room;
-    sl_int *row;     /* room: pivots, ascending */
-    sl_int *in_y;    /* room: their places in the forward vector .. */
-    sl_int *in_x;    /* .. and in the backward vector */
-    double *last;    /* room x 8: x there one step ago, 0 at first */
-    double *now;     /* nx x 8, column-major: the last x, */
-    double *kept;    /* the best */
+    sl_int *row;           /* room: pivots, ascending */
+    sl_int *in_y;          /* room: their places in the forward vector .. */
+    sl_int *in_x;          /* .. and in the backward vector */
+    double *last;          /* room x 8: x there one step ago, 0 at first */
+    double *now;           /* nx x 8, column-major: the last x, */
+    double *kept;          /* the best */
     unsigned char *memory; /* for sweeps */
     double error[SLI_TILE];
     int is_done[SLI_TILE];
@@ -16879,8 +16890,7 @@ static void sli_batch_share(void *data, sl_int k) {
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
             k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
-        if (first < last && q.nx > 0 &&
-            sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
+        if (first < last && q.nx > 0 && sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
             failed = m;
         }
         before += weight * (sli_tiles(r->nrhs));

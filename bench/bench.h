@@ -32,6 +32,7 @@ void bench_pairs(bench_run *run);
 void bench_inverse(bench_run *run);
 void bench_locality(bench_run *run);
 void bench_selected(bench_run *run);
+void bench_neumann(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);

@@ -32,6 +32,8 @@ static const question questions[] = {
     {"locality", "the same local question on meshes of growing size", bench_locality},
     {"selected", "the whole diagonal of the inverse beside a refactorization and single entries",
      bench_selected},
+    {"neumann", "zero-mean solutions of raw Laplacians beside shifted ones; refinement",
+     bench_neumann},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},

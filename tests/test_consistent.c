@@ -11,8 +11,8 @@ typedef struct fixture_t {
     sl_int of[N], bset[N], xset[N], components; /* of the sets NB and NX */
     sl_symbolic *S;
     sl_plan *P;
-    double B[N * R];     /* consistent: sums over components are 0 within rounding */
-    double C[NB * R];    /* the same on bset */
+    double B[N * R];  /* consistent: sums over components are 0 within rounding */
+    double C[NB * R]; /* the same on bset */
     double X[N * R], before[N * R];
 } fixture_t;
 
@@ -57,7 +57,8 @@ static void fixture_free(fixture_t *f) {
 }
 
 /* All forms of solve on the first nrhs right-hand sides: each comes to `wanted`, and on error leaves X. */
-static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status wanted, sl_work *W) {
+static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status wanted,
+                       sl_work *W) {
     for (int form = 0; form < 8; form++) {
         double *X = f->X, *turned = test_reals((size_t)(N * R));
         sl_status status = SL_OK;
@@ -80,8 +81,8 @@ static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status 
         } else if (form == 2) {
             status = sl_plan_solve(f->P, F, X, NX, f->C, NB, nrhs, W);
         } else if (form == 3) {
-            status = sl_plan_solve_interleaved(f->P, F, X, (size_t)nrhs, turned, (size_t)nrhs,
-                                               nrhs, W);
+            status =
+                sl_plan_solve_interleaved(f->P, F, X, (size_t)nrhs, turned, (size_t)nrhs, nrhs, W);
         } else if (form == 4) {
             status = sl_local_solve(F, X, NX, f->xset, NX, f->C, NB, f->bset, NB, nrhs, W, NULL);
         } else if (form == 5) { /* in place */

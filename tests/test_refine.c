@@ -69,7 +69,8 @@ static void from_any_start(void **state) {
             SL_CHECK(sl_work_create(&W, NULL));
             for (int c = 0; c < 4; c++) {
                 sl_int nrhs = counts[c];
-                double *B = test_reals(n * 11), *X = test_reals(n * 11), *start = test_reals(n * 11);
+                double *B = test_reals(n * 11), *X = test_reals(n * 11),
+                       *start = test_reals(n * 11);
                 gen_reals(B, n * 11, 4);
                 gen_reals(start, n * 11, 5); /* nothing to do with the solution */
                 memcpy(X, start, n * 11 * sizeof *X);
@@ -79,7 +80,8 @@ static void from_any_start(void **state) {
                 sl_stats stats = refine(y.F, &y.M.view, X, B, nrhs, 20, W);
                 assert_true(stats.backward_error <= ROW_MOST(&y.M.view));
                 assert_true(stats.refine_steps >= 1);
-                SAME_VALUES(X + n * (size_t)nrhs, start + n * (size_t)nrhs, n * (size_t)(11 - nrhs));
+                SAME_VALUES(X + n * (size_t)nrhs, start + n * (size_t)nrhs,
+                            n * (size_t)(11 - nrhs));
                 /* what is as good as it gets stays, and a second call finds the same */
                 memcpy(start, X, n * 11 * sizeof *X);
                 sl_stats again = refine(y.F, &y.M.view, X, B, nrhs, 20, NULL);
@@ -268,7 +270,7 @@ static void errors_and_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(from_any_start),   cmocka_unit_test(factor_of_another_matrix),
+        cmocka_unit_test(from_any_start),      cmocka_unit_test(factor_of_another_matrix),
         cmocka_unit_test(regularized_systems), cmocka_unit_test(singular_systems),
         cmocka_unit_test(errors_and_memory),
     };

@@ -3,7 +3,8 @@
 #include "parallel_for.h"
 #include "problem.h"
 
-static sl_options options_regular(const way_list_t *ways, int k, double delta, const sl_int *signs) {
+static sl_options options_regular(const way_list_t *ways, int k, double delta,
+                                  const sl_int *signs) {
     sl_options opt = options_none();
     way_take(&opt, ways, k);
     opt.regularization = delta;
@@ -42,7 +43,8 @@ static void dependent_constraints(void **state) {
                 NOTHING_WRONG(check_regularized(F, &y.M.view));
                 SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, 240, &count));
                 assert_int_equal(count, twice);
-                for (sl_int m = 0; m < count; m++) { /* in the order of elimination: here that of the rows */
+                for (sl_int m = 0; m < count;
+                     m++) { /* in the order of elimination: here that of the rows */
                     assert_int_equal(rows[m], y.n - twice + m);
                     /* three products made each, of 0.2 to 0.8 and an entry of H^-1 */
                     assert_true(shifts[m] < -1e-11 && shifts[m] > -1e-7);

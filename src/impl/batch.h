@@ -69,8 +69,7 @@ static void sli_batch_share(void *data, sl_int k) {
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
             k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
-        if (first < last && q.nx > 0 &&
-            sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
+        if (first < last && q.nx > 0 && sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
             failed = m;
         }
         before += weight * (sli_tiles(r->nrhs));

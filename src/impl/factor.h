@@ -230,13 +230,12 @@ static double sli_null_tolerance(sl_int n) {
 /* Are the method, the definiteness and the number of threads such as exist, the tolerances numbers? What is
  * null is either skipped or regularized. */
 static int sli_way_is_known(const sl_options *opt) {
-    return opt == NULL ||
-           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE && opt->threads.count >= 0 &&
-            opt->null_tolerance == opt->null_tolerance &&
-            opt->consistency_tolerance == opt->consistency_tolerance &&
-            opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
-            (opt->regularization == 0.0 || opt->definiteness == SL_DEFINITE));
+    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
+                           opt->threads.count >= 0 && opt->null_tolerance == opt->null_tolerance &&
+                           opt->consistency_tolerance == opt->consistency_tolerance &&
+                           opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
+                           (opt->regularization == 0.0 || opt->definiteness == SL_DEFINITE));
 }
 
 /* What the options say about null pivots, but for the arrays, which come later. */

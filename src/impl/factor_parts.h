@@ -24,10 +24,11 @@ struct sl_factor {
     sli_pivot_rule rule;
     sl_definiteness definiteness;
     sl_method method;
-    int is_good;    /* L and D hold a factor */
-    double *L;      /* the panels */
-    double *D;      /* n pivots */
-    sl_int *regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
+    int is_good; /* L and D hold a factor */
+    double *L;   /* the panels */
+    double *D;   /* n pivots */
+    sl_int *
+        regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
     /* null pivots */
     double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
     int checks;         /* there are null pivots, and solves look whether b is consistent */

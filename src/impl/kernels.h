@@ -153,7 +153,7 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
 /* What becomes of a pivot that is null, or of the wrong sign. Its arrays go by the column of L. */
 typedef struct sli_pivot_rule {
     double null_tolerance;
-    int replaces;             /* anything at all; else null pivots are the caller's to find */
+    int replaces;          /* anything at all; else null pivots are the caller's to find */
     double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
     signed char *signs;    /* n: 1, -1, or 0 where either will do; NULL: all 1 */
     double *shifts;        /* n: what regularization added to each pivot; NULL: there is none */

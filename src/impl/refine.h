@@ -11,8 +11,8 @@ typedef struct sli_refinement {
     const sl_factor *F;
     const sl_csc *A;
     sl_triangle triangle;
-    double *R, *T; /* n x columns: residuals, then corrections; what is tried */
-    double *size;  /* n: |A| |x| + |b| */
+    double *R, *T;         /* n x columns: residuals, then corrections; what is tried */
+    double *size;          /* n: |A| |x| + |b| */
     unsigned char *memory; /* for solves */
     double error[SLI_TILE];
     int is_done[SLI_TILE];
@@ -96,7 +96,8 @@ static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const dou
     const size_t n = (size_t)f->F->S->n;
     sl_int c, step, todo = 0;
     for (c = 0; c < columns; c++) {
-        f->error[c] = sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
+        f->error[c] =
+            sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
         f->is_done[c] = f->error[c] <= DBL_EPSILON;
         todo += !f->is_done[c];
     }

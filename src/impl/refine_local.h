@@ -9,12 +9,12 @@ typedef struct sli_mending {
     const sl_factor *F;
     const sli_query *q;
     sl_int count, room;
-    sl_int *row;     /* room: pivots, ascending */
-    sl_int *in_y;    /* room: their places in the forward vector .. */
-    sl_int *in_x;    /* .. and in the backward vector */
-    double *last;    /* room x 8: x there one step ago, 0 at first */
-    double *now;     /* nx x 8, column-major: the last x, */
-    double *kept;    /* the best */
+    sl_int *row;           /* room: pivots, ascending */
+    sl_int *in_y;          /* room: their places in the forward vector .. */
+    sl_int *in_x;          /* .. and in the backward vector */
+    double *last;          /* room x 8: x there one step ago, 0 at first */
+    double *now;           /* nx x 8, column-major: the last x, */
+    double *kept;          /* the best */
     unsigned char *memory; /* for sweeps */
     double error[SLI_TILE];
     int is_done[SLI_TILE];

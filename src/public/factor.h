@@ -100,7 +100,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_regularized_rows(const sl_factor *F, s
                                                            double *shifts, sl_int most,
                                                            sl_int *count);
 
-/** log |det A| and the sign of det A (-1 or 1) from D, skipped null pivots left out; det of a 0 x 0 matrix is 1.
+/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+ *
+ *  Where null pivots were skipped it is the determinant of A without their rows and columns: of a Laplacian, in each
+ *  component the product of the eigenvalues that are not 0 over the number of rows.
  *
  *  Where regularization changed pivots it is that of A + E. A sum of logarithms: nothing overflows.
  *

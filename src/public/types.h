@@ -124,19 +124,22 @@ typedef struct sl_options {
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
 
-    /* SL_SEMIDEFINITE: which of many solutions is meant, and when there is none; sl_factor_create */
-    const double *mass; /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and
-                           b is made consistent by a multiple of m; NULL: x is 0 in the null rows */
-    double consistency_tolerance; /* without mass a solve refuses b where |z' b| > consistency_tolerance *
-                                     (sum of |b|) for a null vector z, 1 in the null row; 0: 1e-6, which
-                                     lets pass what single precision loses; negative: nothing is refused */
+    /* SL_SEMIDEFINITE, sl_factor_create: which of many solutions is meant, and when there is none */
 
-    /* signed regularization, for SL_DEFINITE; sl_factor_create */
-    double regularization; /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|,
-                              regularization * the sum of the magnitudes that made it, 1 where that is 0);
-                              1e-8 suits refinement; 0: none */
-    const sl_int *signs;   /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do;
-                              copied; NULL: all 1 */
+    /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and b is made consistent by a
+     * multiple of m; NULL: x is 0 in the null rows */
+    const double *mass;
+    /* without mass a solve refuses b where |z' b| > consistency_tolerance * (sum of |b|) for a null vector z that is
+     * 1 in its null row; 0: 1e-6, which lets pass what single precision loses; negative: nothing is refused */
+    double consistency_tolerance;
+
+    /* SL_DEFINITE, sl_factor_create: signed regularization */
+
+    /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|, regularization * the sum of the magnitudes
+     * that made it, 1 where that is 0); 1e-8 suits refinement; 0: none */
+    double regularization;
+    /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do; copied; NULL: all 1 */
+    const sl_int *signs;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
