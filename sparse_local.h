@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 8f4637a3cb587bb7
+ * FNV-1a of all that follows this comment, license aside: 2256bede8a3672b3
  *
  * Contents
  *         (what a user reads)
@@ -59,28 +59,28 @@
  *  13004  impl/symbolic.h            the analysis, from the pattern of A to the places of L
  *  13290  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13523  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13673  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13757  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14015  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14102  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  14307  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14648  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14787  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14847  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15143  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15185  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13535  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13688  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13772  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14030  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14117  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  14407  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14751  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14885  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14945  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15241  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15283  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15484  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15724  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16043  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16270  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  16447  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  16647  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  16825  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  17012  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15582  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15822  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16141  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16368  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  16545  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  16732  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  16908  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17095  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17456  impl/leave.h               takes every internal macro away again
+ *  17539  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -666,7 +666,7 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
  *
  *  rows   [out]  the first `most` of them; NULL where most = 0.
  *  count  [out]  how many there are, also above most.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
                                                     sl_int *count);
@@ -13478,6 +13478,18 @@ SLI_INLINE sl_int sli_reach_place(const sli_reach *R, sl_int *at, sl_int column)
     return column - R->steps[*at].column + R->steps[*at].base;
 }
 
+/* The place of any column in the reach's vector, -1 where it has none. */
+static sl_int sli_reach_place_of(const sli_reach *R, sl_int column) {
+    const sli_step *step;
+    if (R->count == 0) {
+        return -1;
+    }
+    step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
+    return column >= step->column && column < step->column + sli_step_columns(step)
+               ? step->base + column - step->column
+               : -1;
+}
+
 /* A walk over the supernodes that two reaches share: set up by sli_meeting_of, then sli_meet until it
  * gives 0. */
 typedef struct sli_meeting {
@@ -13551,9 +13563,12 @@ struct sl_factor {
     double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
     int checks;         /* there are null pivots, and solves look whether b is consistent */
     int is_centred;     /* there are null pivots, and solves are centred by mass: */
-    double *mass;       /* n, in pivot order; NULL: none */
-    double *centre;     /* n: v = D^-1 L^-1 m / z' m; at a null pivot v' D v of its component */
-    double *divide;     /* n: D with 1 for null pivots: x is given there */
+    sl_int n_nulls;
+    sl_int *nulls;   /* n: n_nulls null pivots, ascending */
+    double *mass;    /* n, in pivot order; NULL: none */
+    double *centre;  /* n: v = D^-1 L^-1 m / z' m */
+    double *squares; /* a tree each: v' D v of the one of each null pivot */
+    double *divide;  /* n: D with 1 for null pivots: x is given there */
     double *centre_scratch;
     double *buffer; /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
@@ -14110,8 +14125,7 @@ static sl_status sli_left_looking_all(sl_factor *F, const sl_csc *A, const uint6
  * Centred solves, in a component (a tree) with one null pivot and weights m: of A x = b - c m with c = z' b / z' m the x
  * with m' x = 0. With w = L^-1 P m / z' m and y = L^-1 P b that is P x = L^-T (D^+ (y - c' w) + t e_k), c' = y(k),
  * t = - w' D^+ (y - c' w): a dot product over the columns of the forward sweep, a difference over those of the
- * backward sweep, both in their vectors. One vector v = D^+ w is kept, and w' D^+ w of each component in
- * the place of v(k). Columns that a local solve leaves out are exact zeros in the dot product of the full
+ * backward sweep, both in their vectors. Kept are v = D^+ w and, for each component, w' D^+ w. Columns that a local solve leaves out are exact zeros in the dot product of the full
  * one, so that both have the same bits. */
 
 /* The weights in pivot order. A component without any, such as a vertex without a face, gets 1 for each row. */
@@ -14135,49 +14149,52 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     return SL_OK;
 }
 
-/* v on columns first .. root, one tree, which holds w z'm; total: the sum of |m| there. */
-static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total,
+/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there. The null pivots of the
+ * factor from number *at on are listed. */
+static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int *at,
                                  sli_failure *failure) {
-    double *v = F->centre, a = 0.0, sum = 0.0;
-    sl_int k, null = -1;
-    for (k = first; k <= root; k++) {
-        if (sli_is_skipped(F, k)) {
-            if (null != -1) {
-                return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
-            }
-            null = k;
-        }
-    }
-    if (null == -1) {
+    const sl_int null = *at < F->n_nulls ? F->nulls[*at] : F->S->n;
+    double *v = F->centre, a, sum = 0.0;
+    sl_int k;
+    if (null > root) {
         memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
         return SL_OK;
+    }
+    if (*at + 1 < F->n_nulls && F->nulls[*at + 1] <= root) {
+        k = F->nulls[*at + 1];
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
     }
     a = v[null];
     if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
         return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[null], null, -1, a);
     }
+    v[null] = 0.0;
     for (k = first; k <= root; k++) {
         const double w = v[k] / a;
         v[k] = w / F->D[k];
-        sum += k != null ? w * v[k] : 0.0;
+        sum += w * v[k];
     }
-    v[null] = sum;
     F->divide[null] = 1.0;
-    F->is_centred = 1;
+    F->squares[(*at)++] = sum;
     return SL_OK;
 }
 
-/* What centred solves need of a factor, once it is made. One forward sweep. */
-static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
+/* What solves need to know of null pivots, once a factor is made: where they are, and v, by one forward sweep. */
+static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
     sl_status status = SL_OK;
     double total = 0.0;
-    sl_int k, first = 0;
-    F->is_centred = 0;
-    for (k = 0; k < S->n && !sli_is_skipped(F, k); k++) {
+    sl_int k, first = 0, at = 0;
+    F->n_nulls = 0;
+    for (k = 0; k < S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            F->nulls[F->n_nulls++] = k;
+        }
     }
-    if (k == S->n) {
+    F->is_centred = F->mass != NULL && F->n_nulls > 0;
+    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    if (!F->is_centred) {
         return SL_OK;
     }
     memcpy(F->divide, F->D, (size_t)S->n * sizeof(double));
@@ -14187,7 +14204,7 @@ static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->mass[k]);
         if (S->parent[k] == -1) {
-            status = sli_centre_tree(F, first, k, total, failure);
+            status = sli_centre_tree(F, first, k, total, &at, failure);
             total = 0.0;
             first = k + 1;
         }
@@ -14195,33 +14212,108 @@ static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
     return status;
 }
 
-/* norms(r) = sum of |b| in a packed block of right-hand sides */
-static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
-    sl_int k, r;
-    for (r = 0; r < lanes; r++) {
-        norms[r] = 0.0;
-    }
-    for (k = 0; k < R->columns; k++, b += lanes) {
-        for (r = 0; r < lanes; r++) {
-            norms[r] += fabs(b[r]);
+/* Sums over the columns of a step, from a whole tile on, in 8 chains so that none waits for another: number f of the
+ * step's doubles goes to chain f % 8, in a local sweep as in the full one. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
+                                       sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) {
+            chains[q] += fabs(row[f + q]);
         }
     }
+    for (q = 0; f < count; q++) {
+        chains[q] += fabs(row[f++]);
+    }
+}
+
+SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
+                                      sl_int columns, sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
+            chains[q] += v[q / lanes] * row[f + q];
+        }
+    }
+    for (q = 0; f < count; q++) {
+        chains[q] += v[q / lanes] * row[f++];
+    }
+}
+
+/* The chains of each lane, one after the other. */
+static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
+    sl_int q;
+    for (q = 0; q < lanes; q++) {
+        sums[q] = chains[q];
+    }
+    for (; q < SLI_TILE; q++) {
+        sums[q % lanes] += chains[q];
+    }
+}
+
+/* Calls a body for a constant number of lanes. */
+#define SLI_FOR_LANES(lanes, call)                                                                 \
+    if ((lanes) == 1) {                                                                            \
+        call(1);                                                                                   \
+    } else if ((lanes) == 2) {                                                                     \
+        call(2);                                                                                   \
+    } else if ((lanes) == 4) {                                                                     \
+        call(4);                                                                                   \
+    } else {                                                                                       \
+        call(8);                                                                                   \
+    }
+
+/* norms(r) = sum of |b| in a packed block of right-hand sides */
+static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
+    double chains[SLI_TILE];
+    sl_int s;
+    memset(chains, 0, sizeof chains);
+    for (s = 0; s < R->count; s++) {
+        const sl_int columns = sli_step_columns(&R->steps[s]);
+        const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
+#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+    }
+    sli_chains_sum(chains, lanes, norms);
+}
+
+/* The columns of the tree whose root is step s of a reach. */
+typedef struct sli_tree {
+    sl_int first, root;
+} sli_tree;
+
+SLI_INLINE sli_tree sli_tree_of(const sl_symbolic *S, const sli_step *root) {
+    const sl_int super = S->super_of[root->column];
+    sli_tree tree;
+    tree.first = S->super_first[S->descendant[super]];
+    tree.root = S->super_first[super + 1] - 1;
+    return tree;
 }
 
 /* After the forward sweep: is |z' b| small at every null pivot? A NaN passes, and so does what overflows: they show in
  * x. */
 static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
                              const double *norms) {
-    sl_int s, k, r;
+    sl_int s, m, r;
     for (s = 0; s < R->count; s++) {
-        const sli_step *step = &R->steps[s];
-        for (k = 0; k < sli_step_columns(step); k++) {
-            const double *row = y + ((ptrdiff_t)step->base + k) * lanes;
-            if (F->D[step->column + k] == SLI_NULL_PIVOT) {
-                for (r = 0; r < lanes; r++) {
-                    if (fabs(row[r]) > F->consistency * norms[r]) {
-                        return 0;
-                    }
+        sli_tree tree;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_of(F->S, &R->steps[s]);
+        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
+            const sl_int at = sli_reach_place_of(R, F->nulls[m]);
+            for (r = 0; at != -1 && r < lanes; r++) {
+                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
+                    return 0;
                 }
             }
         }
@@ -14234,49 +14326,48 @@ typedef struct sli_shares {
     double c[SLI_TILE], t[SLI_TILE];
 } sli_shares;
 
-/* The tree that begins at step s; returns the step after its root. */
+/* The tree that begins at step s; returns the step after its root. m: its null pivot's number, if it has one. */
 static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
-                             sl_int lanes, sli_shares *share) {
-    double sums[SLI_TILE], square = 0.0;
-    sl_int k, r, up = s;
+                             sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
+    double chains[SLI_TILE], sums[SLI_TILE];
+    sl_int r, at, up = s;
     memset(share, 0, sizeof *share);
-    memset(sums, 0, sizeof sums);
+    memset(chains, 0, sizeof chains);
     while (up != -1) {
         const sli_step *step = &R->steps[s++];
-        const double *v = F->centre + step->column, *D = F->D + step->column;
-        const double *row = y + (ptrdiff_t)step->base * lanes;
-        for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-            if (D[k] == SLI_NULL_PIVOT) {
-                memcpy(share->c, row, (size_t)lanes * sizeof(double));
-                square = v[k];
-            } else {
-                for (r = 0; r < lanes; r++) {
-                    sums[r] += v[k] * row[r];
-                }
-            }
-        }
+        const double *v = F->centre + step->column, *row = y + (ptrdiff_t)step->base * lanes;
+        const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
         up = step->up;
     }
+    *tree = sli_tree_of(F->S, &R->steps[s - 1]);
+    *m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
+    if (*m == F->n_nulls || F->nulls[*m] > tree->root) {
+        *m = -1;
+        return s;
+    }
+    at = sli_reach_place_of(R, F->nulls[*m]);
+    if (at != -1) {
+        memcpy(share->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
+    }
+    sli_chains_sum(chains, lanes, sums);
     for (r = 0; r < lanes; r++) {
-        share->t[r] = share->c[r] * square - sums[r];
+        share->t[r] = share->c[r] * F->squares[*m] - sums[r];
     }
     return s;
 }
 
-/* Step s of the backward sweep, before it: y - c w, and t where x is given. */
-static void sli_centre_give(const sl_factor *F, const sli_step *step, double *x, sl_int lanes,
-                            const sli_shares *share) {
-    const double *v = F->centre + step->column, *D = F->D + step->column;
-    double *row = x + (ptrdiff_t)step->base * lanes;
+/* y - c w on the columns of a step of the backward sweep. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_centre_give(double *row, const double *v, const double *D,
+                                       sl_int columns, const double *c, sl_int lanes) {
     sl_int k, r;
-    for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-        if (D[k] == SLI_NULL_PIVOT) {
-            memcpy(row, share->t, (size_t)lanes * sizeof(double));
-        } else {
-            const double w = v[k] * D[k];
-            for (r = 0; r < lanes; r++) {
-                row[r] -= share->c[r] * w;
-            }
+    for (k = 0; k < columns; k++, row += lanes) {
+        const double w = v[k] * D[k];
+        SLI_UNROLL
+        for (r = 0; r < lanes; r++) {
+            row[r] -= c[r] * w;
         }
     }
 }
@@ -14285,22 +14376,31 @@ static void sli_centre_give(const sl_factor *F, const sli_step *step, double *x,
  * where b has no row there is nothing to do. */
 static void sli_centre(const sl_factor *F, const sli_reach *from, const double *y,
                        const sli_reach *to, double *x, sl_int lanes) {
-    const sl_symbolic *S = F->S;
-    sl_int s = 0, at = 0;
+    sl_int s = 0, at = 0, m;
     while (s < from->count && at < to->count) {
         sli_shares share;
-        sl_int first, root, super;
-        s = sli_centre_ask(F, from, s, y, lanes, &share);
-        super = S->super_of[from->steps[s - 1].column];
-        first = S->super_first[S->descendant[super]];
-        root = S->super_first[super + 1] - 1;
-        for (; at < to->count && to->steps[at].column <= root; at++) {
-            if (to->steps[at].column >= first) {
-                sli_centre_give(F, &to->steps[at], x, lanes, &share);
+        sli_tree tree;
+        sl_int place;
+        s = sli_centre_ask(F, from, s, y, lanes, &m, &tree, &share);
+        for (; at < to->count && to->steps[at].column <= tree.root; at++) {
+            const sli_step *step = &to->steps[at];
+            const double *v = F->centre + step->column, *D = F->D + step->column;
+            double *row = x + (ptrdiff_t)step->base * lanes;
+            const sl_int columns = sli_step_columns(step);
+            if (m != -1 && step->column >= tree.first) {
+#define SLI_CALL(constant) sli_centre_give(row, v, D, columns, share.c, constant)
+                SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
             }
+        }
+        place = m != -1 ? sli_reach_place_of(to, F->nulls[m]) : -1;
+        if (place != -1) { /* x is given there */
+            memcpy(x + (ptrdiff_t)place * lanes, share.t, (size_t)lanes * sizeof(double));
         }
     }
 }
+
+#undef SLI_FOR_LANES
 
 #endif
 /* end src/impl/nullspace.h */
@@ -14320,7 +14420,11 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->rule.shifts = SLI_TAKE(b, double, n);
         F->regularized = SLI_TAKE(b, sl_int, n);
     }
+    if (F->definiteness == SL_SEMIDEFINITE) {
+        F->nulls = SLI_TAKE(b, sl_int, n);
+    }
     if (F->is_centred) {
+        F->squares = SLI_TAKE(b, double, S->stats.components);
         F->mass = SLI_TAKE(b, double, n);
         F->centre = SLI_TAKE(b, double, n);
         F->divide = SLI_TAKE(b, double, n);
@@ -14419,11 +14523,10 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
 static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, sli_failure *failure,
                                  double started, sl_stats *stats) {
     sli_stats_clear_error(&F->stats);
-    if (failure->status == SL_OK && F->mass != NULL) {
-        (void)sli_centre_make(F, failure);
+    if (failure->status == SL_OK && F->definiteness == SL_SEMIDEFINITE) {
+        (void)sli_nulls_make(F, failure);
     }
     sli_factor_tell(F, A, failure);
-    F->checks = F->mass == NULL && F->consistency >= 0.0 && F->stats.null > 0;
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
     if (stats != NULL) {
@@ -14685,18 +14788,13 @@ static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int m
 
 SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
     const sl_status status = sli_check_list(F, rows, most, count);
-    sl_int k;
+    sl_int m;
     if (status != SL_OK) {
         return status;
     }
-    *count = 0;
-    for (k = 0; k < F->S->n; k++) {
-        if (sli_is_skipped(F, k)) {
-            if (*count < most) {
-                rows[*count] = F->S->perm[k];
-            }
-            ++*count;
-        }
+    *count = F->n_nulls;
+    for (m = 0; m < sli_min(most, *count); m++) {
+        rows[m] = F->S->perm[F->nulls[m]];
     }
     return SL_OK;
 }
@@ -16478,37 +16576,24 @@ static void sli_mending_layout(sli_mending *f, sli_block *b, sl_int nrhs) {
     f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* The place of a column in a reach's vector, or -1. */
-static sl_int sli_place_of(const sli_reach *R, sl_int column) {
-    const sli_step *step;
-    if (R->count == 0) {
-        return -1;
-    }
-    step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
-    return column >= step->column && column < step->column + sli_step_columns(step)
-               ? step->base + column - step->column
-               : -1;
-}
-
 /* Finds the regularized rows of every tree that b is in. -1, or the pivot of one that the reaches do not hold. */
 static sl_int sli_mending_find(sli_mending *f) {
     const sl_factor *F = f->F;
-    const sl_symbolic *S = F->S;
     const sli_reach *R = &f->q->forward;
     sl_int s;
     f->count = 0;
     for (s = 0; s < R->count; s++) {
-        const sl_int super = S->super_of[R->steps[s].column];
-        const sl_int end = S->super_first[super + 1];
+        sli_tree tree;
         sl_int m;
         if (R->steps[s].up != -1) {
             continue;
         }
-        m = sli_lower_bound(F->regularized, F->stats.regularized,
-                            S->super_first[S->descendant[super]]);
-        for (; m < F->stats.regularized && F->regularized[m] < end; m++) {
+        tree = sli_tree_of(F->S, &R->steps[s]);
+        m = sli_lower_bound(F->regularized, F->stats.regularized, tree.first);
+        for (; m < F->stats.regularized && F->regularized[m] <= tree.root; m++) {
             const sl_int k = F->regularized[m];
-            const sl_int in_y = sli_place_of(R, k), in_x = sli_place_of(&f->q->backward, k);
+            const sl_int in_y = sli_reach_place_of(R, k),
+                         in_x = sli_reach_place_of(&f->q->backward, k);
             if (in_y == -1 || in_x == -1) {
                 return k;
             }
@@ -16748,7 +16833,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     if (status != SL_OK) {
         return status;
     }
-    if (F->S->n == 0 || F->stats.null > 0) {
+    if (F->S->n == 0 || F->n_nulls > 0) {
         *rcond = F->S->n == 0 ? 1.0 : 0.0;
         return SL_OK;
     }
@@ -16772,18 +16857,16 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 /* The entries of y at the null pivots, block after block. */
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
                         const double *B, size_t ldb, sl_int nrhs, void *memory) {
-    const sl_int n = F->S->n;
-    sl_int c, r, k, at;
+    sl_int c, r, m;
     for (c = 0; c < nrhs; c += 8) {
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
         sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
         sli_sweep_forward(F, q, &v, block);
-        for (k = 0, at = 0; k < n; k++) {
-            for (r = 0; sli_is_skipped(F, k) && r < block; r++) {
-                Y[(size_t)at + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)k * lanes + r];
+        for (m = 0; m < F->n_nulls; m++) {
+            for (r = 0; r < block; r++) {
+                Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
             }
-            at += sli_is_skipped(F, k);
         }
     }
 }
@@ -16800,11 +16883,11 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     if (!F->is_good) {
         return SL_ERR_STATE;
     }
-    status = sli_check_dense(Y, ldy, F->stats.null, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    status = sli_check_dense(Y, ldy, F->n_nulls, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
     if (status != SL_OK || (Y == B && Y != NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (nrhs == 0 || F->stats.null == 0) {
+    if (nrhs == 0 || F->n_nulls == 0) {
         return SL_OK;
     }
     q = sli_query_all(F->S);

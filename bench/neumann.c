@@ -39,6 +39,11 @@ static void call_full(void *state) {
     bench_must(sl_factor_solve(w->F, w->x, n, w->b, n, 1, w->W), "full solve");
 }
 
+static void start_from_0(void *state) {
+    way *w = state;
+    memset(w->x, 0, (size_t)w->system->n * sizeof *w->x);
+}
+
 static void call_refine(void *state) {
     way *w = state;
     const size_t n = (size_t)w->system->n;
@@ -175,7 +180,7 @@ static void race(bench_run *run, bench_report *report, way *ways) {
         bench_race(times, contenders, WAYS, run->seconds);
         report_ways(report, system, times, what[c], c == 2 ? &reach : NULL);
         if (c == 1) {
-            bench_contender one = {call_refine, &ways[0], 1, NULL};
+            bench_contender one = {call_refine, &ways[0], 1, start_from_0};
             bench_race(&refine, &one, 1, run->seconds / 4);
             bench_row row = {.what = "full solve",
                              .method = "one step of refinement",

@@ -105,7 +105,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     if (status != SL_OK) {
         return status;
     }
-    if (F->S->n == 0 || F->stats.null > 0) {
+    if (F->S->n == 0 || F->n_nulls > 0) {
         *rcond = F->S->n == 0 ? 1.0 : 0.0;
         return SL_OK;
     }
@@ -129,18 +129,16 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 /* The entries of y at the null pivots, block after block. */
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
                         const double *B, size_t ldb, sl_int nrhs, void *memory) {
-    const sl_int n = F->S->n;
-    sl_int c, r, k, at;
+    sl_int c, r, m;
     for (c = 0; c < nrhs; c += 8) {
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
         sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
         sli_sweep_forward(F, q, &v, block);
-        for (k = 0, at = 0; k < n; k++) {
-            for (r = 0; sli_is_skipped(F, k) && r < block; r++) {
-                Y[(size_t)at + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)k * lanes + r];
+        for (m = 0; m < F->n_nulls; m++) {
+            for (r = 0; r < block; r++) {
+                Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
             }
-            at += sli_is_skipped(F, k);
         }
     }
 }
@@ -157,11 +155,11 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     if (!F->is_good) {
         return SL_ERR_STATE;
     }
-    status = sli_check_dense(Y, ldy, F->stats.null, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    status = sli_check_dense(Y, ldy, F->n_nulls, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
     if (status != SL_OK || (Y == B && Y != NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (nrhs == 0 || F->stats.null == 0) {
+    if (nrhs == 0 || F->n_nulls == 0) {
         return SL_OK;
     }
     q = sli_query_all(F->S);

@@ -22,7 +22,11 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->rule.shifts = SLI_TAKE(b, double, n);
         F->regularized = SLI_TAKE(b, sl_int, n);
     }
+    if (F->definiteness == SL_SEMIDEFINITE) {
+        F->nulls = SLI_TAKE(b, sl_int, n);
+    }
     if (F->is_centred) {
+        F->squares = SLI_TAKE(b, double, S->stats.components);
         F->mass = SLI_TAKE(b, double, n);
         F->centre = SLI_TAKE(b, double, n);
         F->divide = SLI_TAKE(b, double, n);
@@ -121,11 +125,10 @@ static void sli_factor_tell(sl_factor *F, const sl_csc *A, const sli_failure *f)
 static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, sli_failure *failure,
                                  double started, sl_stats *stats) {
     sli_stats_clear_error(&F->stats);
-    if (failure->status == SL_OK && F->mass != NULL) {
-        (void)sli_centre_make(F, failure);
+    if (failure->status == SL_OK && F->definiteness == SL_SEMIDEFINITE) {
+        (void)sli_nulls_make(F, failure);
     }
     sli_factor_tell(F, A, failure);
-    F->checks = F->mass == NULL && F->consistency >= 0.0 && F->stats.null > 0;
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
     if (stats != NULL) {

@@ -39,18 +39,13 @@ static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int m
 
 SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
     const sl_status status = sli_check_list(F, rows, most, count);
-    sl_int k;
+    sl_int m;
     if (status != SL_OK) {
         return status;
     }
-    *count = 0;
-    for (k = 0; k < F->S->n; k++) {
-        if (sli_is_skipped(F, k)) {
-            if (*count < most) {
-                rows[*count] = F->S->perm[k];
-            }
-            ++*count;
-        }
+    *count = F->n_nulls;
+    for (m = 0; m < sli_min(most, *count); m++) {
+        rows[m] = F->S->perm[F->nulls[m]];
     }
     return SL_OK;
 }

@@ -33,9 +33,12 @@ struct sl_factor {
     double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
     int checks;         /* there are null pivots, and solves look whether b is consistent */
     int is_centred;     /* there are null pivots, and solves are centred by mass: */
-    double *mass;       /* n, in pivot order; NULL: none */
-    double *centre;     /* n: v = D^-1 L^-1 m / z' m; at a null pivot v' D v of its component */
-    double *divide;     /* n: D with 1 for null pivots: x is given there */
+    sl_int n_nulls;
+    sl_int *nulls;   /* n: n_nulls null pivots, ascending */
+    double *mass;    /* n, in pivot order; NULL: none */
+    double *centre;  /* n: v = D^-1 L^-1 m / z' m */
+    double *squares; /* a tree each: v' D v of the one of each null pivot */
+    double *divide;  /* n: D with 1 for null pivots: x is given there */
     double *centre_scratch;
     double *buffer; /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */

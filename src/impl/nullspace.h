@@ -11,8 +11,7 @@
  * Centred solves, in a component (a tree) with one null pivot and weights m: of A x = b - c m with c = z' b / z' m the x
  * with m' x = 0. With w = L^-1 P m / z' m and y = L^-1 P b that is P x = L^-T (D^+ (y - c' w) + t e_k), c' = y(k),
  * t = - w' D^+ (y - c' w): a dot product over the columns of the forward sweep, a difference over those of the
- * backward sweep, both in their vectors. One vector v = D^+ w is kept, and w' D^+ w of each component in
- * the place of v(k). Columns that a local solve leaves out are exact zeros in the dot product of the full
+ * backward sweep, both in their vectors. Kept are v = D^+ w and, for each component, w' D^+ w. Columns that a local solve leaves out are exact zeros in the dot product of the full
  * one, so that both have the same bits. */
 
 /* The weights in pivot order. A component without any, such as a vertex without a face, gets 1 for each row. */
@@ -36,49 +35,52 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     return SL_OK;
 }
 
-/* v on columns first .. root, one tree, which holds w z'm; total: the sum of |m| there. */
-static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total,
+/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there. The null pivots of the
+ * factor from number *at on are listed. */
+static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int *at,
                                  sli_failure *failure) {
-    double *v = F->centre, a = 0.0, sum = 0.0;
-    sl_int k, null = -1;
-    for (k = first; k <= root; k++) {
-        if (sli_is_skipped(F, k)) {
-            if (null != -1) {
-                return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
-            }
-            null = k;
-        }
-    }
-    if (null == -1) {
+    const sl_int null = *at < F->n_nulls ? F->nulls[*at] : F->S->n;
+    double *v = F->centre, a, sum = 0.0;
+    sl_int k;
+    if (null > root) {
         memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
         return SL_OK;
+    }
+    if (*at + 1 < F->n_nulls && F->nulls[*at + 1] <= root) {
+        k = F->nulls[*at + 1];
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
     }
     a = v[null];
     if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
         return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[null], null, -1, a);
     }
+    v[null] = 0.0;
     for (k = first; k <= root; k++) {
         const double w = v[k] / a;
         v[k] = w / F->D[k];
-        sum += k != null ? w * v[k] : 0.0;
+        sum += w * v[k];
     }
-    v[null] = sum;
     F->divide[null] = 1.0;
-    F->is_centred = 1;
+    F->squares[(*at)++] = sum;
     return SL_OK;
 }
 
-/* What centred solves need of a factor, once it is made. One forward sweep. */
-static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
+/* What solves need to know of null pivots, once a factor is made: where they are, and v, by one forward sweep. */
+static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
     sl_status status = SL_OK;
     double total = 0.0;
-    sl_int k, first = 0;
-    F->is_centred = 0;
-    for (k = 0; k < S->n && !sli_is_skipped(F, k); k++) {
+    sl_int k, first = 0, at = 0;
+    F->n_nulls = 0;
+    for (k = 0; k < S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            F->nulls[F->n_nulls++] = k;
+        }
     }
-    if (k == S->n) {
+    F->is_centred = F->mass != NULL && F->n_nulls > 0;
+    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    if (!F->is_centred) {
         return SL_OK;
     }
     memcpy(F->divide, F->D, (size_t)S->n * sizeof(double));
@@ -88,7 +90,7 @@ static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->mass[k]);
         if (S->parent[k] == -1) {
-            status = sli_centre_tree(F, first, k, total, failure);
+            status = sli_centre_tree(F, first, k, total, &at, failure);
             total = 0.0;
             first = k + 1;
         }
@@ -96,33 +98,108 @@ static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
     return status;
 }
 
-/* norms(r) = sum of |b| in a packed block of right-hand sides */
-static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
-    sl_int k, r;
-    for (r = 0; r < lanes; r++) {
-        norms[r] = 0.0;
-    }
-    for (k = 0; k < R->columns; k++, b += lanes) {
-        for (r = 0; r < lanes; r++) {
-            norms[r] += fabs(b[r]);
+/* Sums over the columns of a step, from a whole tile on, in 8 chains so that none waits for another: number f of the
+ * step's doubles goes to chain f % 8, in a local sweep as in the full one. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
+                                       sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) {
+            chains[q] += fabs(row[f + q]);
         }
     }
+    for (q = 0; f < count; q++) {
+        chains[q] += fabs(row[f++]);
+    }
+}
+
+SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
+                                      sl_int columns, sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
+            chains[q] += v[q / lanes] * row[f + q];
+        }
+    }
+    for (q = 0; f < count; q++) {
+        chains[q] += v[q / lanes] * row[f++];
+    }
+}
+
+/* The chains of each lane, one after the other. */
+static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
+    sl_int q;
+    for (q = 0; q < lanes; q++) {
+        sums[q] = chains[q];
+    }
+    for (; q < SLI_TILE; q++) {
+        sums[q % lanes] += chains[q];
+    }
+}
+
+/* Calls a body for a constant number of lanes. */
+#define SLI_FOR_LANES(lanes, call)                                                                 \
+    if ((lanes) == 1) {                                                                            \
+        call(1);                                                                                   \
+    } else if ((lanes) == 2) {                                                                     \
+        call(2);                                                                                   \
+    } else if ((lanes) == 4) {                                                                     \
+        call(4);                                                                                   \
+    } else {                                                                                       \
+        call(8);                                                                                   \
+    }
+
+/* norms(r) = sum of |b| in a packed block of right-hand sides */
+static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
+    double chains[SLI_TILE];
+    sl_int s;
+    memset(chains, 0, sizeof chains);
+    for (s = 0; s < R->count; s++) {
+        const sl_int columns = sli_step_columns(&R->steps[s]);
+        const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
+#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+    }
+    sli_chains_sum(chains, lanes, norms);
+}
+
+/* The columns of the tree whose root is step s of a reach. */
+typedef struct sli_tree {
+    sl_int first, root;
+} sli_tree;
+
+SLI_INLINE sli_tree sli_tree_of(const sl_symbolic *S, const sli_step *root) {
+    const sl_int super = S->super_of[root->column];
+    sli_tree tree;
+    tree.first = S->super_first[S->descendant[super]];
+    tree.root = S->super_first[super + 1] - 1;
+    return tree;
 }
 
 /* After the forward sweep: is |z' b| small at every null pivot? A NaN passes, and so does what overflows: they show in
  * x. */
 static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
                              const double *norms) {
-    sl_int s, k, r;
+    sl_int s, m, r;
     for (s = 0; s < R->count; s++) {
-        const sli_step *step = &R->steps[s];
-        for (k = 0; k < sli_step_columns(step); k++) {
-            const double *row = y + ((ptrdiff_t)step->base + k) * lanes;
-            if (F->D[step->column + k] == SLI_NULL_PIVOT) {
-                for (r = 0; r < lanes; r++) {
-                    if (fabs(row[r]) > F->consistency * norms[r]) {
-                        return 0;
-                    }
+        sli_tree tree;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_of(F->S, &R->steps[s]);
+        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
+            const sl_int at = sli_reach_place_of(R, F->nulls[m]);
+            for (r = 0; at != -1 && r < lanes; r++) {
+                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
+                    return 0;
                 }
             }
         }
@@ -135,49 +212,48 @@ typedef struct sli_shares {
     double c[SLI_TILE], t[SLI_TILE];
 } sli_shares;
 
-/* The tree that begins at step s; returns the step after its root. */
+/* The tree that begins at step s; returns the step after its root. m: its null pivot's number, if it has one. */
 static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
-                             sl_int lanes, sli_shares *share) {
-    double sums[SLI_TILE], square = 0.0;
-    sl_int k, r, up = s;
+                             sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
+    double chains[SLI_TILE], sums[SLI_TILE];
+    sl_int r, at, up = s;
     memset(share, 0, sizeof *share);
-    memset(sums, 0, sizeof sums);
+    memset(chains, 0, sizeof chains);
     while (up != -1) {
         const sli_step *step = &R->steps[s++];
-        const double *v = F->centre + step->column, *D = F->D + step->column;
-        const double *row = y + (ptrdiff_t)step->base * lanes;
-        for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-            if (D[k] == SLI_NULL_PIVOT) {
-                memcpy(share->c, row, (size_t)lanes * sizeof(double));
-                square = v[k];
-            } else {
-                for (r = 0; r < lanes; r++) {
-                    sums[r] += v[k] * row[r];
-                }
-            }
-        }
+        const double *v = F->centre + step->column, *row = y + (ptrdiff_t)step->base * lanes;
+        const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
         up = step->up;
     }
+    *tree = sli_tree_of(F->S, &R->steps[s - 1]);
+    *m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
+    if (*m == F->n_nulls || F->nulls[*m] > tree->root) {
+        *m = -1;
+        return s;
+    }
+    at = sli_reach_place_of(R, F->nulls[*m]);
+    if (at != -1) {
+        memcpy(share->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
+    }
+    sli_chains_sum(chains, lanes, sums);
     for (r = 0; r < lanes; r++) {
-        share->t[r] = share->c[r] * square - sums[r];
+        share->t[r] = share->c[r] * F->squares[*m] - sums[r];
     }
     return s;
 }
 
-/* Step s of the backward sweep, before it: y - c w, and t where x is given. */
-static void sli_centre_give(const sl_factor *F, const sli_step *step, double *x, sl_int lanes,
-                            const sli_shares *share) {
-    const double *v = F->centre + step->column, *D = F->D + step->column;
-    double *row = x + (ptrdiff_t)step->base * lanes;
+/* y - c w on the columns of a step of the backward sweep. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_centre_give(double *row, const double *v, const double *D,
+                                       sl_int columns, const double *c, sl_int lanes) {
     sl_int k, r;
-    for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-        if (D[k] == SLI_NULL_PIVOT) {
-            memcpy(row, share->t, (size_t)lanes * sizeof(double));
-        } else {
-            const double w = v[k] * D[k];
-            for (r = 0; r < lanes; r++) {
-                row[r] -= share->c[r] * w;
-            }
+    for (k = 0; k < columns; k++, row += lanes) {
+        const double w = v[k] * D[k];
+        SLI_UNROLL
+        for (r = 0; r < lanes; r++) {
+            row[r] -= c[r] * w;
         }
     }
 }
@@ -186,21 +262,30 @@ static void sli_centre_give(const sl_factor *F, const sli_step *step, double *x,
  * where b has no row there is nothing to do. */
 static void sli_centre(const sl_factor *F, const sli_reach *from, const double *y,
                        const sli_reach *to, double *x, sl_int lanes) {
-    const sl_symbolic *S = F->S;
-    sl_int s = 0, at = 0;
+    sl_int s = 0, at = 0, m;
     while (s < from->count && at < to->count) {
         sli_shares share;
-        sl_int first, root, super;
-        s = sli_centre_ask(F, from, s, y, lanes, &share);
-        super = S->super_of[from->steps[s - 1].column];
-        first = S->super_first[S->descendant[super]];
-        root = S->super_first[super + 1] - 1;
-        for (; at < to->count && to->steps[at].column <= root; at++) {
-            if (to->steps[at].column >= first) {
-                sli_centre_give(F, &to->steps[at], x, lanes, &share);
+        sli_tree tree;
+        sl_int place;
+        s = sli_centre_ask(F, from, s, y, lanes, &m, &tree, &share);
+        for (; at < to->count && to->steps[at].column <= tree.root; at++) {
+            const sli_step *step = &to->steps[at];
+            const double *v = F->centre + step->column, *D = F->D + step->column;
+            double *row = x + (ptrdiff_t)step->base * lanes;
+            const sl_int columns = sli_step_columns(step);
+            if (m != -1 && step->column >= tree.first) {
+#define SLI_CALL(constant) sli_centre_give(row, v, D, columns, share.c, constant)
+                SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
             }
+        }
+        place = m != -1 ? sli_reach_place_of(to, F->nulls[m]) : -1;
+        if (place != -1) { /* x is given there */
+            memcpy(x + (ptrdiff_t)place * lanes, share.t, (size_t)lanes * sizeof(double));
         }
     }
 }
+
+#undef SLI_FOR_LANES
 
 #endif

@@ -33,37 +33,24 @@ static void sli_mending_layout(sli_mending *f, sli_block *b, sl_int nrhs) {
     f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* The place of a column in a reach's vector, or -1. */
-static sl_int sli_place_of(const sli_reach *R, sl_int column) {
-    const sli_step *step;
-    if (R->count == 0) {
-        return -1;
-    }
-    step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
-    return column >= step->column && column < step->column + sli_step_columns(step)
-               ? step->base + column - step->column
-               : -1;
-}
-
 /* Finds the regularized rows of every tree that b is in. -1, or the pivot of one that the reaches do not hold. */
 static sl_int sli_mending_find(sli_mending *f) {
     const sl_factor *F = f->F;
-    const sl_symbolic *S = F->S;
     const sli_reach *R = &f->q->forward;
     sl_int s;
     f->count = 0;
     for (s = 0; s < R->count; s++) {
-        const sl_int super = S->super_of[R->steps[s].column];
-        const sl_int end = S->super_first[super + 1];
+        sli_tree tree;
         sl_int m;
         if (R->steps[s].up != -1) {
             continue;
         }
-        m = sli_lower_bound(F->regularized, F->stats.regularized,
-                            S->super_first[S->descendant[super]]);
-        for (; m < F->stats.regularized && F->regularized[m] < end; m++) {
+        tree = sli_tree_of(F->S, &R->steps[s]);
+        m = sli_lower_bound(F->regularized, F->stats.regularized, tree.first);
+        for (; m < F->stats.regularized && F->regularized[m] <= tree.root; m++) {
             const sl_int k = F->regularized[m];
-            const sl_int in_y = sli_place_of(R, k), in_x = sli_place_of(&f->q->backward, k);
+            const sl_int in_y = sli_reach_place_of(R, k),
+                         in_x = sli_reach_place_of(&f->q->backward, k);
             if (in_y == -1 || in_x == -1) {
                 return k;
             }

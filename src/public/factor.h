@@ -84,7 +84,7 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
  *
  *  rows   [out]  the first `most` of them; NULL where most = 0.
  *  count  [out]  how many there are, also above most.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
                                                     sl_int *count);
