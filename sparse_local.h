@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 2256bede8a3672b3
+ * FNV-1a of all that follows this comment, license aside: f0edb3158f99b391
  *
  * Contents
  *         (what a user reads)
@@ -18,69 +18,69 @@
  *         (bodies, in one source file)
  *         (L0 ground)
  *   1192  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1283  impl/status.h              status codes in words, and the error fields of stats
- *   1341  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1466  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1541  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1578  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1285  impl/status.h              status codes in words, and the error fields of stats
+ *   1343  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1468  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1543  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1580  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1612  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1614  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
  *   1910  impl/isa_scalar.h          the kernels in plain C: an octet is an array
  *   2048  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
  *   2078  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
  *   3249  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
  *   3295  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
  *   3432  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3647  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3913  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4075  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4347  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4398  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4543  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5356  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6635  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8808  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11038  impl/select.h              the kernel table for an instruction set
+ *   3649  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3915  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4077  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4349  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4400  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4545  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5358  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6639  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8814  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11046  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11071  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11499  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11572  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11079  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11507  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11580  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11926  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11965  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12112  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12226  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12370  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12455  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12528  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12694  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12770  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12811  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13004  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13290  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11934  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11973  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12120  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12234  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12378  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12463  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12536  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12702  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12778  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12819  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13012  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13298  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13535  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13688  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13772  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14030  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14117  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  14407  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14751  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14885  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14945  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15241  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15283  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13543  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13696  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13778  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14036  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14123  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  14413  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14757  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14891  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14951  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15247  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15289  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15582  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15822  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16141  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16368  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  16545  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  16732  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  16908  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  17095  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15588  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15828  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16147  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16374  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  16551  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  16738  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  16914  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17101  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17539  impl/leave.h               takes every internal macro away again
+ *  17545  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1230,6 +1230,7 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 #define SLI_INLINE __attribute__((unused)) static inline
 /* for bodies that are worth it only with a constant argument folded into them */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
+#define SLI_APART __attribute__((unused, noinline)) /* what hot code must not carry along */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 /* the cache line some bytes from p, which need not exist: asking for it has no other effect */
@@ -1239,6 +1240,7 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 #else
 #define SLI_INLINE static inline
 #define SLI_ALWAYS_INLINE static inline
+#define SLI_APART
 #define SLI_TARGET(list)
 #define SLI_ALIGNED(variable) variable
 #define SLI_PREFETCH(p, bytes) ((void)0)
@@ -1790,28 +1792,26 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
     return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
 }
 
-/* Applies a rule that replaces to the pivot of column k; returns whether it did. A regularized pivot has
- * the size of what it was made of, times a factor: a scaling of A changes nothing. One whose wrong sign is
- * no rounding error is only turned: made small it would let L grow beyond all bounds. */
-SLI_INLINE int sli_pivot_replaced(const sli_pivot_rule *rule, sl_int k, double *pivot,
-                                  double magnitude) {
-    const double d = *pivot;
-    double least;
+/* The pivot of column k by a rule that replaces. A regularized one has the size of what it was made of, times a
+ * factor: a scaling of A changes nothing. One whose wrong sign is no rounding error is only turned: made small
+ * it would let L grow beyond all bounds. Never inlined: it would cost definite matrices up to 8 percent. */
+SLI_APART static double sli_pivot_ruled(const sli_pivot_rule *rule, sl_int k, double d,
+                                        double magnitude) {
     const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
     int sign = rule->signs == NULL ? 1 : rule->signs[k];
+    double least;
     if (rule->regularization == 0.0) {
-        *pivot = is_null ? SLI_NULL_PIVOT : d;
-        return is_null;
+        return is_null ? SLI_NULL_PIVOT : d;
     }
     rule->shifts[k] = 0.0;
     if (!is_null && !(d * sign < 0.0)) {
-        return 0;
+        return d;
     }
     sign = sign != 0 ? sign : d < 0.0 ? -1 : 1;
     least = rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
-    *pivot = sign * (fabs(d) > least ? fabs(d) : least);
-    rule->shifts[k] = *pivot - d;
-    return 1;
+    least = sign * (fabs(d) > least ? fabs(d) : least);
+    rule->shifts[k] = least - d;
+    return least;
 }
 
 /* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On
@@ -3470,7 +3470,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->rule->replaces && sli_pivot_replaced(f->rule, column + (k), &d, sums[k])) {         \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -3503,6 +3504,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
     const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -5705,7 +5707,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->rule->replaces && sli_pivot_replaced(f->rule, column + (k), &d, sums[k])) {         \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -5738,6 +5741,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
     const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -7878,7 +7882,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->rule->replaces && sli_pivot_replaced(f->rule, column + (k), &d, sums[k])) {         \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -7911,6 +7916,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
     const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -10108,7 +10114,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->rule->replaces && sli_pivot_replaced(f->rule, column + (k), &d, sums[k])) {         \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -10141,6 +10148,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
     const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -13754,9 +13762,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
         magnitude = fabs(pivot);
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
-        if (F->rule.replaces) {
-            (void)sli_pivot_replaced(&F->rule, k, &pivot, magnitude);
-        }
+        pivot = F->rule.replaces ? sli_pivot_ruled(&F->rule, k, pivot, magnitude) : pivot;
         F->D[k] = pivot;
         status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
@@ -17542,6 +17548,7 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_ARM
 #undef SLI_INLINE
 #undef SLI_ALWAYS_INLINE
+#undef SLI_APART
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_ALIGNED

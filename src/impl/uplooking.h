@@ -69,9 +69,7 @@ static sl_status sli_uplooking(sl_factor *F, const sl_csc *A, sli_failure *failu
         magnitude = fabs(pivot);
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
-        if (F->rule.replaces) {
-            (void)sli_pivot_replaced(&F->rule, k, &pivot, magnitude);
-        }
+        pivot = F->rule.replaces ? sli_pivot_ruled(&F->rule, k, pivot, magnitude) : pivot;
         F->D[k] = pivot;
         status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
