@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: f0edb3158f99b391
+ * FNV-1a of all that follows this comment, license aside: 8aa851e431a5a515
  *
  * Contents
  *         (what a user reads)
@@ -9,78 +9,78 @@
  *    402  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
  *    522  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *    584  public/factor.h            the numbers: P A P' = L D L'
- *    718  public/solve.h             full solves, and the workspace that every solve writes to
- *    788  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    875  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
- *    967  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *   1046  public/batch.h             many independent solves with one factor, spread over threads by one call
- *   1085  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    721  public/solve.h             full solves, and the workspace that every solve writes to
+ *    791  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    878  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *    970  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *   1049  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *   1088  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1192  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1285  impl/status.h              status codes in words, and the error fields of stats
- *   1343  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1468  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1543  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1580  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1195  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1288  impl/status.h              status codes in words, and the error fields of stats
+ *   1346  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1471  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1546  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1583  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1614  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1910  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2048  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2078  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3249  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3295  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3432  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3649  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3915  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4077  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4349  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4400  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4545  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5358  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6639  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8814  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11046  impl/select.h              the kernel table for an instruction set
+ *   1617  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1913  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2051  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2081  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3252  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3298  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3435  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3652  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3918  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4080  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4352  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4403  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4548  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5361  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6642  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8817  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11049  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11079  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11507  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11580  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11082  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11510  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11583  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11934  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11973  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12120  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12234  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12378  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12463  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12536  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12702  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12778  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12819  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13012  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13298  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11937  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11976  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12123  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12237  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12381  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12466  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12539  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12705  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12781  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12822  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13015  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13301  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13543  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13696  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13778  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14036  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14123  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  14413  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14757  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14891  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14951  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15247  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15289  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13546  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13701  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13783  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14041  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14128  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  14470  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14815  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14949  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  15009  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  15305  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  15347  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15588  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15828  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16147  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16374  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  16551  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  16738  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  16914  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  17101  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  15646  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15886  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  16205  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16432  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  16609  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  16796  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  16972  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  17159  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  17545  impl/leave.h               takes every internal macro away again
+ *  17603  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -592,17 +592,20 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
  *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. With
- *  options.mass, weights m, every solve on the factor, full or local, then gives in each component with a null pivot the x
- *  with sum m x = 0 of A x = b - c m, where c = z' b / z' m makes the right-hand side consistent and z is the null
- *  vector: on a Laplacian, of constant z, the Poisson problem's zero-mean solution. A component whose weights are all 0,
- *  as that of a vertex without faces may be, counts as weighted by 1. Without mass solves give the solution that is 0
- *  in the rows of sl_factor_null_rows, and refuse a right-hand side that is not consistent by SL_ERR_INCONSISTENT
+ *  options.mass, weights m, every solve on the factor, full or local, then gives in each component with a null pivot the
+ *  x with sum m x = 0 of A x = b - c m, where c = z' b / z' m makes the right-hand side consistent and z is the null
+ *  vector: on a Laplacian, of constant z, the Poisson problem's zero-mean solution. A component whose weights are all
+ *  0, as that of a vertex without faces may be, counts as weighted by 1; a row of zeros is a component by itself,
+ *  whatever the pattern says, and its x is 0. Without mass solves give the solution that is 0 in the rows of
+ *  sl_factor_null_rows, and refuse a right-hand side that is not consistent by SL_ERR_INCONSISTENT
  *  (options.consistency_tolerance; sl_factor_defects tells by how much). Where that is switched off, the residual of
  *  such a system is in those rows alone. Entries of the inverse are those of the inverse that makes x 0 there.
  *
  *  options.regularization is for KKT systems whose signs are known: L D L' is then P (A + E) P' with a diagonal E
  *  that is 0 but in the rows of sl_factor_regularized_rows. sl_factor_refine and sl_plan_solve_refined give the
- *  solution of A x = b out of it.
+ *  solution of A x = b out of it. Where many diagonal entries are 0, a small multiple of the signs added to the whole
+ *  diagonal beforehand makes A quasi-definite, and refinement takes it away just so. Signs that are not those of
+ *  the blocks, as where H is indefinite, are no substitute for pivoting: backward_error tells.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -647,7 +650,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
  *  Cost     the update matrices of all descendants of the supernodes reached; 16 bytes an entry of the columns while
- *           it runs.
+ *           it runs. With mass the forward sweep for the weights is a whole one.
  *  Threads  nobody else may use F meanwhile.
  *  Source   left-looking supernodes [NP93] over the reach of the changes.
  *  Example  tests/test_changed.c
@@ -13572,10 +13575,12 @@ struct sl_factor {
     int checks;         /* there are null pivots, and solves look whether b is consistent */
     int is_centred;     /* there are null pivots, and solves are centred by mass: */
     sl_int n_nulls;
-    sl_int *nulls;   /* n: n_nulls null pivots, ascending */
+    sl_int *nulls; /* n: n_nulls null pivots, ascending */
+    sl_int n_anchors;
+    sl_int *anchors; /* a tree each: the null pivots that weights take care of, ascending */
     double *mass;    /* n, in pivot order; NULL: none */
     double *centre;  /* n: v = D^-1 L^-1 m / z' m */
-    double *squares; /* a tree each: v' D v of the one of each null pivot */
+    double *squares; /* a tree each: v' D v of the one of each anchor */
     double *divide;  /* n: D with 1 for null pivots: x is given there */
     double *centre_scratch;
     double *buffer; /* kernel scratch, for each worker */
@@ -14155,54 +14160,91 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     return SL_OK;
 }
 
-/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there. The null pivots of the
- * factor from number *at on are listed. */
-static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int *at,
-                                 sli_failure *failure) {
-    const sl_int null = *at < F->n_nulls ? F->nulls[*at] : F->S->n;
-    double *v = F->centre, a, sum = 0.0;
-    sl_int k;
-    if (null > root) {
-        memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
-        return SL_OK;
+/* flags(k): 1 where row k of L has an entry that is not 0, else 0. */
+static void sli_rows_used(const sl_factor *F, double *flags) {
+    const sl_symbolic *S = F->S;
+    sl_int s, r, j;
+    memset(flags, 0, (size_t)S->n * sizeof(double));
+    for (s = 0; s < S->n_supers; s++) {
+        const sli_step *step = &S->steps[s];
+        const double *panel = F->L + step->panel;
+        for (r = 1; r < step->width + step->below; r++) {
+            const sl_int row =
+                r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
+            for (j = 0; j < sli_min(r, step->width); j++) {
+                flags[row] = panel[sli_panel_at(step->width, r, j)] != 0.0 ? 1.0 : flags[row];
+            }
+        }
     }
-    if (*at + 1 < F->n_nulls && F->nulls[*at + 1] <= root) {
-        k = F->nulls[*at + 1];
-        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
+}
+
+/* The null pivot of each tree whose vector the weights tell apart. A row of zeros, as of a vertex whose faces are all
+ * degenerate, is a component by itself: its row of L is empty, its x is 0. Besides those a tree may have one. */
+static sl_status sli_anchors_make(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    double *used = F->divide;
+    int is_known = 0;
+    sl_int k, m = 0, first;
+    F->n_anchors = 0;
+    for (k = 0; k < S->n && m < F->n_nulls; k++) {
+        sl_int anchor = -1;
+        if (S->parent[k] != -1) {
+            continue;
+        }
+        for (first = m; m < F->n_nulls && F->nulls[m] <= k; m++) {
+        }
+        if (m - first == 1) {
+            anchor = F->nulls[first++];
+        } else if (m - first > 1 && !is_known) {
+            sli_rows_used(F, used);
+            is_known = 1;
+        }
+        for (; first < m; first++) {
+            const sl_int null = F->nulls[first];
+            if (used[null] != 0.0 && anchor != -1) {
+                return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
+            }
+            anchor = used[null] != 0.0 ? null : anchor;
+        }
+        if (anchor != -1) {
+            F->anchors[F->n_anchors++] = anchor;
+        }
     }
-    a = v[null];
-    if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
-        return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[null], null, -1, a);
-    }
-    v[null] = 0.0;
-    for (k = first; k <= root; k++) {
-        const double w = v[k] / a;
-        v[k] = w / F->D[k];
-        sum += w * v[k];
-    }
-    F->divide[null] = 1.0;
-    F->squares[(*at)++] = sum;
     return SL_OK;
 }
 
-/* What solves need to know of null pivots, once a factor is made: where they are, and v, by one forward sweep. */
-static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
-    const sl_symbolic *S = F->S;
-    const sli_reach all = sli_reach_all(S);
-    sl_status status = SL_OK;
-    double total = 0.0;
-    sl_int k, first = 0, at = 0;
-    F->n_nulls = 0;
-    for (k = 0; k < S->n; k++) {
-        if (sli_is_skipped(F, k)) {
-            F->nulls[F->n_nulls++] = k;
-        }
-    }
-    F->is_centred = F->mass != NULL && F->n_nulls > 0;
-    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-    if (!F->is_centred) {
+/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there; m: the number of its anchor,
+ * if it has one. */
+static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
+                                 sli_failure *failure) {
+    const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
+    double *v = F->centre, a, sum = 0.0;
+    sl_int k;
+    if (anchor > root) {
+        memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
         return SL_OK;
     }
+    a = v[anchor];
+    if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
+        return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[anchor], anchor, -1, a);
+    }
+    for (k = first; k <= root; k++) {
+        const double w = v[k] / a;
+        v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
+        sum += w * v[k];
+    }
+    F->divide[anchor] = 1.0;
+    F->squares[m] = sum;
+    return SL_OK;
+}
+
+/* v and what else centring needs, by one forward sweep. */
+static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sli_reach all = sli_reach_all(S);
+    sl_status status = sli_anchors_make(F, failure);
+    double total = 0.0;
+    sl_int k, first = 0, m = 0;
     memcpy(F->divide, F->D, (size_t)S->n * sizeof(double));
     memcpy(F->centre, F->mass, (size_t)S->n * sizeof(double));
     F->kernels->forward[SLI_LANES_1](all.count, all.steps, all.rows, F->L, F->centre,
@@ -14210,12 +14252,27 @@ static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->mass[k]);
         if (S->parent[k] == -1) {
-            status = sli_centre_tree(F, first, k, total, &at, failure);
+            status = sli_centre_tree(F, first, k, total, m, failure);
+            m += m < F->n_anchors && F->anchors[m] <= k;
             total = 0.0;
             first = k + 1;
         }
     }
     return status;
+}
+
+/* What solves need to know of null pivots, once a factor is made. */
+static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
+    sl_int k;
+    F->n_nulls = 0;
+    for (k = 0; k < F->S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            F->nulls[F->n_nulls++] = k;
+        }
+    }
+    F->is_centred = F->mass != NULL && F->n_nulls > 0;
+    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    return F->is_centred ? sli_centre_make(F, failure) : SL_OK;
 }
 
 /* Sums over the columns of a step, from a whole tile on, in 8 chains so that none waits for another: number f of the
@@ -14332,7 +14389,7 @@ typedef struct sli_shares {
     double c[SLI_TILE], t[SLI_TILE];
 } sli_shares;
 
-/* The tree that begins at step s; returns the step after its root. m: its null pivot's number, if it has one. */
+/* The tree that begins at step s; returns the step after its root. m: the number of its anchor, or -1. */
 static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
                              sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
     double chains[SLI_TILE], sums[SLI_TILE];
@@ -14349,12 +14406,12 @@ static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, c
         up = step->up;
     }
     *tree = sli_tree_of(F->S, &R->steps[s - 1]);
-    *m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
-    if (*m == F->n_nulls || F->nulls[*m] > tree->root) {
+    *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
+    if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
         *m = -1;
         return s;
     }
-    at = sli_reach_place_of(R, F->nulls[*m]);
+    at = sli_reach_place_of(R, F->anchors[*m]);
     if (at != -1) {
         memcpy(share->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
     }
@@ -14399,7 +14456,7 @@ static void sli_centre(const sl_factor *F, const sli_reach *from, const double *
 #undef SLI_CALL
             }
         }
-        place = m != -1 ? sli_reach_place_of(to, F->nulls[m]) : -1;
+        place = m != -1 ? sli_reach_place_of(to, F->anchors[m]) : -1;
         if (place != -1) { /* x is given there */
             memcpy(x + (ptrdiff_t)place * lanes, share.t, (size_t)lanes * sizeof(double));
         }
@@ -14430,6 +14487,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->nulls = SLI_TAKE(b, sl_int, n);
     }
     if (F->is_centred) {
+        F->anchors = SLI_TAKE(b, sl_int, S->stats.components);
         F->squares = SLI_TAKE(b, double, S->stats.components);
         F->mass = SLI_TAKE(b, double, n);
         F->centre = SLI_TAKE(b, double, n);

@@ -26,6 +26,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->nulls = SLI_TAKE(b, sl_int, n);
     }
     if (F->is_centred) {
+        F->anchors = SLI_TAKE(b, sl_int, S->stats.components);
         F->squares = SLI_TAKE(b, double, S->stats.components);
         F->mass = SLI_TAKE(b, double, n);
         F->centre = SLI_TAKE(b, double, n);

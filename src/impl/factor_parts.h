@@ -34,10 +34,12 @@ struct sl_factor {
     int checks;         /* there are null pivots, and solves look whether b is consistent */
     int is_centred;     /* there are null pivots, and solves are centred by mass: */
     sl_int n_nulls;
-    sl_int *nulls;   /* n: n_nulls null pivots, ascending */
+    sl_int *nulls; /* n: n_nulls null pivots, ascending */
+    sl_int n_anchors;
+    sl_int *anchors; /* a tree each: the null pivots that weights take care of, ascending */
     double *mass;    /* n, in pivot order; NULL: none */
     double *centre;  /* n: v = D^-1 L^-1 m / z' m */
-    double *squares; /* a tree each: v' D v of the one of each null pivot */
+    double *squares; /* a tree each: v' D v of the one of each anchor */
     double *divide;  /* n: D with 1 for null pivots: x is given there */
     double *centre_scratch;
     double *buffer; /* kernel scratch, for each worker */

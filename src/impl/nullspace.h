@@ -35,54 +35,91 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     return SL_OK;
 }
 
-/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there. The null pivots of the
- * factor from number *at on are listed. */
-static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int *at,
-                                 sli_failure *failure) {
-    const sl_int null = *at < F->n_nulls ? F->nulls[*at] : F->S->n;
-    double *v = F->centre, a, sum = 0.0;
-    sl_int k;
-    if (null > root) {
-        memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
-        return SL_OK;
+/* flags(k): 1 where row k of L has an entry that is not 0, else 0. */
+static void sli_rows_used(const sl_factor *F, double *flags) {
+    const sl_symbolic *S = F->S;
+    sl_int s, r, j;
+    memset(flags, 0, (size_t)S->n * sizeof(double));
+    for (s = 0; s < S->n_supers; s++) {
+        const sli_step *step = &S->steps[s];
+        const double *panel = F->L + step->panel;
+        for (r = 1; r < step->width + step->below; r++) {
+            const sl_int row =
+                r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
+            for (j = 0; j < sli_min(r, step->width); j++) {
+                flags[row] = panel[sli_panel_at(step->width, r, j)] != 0.0 ? 1.0 : flags[row];
+            }
+        }
     }
-    if (*at + 1 < F->n_nulls && F->nulls[*at + 1] <= root) {
-        k = F->nulls[*at + 1];
-        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
+}
+
+/* The null pivot of each tree whose vector the weights tell apart. A row of zeros, as of a vertex whose faces are all
+ * degenerate, is a component by itself: its row of L is empty, its x is 0. Besides those a tree may have one. */
+static sl_status sli_anchors_make(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    double *used = F->divide;
+    int is_known = 0;
+    sl_int k, m = 0, first;
+    F->n_anchors = 0;
+    for (k = 0; k < S->n && m < F->n_nulls; k++) {
+        sl_int anchor = -1;
+        if (S->parent[k] != -1) {
+            continue;
+        }
+        for (first = m; m < F->n_nulls && F->nulls[m] <= k; m++) {
+        }
+        if (m - first == 1) {
+            anchor = F->nulls[first++];
+        } else if (m - first > 1 && !is_known) {
+            sli_rows_used(F, used);
+            is_known = 1;
+        }
+        for (; first < m; first++) {
+            const sl_int null = F->nulls[first];
+            if (used[null] != 0.0 && anchor != -1) {
+                return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
+            }
+            anchor = used[null] != 0.0 ? null : anchor;
+        }
+        if (anchor != -1) {
+            F->anchors[F->n_anchors++] = anchor;
+        }
     }
-    a = v[null];
-    if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
-        return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[null], null, -1, a);
-    }
-    v[null] = 0.0;
-    for (k = first; k <= root; k++) {
-        const double w = v[k] / a;
-        v[k] = w / F->D[k];
-        sum += w * v[k];
-    }
-    F->divide[null] = 1.0;
-    F->squares[(*at)++] = sum;
     return SL_OK;
 }
 
-/* What solves need to know of null pivots, once a factor is made: where they are, and v, by one forward sweep. */
-static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
-    const sl_symbolic *S = F->S;
-    const sli_reach all = sli_reach_all(S);
-    sl_status status = SL_OK;
-    double total = 0.0;
-    sl_int k, first = 0, at = 0;
-    F->n_nulls = 0;
-    for (k = 0; k < S->n; k++) {
-        if (sli_is_skipped(F, k)) {
-            F->nulls[F->n_nulls++] = k;
-        }
-    }
-    F->is_centred = F->mass != NULL && F->n_nulls > 0;
-    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-    if (!F->is_centred) {
+/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there; m: the number of its anchor,
+ * if it has one. */
+static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
+                                 sli_failure *failure) {
+    const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
+    double *v = F->centre, a, sum = 0.0;
+    sl_int k;
+    if (anchor > root) {
+        memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
         return SL_OK;
     }
+    a = v[anchor];
+    if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
+        return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[anchor], anchor, -1, a);
+    }
+    for (k = first; k <= root; k++) {
+        const double w = v[k] / a;
+        v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
+        sum += w * v[k];
+    }
+    F->divide[anchor] = 1.0;
+    F->squares[m] = sum;
+    return SL_OK;
+}
+
+/* v and what else centring needs, by one forward sweep. */
+static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sli_reach all = sli_reach_all(S);
+    sl_status status = sli_anchors_make(F, failure);
+    double total = 0.0;
+    sl_int k, first = 0, m = 0;
     memcpy(F->divide, F->D, (size_t)S->n * sizeof(double));
     memcpy(F->centre, F->mass, (size_t)S->n * sizeof(double));
     F->kernels->forward[SLI_LANES_1](all.count, all.steps, all.rows, F->L, F->centre,
@@ -90,12 +127,27 @@ static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->mass[k]);
         if (S->parent[k] == -1) {
-            status = sli_centre_tree(F, first, k, total, &at, failure);
+            status = sli_centre_tree(F, first, k, total, m, failure);
+            m += m < F->n_anchors && F->anchors[m] <= k;
             total = 0.0;
             first = k + 1;
         }
     }
     return status;
+}
+
+/* What solves need to know of null pivots, once a factor is made. */
+static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
+    sl_int k;
+    F->n_nulls = 0;
+    for (k = 0; k < F->S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            F->nulls[F->n_nulls++] = k;
+        }
+    }
+    F->is_centred = F->mass != NULL && F->n_nulls > 0;
+    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    return F->is_centred ? sli_centre_make(F, failure) : SL_OK;
 }
 
 /* Sums over the columns of a step, from a whole tile on, in 8 chains so that none waits for another: number f of the
@@ -212,7 +264,7 @@ typedef struct sli_shares {
     double c[SLI_TILE], t[SLI_TILE];
 } sli_shares;
 
-/* The tree that begins at step s; returns the step after its root. m: its null pivot's number, if it has one. */
+/* The tree that begins at step s; returns the step after its root. m: the number of its anchor, or -1. */
 static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
                              sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
     double chains[SLI_TILE], sums[SLI_TILE];
@@ -229,12 +281,12 @@ static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, c
         up = step->up;
     }
     *tree = sli_tree_of(F->S, &R->steps[s - 1]);
-    *m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
-    if (*m == F->n_nulls || F->nulls[*m] > tree->root) {
+    *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
+    if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
         *m = -1;
         return s;
     }
-    at = sli_reach_place_of(R, F->nulls[*m]);
+    at = sli_reach_place_of(R, F->anchors[*m]);
     if (at != -1) {
         memcpy(share->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
     }
@@ -279,7 +331,7 @@ static void sli_centre(const sl_factor *F, const sli_reach *from, const double *
 #undef SLI_CALL
             }
         }
-        place = m != -1 ? sli_reach_place_of(to, F->nulls[m]) : -1;
+        place = m != -1 ? sli_reach_place_of(to, F->anchors[m]) : -1;
         if (place != -1) { /* x is given there */
             memcpy(x + (ptrdiff_t)place * lanes, share.t, (size_t)lanes * sizeof(double));
         }

@@ -10,17 +10,20 @@
  *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
  *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. With
- *  options.mass, weights m, every solve on the factor, full or local, then gives in each component with a null pivot the x
- *  with sum m x = 0 of A x = b - c m, where c = z' b / z' m makes the right-hand side consistent and z is the null
- *  vector: on a Laplacian, of constant z, the Poisson problem's zero-mean solution. A component whose weights are all 0,
- *  as that of a vertex without faces may be, counts as weighted by 1. Without mass solves give the solution that is 0
- *  in the rows of sl_factor_null_rows, and refuse a right-hand side that is not consistent by SL_ERR_INCONSISTENT
+ *  options.mass, weights m, every solve on the factor, full or local, then gives in each component with a null pivot the
+ *  x with sum m x = 0 of A x = b - c m, where c = z' b / z' m makes the right-hand side consistent and z is the null
+ *  vector: on a Laplacian, of constant z, the Poisson problem's zero-mean solution. A component whose weights are all
+ *  0, as that of a vertex without faces may be, counts as weighted by 1; a row of zeros is a component by itself,
+ *  whatever the pattern says, and its x is 0. Without mass solves give the solution that is 0 in the rows of
+ *  sl_factor_null_rows, and refuse a right-hand side that is not consistent by SL_ERR_INCONSISTENT
  *  (options.consistency_tolerance; sl_factor_defects tells by how much). Where that is switched off, the residual of
  *  such a system is in those rows alone. Entries of the inverse are those of the inverse that makes x 0 there.
  *
  *  options.regularization is for KKT systems whose signs are known: L D L' is then P (A + E) P' with a diagonal E
  *  that is 0 but in the rows of sl_factor_regularized_rows. sl_factor_refine and sl_plan_solve_refined give the
- *  solution of A x = b out of it.
+ *  solution of A x = b out of it. Where many diagonal entries are 0, a small multiple of the signs added to the whole
+ *  diagonal beforehand makes A quasi-definite, and refinement takes it away just so. Signs that are not those of
+ *  the blocks, as where H is indefinite, are no substitute for pivoting: backward_error tells.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -65,7 +68,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
  *  Cost     the update matrices of all descendants of the supernodes reached; 16 bytes an entry of the columns while
- *           it runs.
+ *           it runs. With mass the forward sweep for the weights is a whole one.
  *  Threads  nobody else may use F meanwhile.
  *  Source   left-looking supernodes [NP93] over the reach of the changes.
  *  Example  tests/test_changed.c
