@@ -1,96 +1,101 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: b5b891cd0ce2031b
+ * FNV-1a of all that follows this comment, license aside: c8bf3d3f8b078273
  *
  * Contents
  *         (what a user reads)
- *     98  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    149  public/config.h            what a user may set before including the header, the version, and the integer types
- *    198  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    415  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    535  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    597  public/factor.h            the numbers: P A P' = L D L'
- *    703  public/solve.h             full solves, and the workspace that every solve writes to
- *    772  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    860  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
- *    954  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
- *    996  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
- *   1163  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1262  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *    103  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    156  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    205  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    445  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    565  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    627  public/factor.h            the numbers: P A P' = L D L'
+ *    765  public/solve.h             full solves, and the workspace that every solve writes to
+ *    835  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    926  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *   1018  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1112  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *   1156  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1323  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1422  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1351  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1442  impl/status.h              status codes in words, and the error fields of stats
- *   1498  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1623  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1698  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1735  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1512  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1605  impl/status.h              status codes in words, and the error fields of stats
+ *   1663  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1788  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1863  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1900  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1776  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   2091  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2229  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2259  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3430  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3476  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3613  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3828  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   4125  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4287  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4560  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4611  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4756  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5569  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6880  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   9085  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11347  impl/select.h              the kernel table for an instruction set
+ *   1941  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   2287  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2425  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2455  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3626  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3672  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3809  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   4026  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   4323  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4485  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4758  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4809  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4954  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5767  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   7080  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   9287  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11551  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11380  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
- *  11691  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
- *  11815  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11888  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
- *  11978  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11584  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11895  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  12019  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  12092  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  12182  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12332  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12371  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12518  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12632  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12776  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12861  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12934  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  13100  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  13176  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  13206  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  13247  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13458  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13744  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12536  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12575  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12722  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12836  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12980  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  13065  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  13138  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  13304  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  13380  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  13410  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  13451  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13662  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13948  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  14042  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  14219  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  14388  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14474  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14724  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14824  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  15188  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  15303  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  15407  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  15466  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  15563  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  15825  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  15867  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  14258  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  14459  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  14628  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14710  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14958  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  15058  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  15400  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  15816  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  15950  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  16054  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  16113  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  16218  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  16539  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  16581  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  16270  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  16534  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  16706  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  16954  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17166  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  17468  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  17709  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  17888  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  18086  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  18228  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  18450  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  18550  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  16985  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  17249  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  17421  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17669  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  17881  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  18183  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18424  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  18601  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  18791  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  18967  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  19184  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  19382  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  19525  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  19747  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  19847  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  19047  impl/leave.h               takes every internal macro away again
+ *  20345  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -141,6 +146,8 @@
  *  [ET75]    Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix, 1975.
  *  [SelInv]  Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric matrix, 2011.
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
+ *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
+ *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination, 1980.
  *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
  */
 
@@ -212,7 +219,8 @@ typedef enum sl_status {
     SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
     SL_ERR_IO,       /* a file could not be opened, read, parsed or written; stats name the line */
     SL_ERR_ORDERING, /* the ordering library failed */
-    SL_ERR_STATE     /* a failed factor, or objects that do not belong together */
+    SL_ERR_STATE,    /* a failed factor, or objects that do not belong together */
+    SL_ERR_INCONSISTENT /* a singular system whose right-hand side has no solution */
 } sl_status;
 
 /** A name for a status, in words, static storage. Any value is accepted. */
@@ -329,6 +337,23 @@ typedef struct sl_options {
         region; /* of sl_plan_create: where its sweeps may end; borrowed, must outlive the plan; NULL: none */
     size_t
         region_bytes; /* of sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
+
+    /* SL_SEMIDEFINITE, sl_factor_create: which of many solutions is meant, and when there is none */
+
+    /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and b is made consistent by a
+     * multiple of m; NULL: x is 0 in the null rows */
+    const double *mass;
+    /* without mass a solve refuses b where |z' b| > consistency_tolerance * (sum of |b|) for a null vector z that is
+     * 1 in its null row; 0: 1e-6, which lets pass what single precision loses; negative: nothing is refused */
+    double consistency_tolerance;
+
+    /* SL_DEFINITE, sl_factor_create: signed regularization */
+
+    /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|, regularization * the sum of the magnitudes
+     * that made it, 1 where that is 0); 1e-8 suits refinement; 0: none */
+    double regularization;
+    /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do; copied; NULL: all 1 */
+    const sl_int *signs;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -368,6 +393,7 @@ typedef struct sl_stats {
     double seconds_setup; /* processor seconds in the schedule and the memory of sl_factor_create */
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
+    sl_int regularized; /* pivots that regularization changed; they count by their new sign */
 
     /* sl_plan_create, sl_local_solve; sl_inverse_*, which have no backward sweep */
     sl_int b_supernodes; /* visited by the forward sweep */
@@ -400,6 +426,10 @@ typedef struct sl_stats {
 
     /* sl_inverse_diagonal, sl_inverse_pairs */
     sl_inverse_method inverse_method; /* the one that was used */
+
+    /* sl_factor_refine, sl_plan_solve_refined */
+    sl_int refine_steps;   /* corrections that were taken, the most of all right-hand sides */
+    double backward_error; /* what is left, the largest of all right-hand sides */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
@@ -604,20 +634,35 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
  *  Definite and quasi-definite matrices work in any order unless rounding loses a pivot: one that comes out below
  *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
  *
- *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. Solves
- *  then give a solution of every consistent system, the one that is 0 in the rows of sl_factor_null_rows; of a system
- *  that is not consistent they leave a residual in those rows alone.
+ *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. With
+ *  options.mass, weights m, every solve on the factor, full or local, then gives in each component with a null pivot the
+ *  x with sum m x = 0 of A x = b - c m, where c = z' b / z' m makes the right-hand side consistent and z is the null
+ *  vector: on a Laplacian, of constant z, the Poisson problem's zero-mean solution. A component whose weights are all
+ *  0, as that of a vertex without faces may be, counts as weighted by 1; a row of zeros is a component by itself,
+ *  whatever the pattern says, and its x is 0. Without mass solves give the solution that is 0 in the rows of
+ *  sl_factor_null_rows, and refuse a right-hand side that is not consistent by SL_ERR_INCONSISTENT
+ *  (options.consistency_tolerance; sl_factor_defects tells by how much). Where that is switched off, the residual of
+ *  such a system is in those rows alone. Entries of the inverse are those of the inverse that makes x 0 there.
+ *
+ *  options.regularization is for KKT systems whose signs are known: L D L' is then P (A + E) P' with a diagonal E
+ *  that is 0 but in the rows of sl_factor_regularized_rows. sl_factor_refine and sl_plan_solve_refined give the
+ *  solution of A x = b out of it. Where many diagonal entries are 0, a small multiple of the signs added to the whole
+ *  diagonal beforehand makes A quasi-definite, and refinement takes it away just so. Signs that are not those of
+ *  the blocks, as where H is indefinite, are no substitute for pivoting: backward_error tells.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
- *  opt    [in]   isa, method, threads, definiteness, null_tolerance, allocator; may be NULL.
+ *  opt    [in]   isa, method, threads, definiteness, null_tolerance, mass, consistency_tolerance, regularization,
+ *                signs, allocator; may be NULL.
  *  stats  [out]  the factor group; error_row, error_value; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: no values; SL_ERR_PATTERN: n or the number of entries differs from the analysed
- *           one; SL_ERR_PIVOT: null pivot at error_row; SL_ERR_NOT_FINITE: at error_row (and error_column where
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option that is no number or out of range, a weight that is not finite
+ *           or a sign that is none (error_row), z' m = 0 at null row error_row; SL_ERR_PATTERN: n or the number of entries differs from the analysed
+ *           one; SL_ERR_PIVOT: null pivot at error_row, with mass a second one in its component; SL_ERR_NOT_FINITE: at error_row (and error_column where
  *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_TOO_LARGE: L is beyond size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2); kept are nnz_panels doubles and, by the supernodal method, the update
- *           matrices that wait at once: some 5 % more on 2D meshes, some 30 % on 3D ones, twice that with threads.
+ *           matrices that wait at once: some 5 % more on 2D meshes, some 30 % on 3D ones, twice that with threads. Mass
+ *           adds a forward sweep, 24 bytes a row, and to a solve a few operations for each column that it visits.
  *  Threads  any number of calls at once on one S. options.threads shares one call out, here and in every
  *           sl_factor_refactor: subtrees first, then the rows of each large front. The bits of L do not depend on
  *           their number. The supernodal method alone uses them.
@@ -648,7 +693,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
  *  Cost     the update matrices of all descendants of the supernodes reached; while it runs 16 bytes an entry of the
- *           columns, 4 a row of A, of which it touches those reached, and 4 a row of the tallest supernode.
+ *           columns, 4 a row of A, of which it touches those reached, and 4 a row of the tallest supernode. With mass the
+ *           forward sweep for the weights is a whole one.
  *  Threads  nobody else may use F meanwhile.
  *  Source   left-looking supernodes [NP93] over the reach of the changes.
  *  Example  tests/test_changed.c
@@ -667,12 +713,28 @@ SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
  *
  *  rows   [out]  the first `most` of them; NULL where most = 0.
  *  count  [out]  how many there are, also above most.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
                                                     sl_int *count);
 
-/** log |det A| and the sign of det A (-1 or 1) from D, skipped null pivots left out; det of a 0 x 0 matrix is 1.
+/** The rows whose pivots regularization changed, in the order of elimination, and by how much: E of A + E = P' L D L' P.
+ *
+ *  rows    [out]  the first `most` of them; NULL where most = 0.
+ *  shifts  [out]  the same number of diagonal entries of E; may be NULL.
+ *  count   [out]  how many there are, also above most.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows,
+                                                           double *shifts, sl_int most,
+                                                           sl_int *count);
+
+/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+ *
+ *  Where null pivots were skipped it is the determinant of A without their rows and columns: of a Laplacian, in each
+ *  component the product of the eigenvalues that are not 0 over the number of rows.
+ *
+ *  Where regularization changed pivots it is that of A + E. A sum of logarithms: nothing overflows.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
  */
@@ -729,7 +791,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_fact
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
 
-/** Solves A X = B.
+/** Solves A X = B. Of a singular A: the solution that sl_factor_create tells of.
  *
  *  F      [in]   factor of A, n x n.
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
@@ -737,9 +799,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of two to three alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
- *           could not.
- *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: a column of B has no solution
+ *           (SL_SEMIDEFINITE without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not.
+ *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)). Where B
+ *           has to be consistent, right-hand sides beyond the eighth are swept forward once more beforehand.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
  */
@@ -816,8 +879,10 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or, in a region, other
- *           numbers than those it was made or refilled of; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once W has grown.
+ *           numbers than those it was made or refilled of; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once
+ *           W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
  */
@@ -845,7 +910,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, cons
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: as in sl_factor_solve;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c
@@ -857,6 +923,98 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, si
 
 #endif
 /* end src/public/plan.h */
+/* begin src/public/accuracy.h */
+/* accuracy.h: how good a solution is and how to better it: refinement, condition, what a right-hand side lacks */
+#ifndef SL_PUBLIC_ACCURACY_H
+#define SL_PUBLIC_ACCURACY_H
+
+/** Betters solutions of A X = B: residual, solve, add, for as long as that helps.
+ *
+ *  Each column goes on until its backward error max |b - A x| / (|A| |x| + |b|), row by row, is epsilon, a correction
+ *  fails to halve it, or the steps are used up; a correction that makes it worse is not taken. With a regularized factor,
+ *  of A + E, that turns the solution of the one system into that of the other. With null pivots B has to be consistent.
+ *
+ *  F      [in]      a factor of A, or of a matrix near A.
+ *  A      [in]      the matrix; the pattern that was analysed.
+ *  X      [in,out]  n x nrhs, column-major, leading dimension ldx elements: solutions as sl_factor_solve gives, or any other
+ *                   start; must not overlap B. On error untouched.
+ *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
+ *  steps  [in]      the most corrections of a column, 0 or more; 0 only measures.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  stats  [out]     refine_steps, backward_error; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the pattern that was analysed;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not.
+ *  Cost     a product with A, and for each step another and a solve; W grows to O(n min(nrhs, 8)).
+ *  Threads  any number at once on one F, each with its own W.
+ *  Source   [Sk80]: one step of it makes a solver stable row by row.
+ *  Example  tests/test_refine.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X,
+                                                 size_t ldx, const double *B, size_t ldb,
+                                                 sl_int nrhs, sl_int steps, sl_work *W,
+                                                 sl_stats *stats);
+
+/** Solves A x = b on a plan's sets with a regularized factor, L D L' = P (A + E) P': sl_plan_solve and refinement.
+ *
+ *  A residual is known where x is known around it. That of a solution x of (A + E) x = b is E x, rounding aside, and
+ *  E is 0 but in the regularized rows: the sweeps x <- (A + E)^-1 (b + E x) need x in these and the wanted rows
+ *  alone, and cost what a local solve costs. What they take away is the error of regularization; that of rounding
+ *  is as in sl_plan_solve, and takes the whole of x and sl_factor_refine. Where nothing was regularized it is sl_plan_solve.
+ *
+ *  P      [in]   a plan whose two reaches hold every regularized row of the components that b is in: as they do where
+ *                these rows are in both of its sets.
+ *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve.
+ *  steps  [in]   the most corrections of a column, 0 or more.
+ *  stats  [out]  refine_steps; backward_error: max |E (x - the x before)| / max |b|; with SL_ERR_ARGUMENT error_row: a
+ *                regularized row outside of the reaches; may be NULL.
+ *  Returns  as sl_plan_solve; SL_ERR_UNSUPPORTED: a plan in a region, and a factor with regularized rows.
+ *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers a row of the x-set.
+ *  Threads  any number at once on one P and one F, each with its own W.
+ *  Example  tests/test_refine_local.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F,
+                                                      double *X, size_t ldx, const double *B,
+                                                      size_t ldb, sl_int nrhs, sl_int steps,
+                                                      sl_work *W, sl_stats *stats);
+
+/** An estimate of 1 / (||A|| ||A^-1||), by largest column sums; 0 where null pivots were skipped, 1 where n = 0.
+ *
+ *  The true one is never above it but for rounding, and rarely below a third of it. Where regularization changed
+ *  pivots, A^-1 is (A + E)^-1.
+ *
+ *  A      [in]      the matrix that F is a factor of.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the pattern that was analysed;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not.
+ *  Cost     4 to 10 solves.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Source   [Hi88]
+ *  Example  tests/test_condition.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond,
+                                                sl_work *W);
+
+/** What right-hand sides lack to be consistent with a singular A: Z' B, for the null vectors z of A.
+ *
+ *  Vector k of Z belongs to row k of sl_factor_null_rows, and is 1 there and 0 in the other null rows: B with Y(k, r)
+ *  taken off that row has a solution. On a Laplacian Y holds the sum of B over each component.
+ *
+ *  F      [in]   a factor made with SL_SEMIDEFINITE; one without null pivots has nothing to tell.
+ *  Y      [out]  null rows x nrhs, column-major, leading dimension ldy elements; must not overlap B.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
+ *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
+ *           could not.
+ *  Cost     the forward half of sl_factor_solve.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Example  tests/test_consistent.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy,
+                                                  const double *B, size_t ldb, sl_int nrhs,
+                                                  sl_work *W);
+
+#endif
+/* end src/public/accuracy.h */
 /* begin src/public/inverse.h */
 /* inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
 #ifndef SL_PUBLIC_INVERSE_H
@@ -982,8 +1140,10 @@ typedef struct sl_request {
  *                      this call.
  *  failed    [out]     the request at fault, or -1; may be NULL. On error no X has been touched.
  *  Returns   SL_OK; SL_ERR_ARGUMENT, also for works that hold a NULL or one workspace twice; SL_ERR_STATE: failed
- *            factor, or a plan that sl_plan_solve refuses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *            factor, or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *            SL_ERR_MEMORY.
  *  Cost      that of the solves, shared out by the entries of L that each reads; threads times the largest workspace.
+ *            Where right-hand sides have to be consistent, all of them are swept forward once more beforehand.
  *  Threads   as sl_plan_solve.
  *  Example   tests/test_batch.c
  */
@@ -1270,7 +1430,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
  * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding.
+ * solve to rounding. Of a singular matrix (SL_SEMIDEFINITE) that holds for a b that is consistent: nobody looks at null rows
+ * outside of the region.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.
@@ -1290,8 +1451,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
  *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_UNSUPPORTED: a factor
+ *           whose solves are centred (options.mass); SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
  *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
  *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
@@ -1311,7 +1472,7 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  scratch; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or Z is not of F as it is;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_UNSUPPORTED: as there; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_region_create, less the plan; no allocation once W has grown.
  *  Threads  nobody else may use R, or a plan in it, meanwhile.
  *  Example  tests/test_region.c
@@ -1389,6 +1550,7 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 #define SLI_INLINE __attribute__((unused)) static inline
 /* for bodies that are worth it only with a constant argument folded into them */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
+#define SLI_APART __attribute__((unused, noinline)) /* what hot code must not carry along */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 /* the cache line some bytes from p, which need not exist: asking for it has no other effect */
@@ -1398,6 +1560,7 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 #else
 #define SLI_INLINE static inline
 #define SLI_ALWAYS_INLINE static inline
+#define SLI_APART
 #define SLI_TARGET(list)
 #define SLI_ALIGNED(variable) variable
 #define SLI_PREFETCH(p, bytes) ((void)0)
@@ -1468,6 +1631,8 @@ SL_API const char *sl_status_string(sl_status status) {
         return "ordering failed";
     case SL_ERR_STATE:
         return "failed factor, or objects that do not belong together";
+    case SL_ERR_INCONSISTENT:
+        return "inconsistent right-hand side of a singular system";
     }
     return "unknown status";
 }
@@ -1923,6 +2088,15 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
 /* Doubles of a front's inverse. */
 #define SLI_FRONT_INVERSE (2 * SLI_GROUP * SLI_TILE)
 
+/* What becomes of a pivot that is null, or of the wrong sign. Its arrays go by the column of L. */
+typedef struct sli_pivot_rule {
+    double null_tolerance;
+    int replaces;          /* anything at all; else null pivots are the caller's to find */
+    double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
+    signed char *signs;    /* n: 1, -1, or 0 where either will do; NULL: all 1 */
+    double *shifts;        /* n: what regularization added to each pivot; NULL: there is none */
+} sli_pivot_rule;
+
 typedef struct sli_front {
     double *panel;
     sl_int width, below;
@@ -1930,8 +2104,8 @@ typedef struct sli_front {
     double *D;         /* width pivots */
     double *magnitude; /* 8 a tile: what each diagonal entry was made of, in absolute value */
     double *inverse;   /* 16 a column tile: 1/d, or 0 first where they are out of range; -sign d */
-    double null_tolerance;
-    int skips_null; /* a null pivot becomes SLI_NULL_PIVOT */
+    const sli_pivot_rule *rule;
+    sl_int column; /* the first of the supernode */
 } sli_front;
 
 /* Stands for a null pivot that is skipped: so large that what is divided by it is nothing, and 0 times
@@ -1943,6 +2117,28 @@ typedef struct sli_front {
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
     const double size = fabs(pivot);
     return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
+}
+
+/* The pivot of column k by a rule that replaces. A regularized one has the size of what it was made of, times a
+ * factor: a scaling of A changes nothing. One whose wrong sign is no rounding error is only turned: made small
+ * it would let L grow beyond all bounds. Never inlined: it would cost definite matrices up to 8 percent. */
+SLI_APART static double sli_pivot_ruled(const sli_pivot_rule *rule, sl_int k, double d,
+                                        double magnitude) {
+    const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
+    int sign = rule->signs == NULL ? 1 : rule->signs[k];
+    double least;
+    if (rule->regularization == 0.0) {
+        return is_null ? SLI_NULL_PIVOT : d;
+    }
+    rule->shifts[k] = 0.0;
+    if (!is_null && !(d * sign < 0.0)) {
+        return d;
+    }
+    sign = sign != 0 ? sign : d < 0.0 ? -1 : 1;
+    least = rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
+    least = sign * (fabs(d) > least ? fabs(d) : least);
+    rule->shifts[k] = least - d;
+    return least;
 }
 
 /* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On
@@ -3651,8 +3847,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
-            d = SLI_NULL_PIVOT;                                                                    \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -3684,6 +3880,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -5918,8 +6116,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
-            d = SLI_NULL_PIVOT;                                                                    \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -5951,6 +6149,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -8123,8 +8323,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
-            d = SLI_NULL_PIVOT;                                                                    \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -8156,6 +8356,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -10385,8 +10587,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
-            d = SLI_NULL_PIVOT;                                                                    \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -10418,6 +10620,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;
@@ -13997,6 +14201,18 @@ SLI_INLINE sl_int sli_reach_place(const sli_reach *R, sl_int *at, sl_int column)
     return column - R->steps[*at].column + R->steps[*at].base;
 }
 
+/* The place of any column in the reach's vector, -1 where it has none. */
+static sl_int sli_reach_place_of(const sli_reach *R, sl_int column) {
+    const sli_step *step;
+    if (R->count == 0) {
+        return -1;
+    }
+    step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
+    return column >= step->column && column < step->column + sli_step_columns(step)
+               ? step->base + column - step->column
+               : -1;
+}
+
 /* A walk over the supernodes that two reaches share: set up by sli_meeting_of, then sli_meet until it
  * gives 0. */
 typedef struct sli_meeting {
@@ -14068,7 +14284,7 @@ struct sl_factor {
     sl_stats stats;       /* the factor group and the error fields */
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
-    double null_tolerance;
+    sli_pivot_rule rule;
     sl_definiteness definiteness;
     sl_method method;
     int is_good;         /* L and D hold a factor */
@@ -14076,7 +14292,22 @@ struct sl_factor {
     uint64_t generation; /* of the numbers: how often they were begun anew */
     double *L;           /* the panels */
     double *D;           /* n pivots */
-    double *buffer;      /* kernel scratch, for each worker */
+    sl_int *
+        regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
+    /* null pivots */
+    double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
+    int checks;         /* there are null pivots, and solves look whether b is consistent */
+    int is_centred;     /* there are null pivots, and solves are centred by mass: */
+    sl_int n_nulls;
+    sl_int *nulls; /* n: n_nulls null pivots, ascending */
+    sl_int n_anchors;
+    sl_int *anchors; /* a tree each: the null pivots that weights take care of, ascending */
+    double *mass;    /* n, in pivot order; NULL: none */
+    double *centre;  /* n: v = D^-1 L^-1 m / z' m */
+    double *squares; /* a tree each: v' D v of the one of each anchor */
+    double *divide;  /* n: D with 1 for null pivots: x is given there */
+    double *centre_scratch;
+    double *buffer; /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
     sl_threads threads;
     sli_schedule schedule;
@@ -14176,33 +14407,42 @@ static sl_status sli_panel_add(const sl_factor *F, const sli_source *from, sl_in
 }
 
 /* Refuses a pivot that is not a number or null against what it was made of. */
+/* Was pivot k null and skipped? */
+SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
+    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
+}
+
+/* Was pivot k changed by regularization? */
+SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
+    return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
+}
+
+/* Refuses a pivot that is not a number, or null against what it was made of and not replaced. */
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
                                      sli_failure *failure) {
     if (!sli_is_finite(pivot)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
-    if (sli_is_null(pivot, magnitude, F->null_tolerance)) {
+    if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
     return SL_OK;
-}
-
-/* Was pivot k null and skipped? */
-SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
 }
 
 /* Counts and bounds of the first pivots. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_stats *stats = &F->stats;
     sl_int k;
-    stats->positive = stats->negative = stats->null = 0;
+    stats->positive = stats->negative = stats->null = stats->regularized = 0;
     stats->pivot_min = stats->pivot_max = 0.0;
     for (k = 0; k < count; k++) {
         const double size = fabs(F->D[k]);
         if (sli_is_skipped(F, k)) {
             stats->null++;
             continue;
+        }
+        if (sli_is_regularized(F, k)) {
+            F->regularized[stats->regularized++] = k;
         }
         if (stats->positive + stats->negative == 0) {
             stats->pivot_min = size;
@@ -14454,13 +14694,9 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         magnitude = fabs(pivot);
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
+        pivot = F->rule.replaces ? sli_pivot_ruled(&F->rule, k, pivot, magnitude) : pivot;
         F->D[k] = pivot;
-        if (F->definiteness == SL_SEMIDEFINITE &&
-            sli_is_null(pivot, magnitude, F->null_tolerance)) {
-            F->D[k] = SLI_NULL_PIVOT;
-        } else {
-            status = sli_check_pivot(F, k, pivot, magnitude, failure);
-        }
+        status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
             sli_wait_for_row(F, s);
@@ -14496,8 +14732,8 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.D = F->D + step->column;
     f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
     f.inverse = F->inverse + (ptrdiff_t)worker * SLI_FRONT_INVERSE;
-    f.null_tolerance = F->null_tolerance;
-    f.skips_null = F->definiteness == SL_SEMIDEFINITE;
+    f.rule = &F->rule;
+    f.column = step->column;
     return f;
 }
 
@@ -14558,16 +14794,14 @@ static void sli_front_hand_over(const sli_front *f) {
            SLI_TILE * (size_t)tiles * sizeof(double));
 }
 
-/* A null pivot that was not skipped is a failure. */
+/* A null pivot that nothing was done about is a failure. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < f->width && status == SL_OK; k++) {
-        if (!sli_is_skipped(F, first + k)) {
-            status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
-        }
+        status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
     }
     return status;
 }
@@ -14821,6 +15055,348 @@ static sl_status sli_left_looking_all(sl_factor *F, const sli_pulling *p, const 
 
 #endif
 /* end src/impl/leftlooking.h */
+/* begin src/impl/nullspace.h */
+/* nullspace.h: null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights */
+#ifndef SLI_NULLSPACE_H
+#define SLI_NULLSPACE_H
+
+/* A null pivot k, skipped, has the null vector z = P' L^-T e_k, 1 in its own row, and z' b = (L^-1 P b)(k): the
+ * forward sweep tells by how much b fails to be consistent.
+ *
+ * Centred solves, in a component (a tree) with one null pivot and weights m: of A x = b - c m with c = z' b / z' m the x
+ * with m' x = 0. With w = L^-1 P m / z' m and y = L^-1 P b that is P x = L^-T (D^+ (y - c' w) + t e_k), c' = y(k),
+ * t = - w' D^+ (y - c' w): a dot product over the columns of the forward sweep, a difference over those of the
+ * backward sweep, both in their vectors. Kept are v = D^+ w and, for each component, w' D^+ w. Columns that a local solve leaves out are exact zeros in the dot product of the full
+ * one, so that both have the same bits. */
+
+/* The weights in pivot order. A component without any, such as a vertex without a face, gets 1 for each row. */
+static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
+    const sl_symbolic *S = F->S;
+    sl_int k, first = 0, any = 0;
+    for (k = 0; k < S->n; k++) {
+        const double m = mass[S->perm[k]];
+        if (!sli_is_finite(m)) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m);
+        }
+        F->mass[k] = m;
+        any |= m != 0.0;
+        if (S->parent[k] == -1) { /* in a postorder a tree ends at its root */
+            for (; first <= k; first++) {
+                F->mass[first] = any ? F->mass[first] : 1.0;
+            }
+            any = 0;
+        }
+    }
+    return SL_OK;
+}
+
+/* flags(k): 1 where row k of L has an entry that is not 0, else 0. */
+static void sli_rows_used(const sl_factor *F, double *flags) {
+    const sl_symbolic *S = F->S;
+    sl_int s, r, j;
+    memset(flags, 0, (size_t)S->n * sizeof(double));
+    for (s = 0; s < S->n_supers; s++) {
+        const sli_step *step = &S->steps[s];
+        const double *panel = F->L + step->panel;
+        for (r = 1; r < step->width + step->below; r++) {
+            const sl_int row =
+                r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
+            for (j = 0; j < sli_min(r, step->width); j++) {
+                flags[row] = panel[sli_panel_at(step->width, r, j)] != 0.0 ? 1.0 : flags[row];
+            }
+        }
+    }
+}
+
+/* The null pivot of each tree whose vector the weights tell apart. A row of zeros, as of a vertex whose faces are all
+ * degenerate, is a component by itself: its row of L is empty, its x is 0. Besides those a tree may have one. */
+static sl_status sli_anchors_make(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    double *used = F->divide;
+    int is_known = 0;
+    sl_int k, m = 0, first;
+    F->n_anchors = 0;
+    for (k = 0; k < S->n && m < F->n_nulls; k++) {
+        sl_int anchor = -1;
+        if (S->parent[k] != -1) {
+            continue;
+        }
+        for (first = m; m < F->n_nulls && F->nulls[m] <= k; m++) {
+        }
+        if (m - first == 1) {
+            anchor = F->nulls[first++];
+        } else if (m - first > 1 && !is_known) {
+            sli_rows_used(F, used);
+            is_known = 1;
+        }
+        for (; first < m; first++) {
+            const sl_int null = F->nulls[first];
+            if (used[null] != 0.0 && anchor != -1) {
+                return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
+            }
+            anchor = used[null] != 0.0 ? null : anchor;
+        }
+        if (anchor != -1) {
+            F->anchors[F->n_anchors++] = anchor;
+        }
+    }
+    return SL_OK;
+}
+
+/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there; m: the number of its anchor,
+ * if it has one. */
+static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
+                                 sli_failure *failure) {
+    const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
+    double *v = F->centre, a, sum = 0.0;
+    sl_int k;
+    if (anchor > root) {
+        memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
+        return SL_OK;
+    }
+    a = v[anchor];
+    if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
+        return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[anchor], anchor, -1, a);
+    }
+    for (k = first; k <= root; k++) {
+        const double w = v[k] / a;
+        v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
+        sum += w * v[k];
+    }
+    F->divide[anchor] = 1.0;
+    F->squares[m] = sum;
+    return SL_OK;
+}
+
+/* v and what else centring needs, by one forward sweep. */
+static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sli_reach all = sli_reach_all(S);
+    sl_status status = sli_anchors_make(F, failure);
+    double total = 0.0;
+    sl_int k, first = 0, m = 0;
+    memcpy(F->divide, F->D, (size_t)S->n * sizeof(double));
+    memcpy(F->centre, F->mass, (size_t)S->n * sizeof(double));
+    F->kernels->forward[SLI_LANES_1](all.count, all.steps, all.rows, F->L, F->centre,
+                                     F->centre_scratch);
+    for (k = 0; k < S->n && status == SL_OK; k++) {
+        total += fabs(F->mass[k]);
+        if (S->parent[k] == -1) {
+            status = sli_centre_tree(F, first, k, total, m, failure);
+            m += m < F->n_anchors && F->anchors[m] <= k;
+            total = 0.0;
+            first = k + 1;
+        }
+    }
+    return status;
+}
+
+/* What solves need to know of null pivots, once a factor is made. */
+static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
+    sl_int k;
+    F->n_nulls = 0;
+    for (k = 0; k < F->S->n; k++) {
+        if (sli_is_skipped(F, k)) {
+            F->nulls[F->n_nulls++] = k;
+        }
+    }
+    F->is_centred = F->mass != NULL && F->n_nulls > 0;
+    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    return F->is_centred ? sli_centre_make(F, failure) : SL_OK;
+}
+
+/* Sums over the columns of a step, from a whole tile on, in 8 chains so that none waits for another: number f of the
+ * step's doubles goes to chain f % 8, in a local sweep as in the full one. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
+                                       sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) {
+            chains[q] += fabs(row[f + q]);
+        }
+    }
+    for (q = 0; f < count; q++) {
+        chains[q] += fabs(row[f++]);
+    }
+}
+
+SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
+                                      sl_int columns, sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
+            chains[q] += v[q / lanes] * row[f + q];
+        }
+    }
+    for (q = 0; f < count; q++) {
+        chains[q] += v[q / lanes] * row[f++];
+    }
+}
+
+/* The chains of each lane, one after the other. */
+static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
+    sl_int q;
+    for (q = 0; q < lanes; q++) {
+        sums[q] = chains[q];
+    }
+    for (; q < SLI_TILE; q++) {
+        sums[q % lanes] += chains[q];
+    }
+}
+
+/* Calls a body for a constant number of lanes. */
+#define SLI_FOR_LANES(lanes, call)                                                                 \
+    if ((lanes) == 1) {                                                                            \
+        call(1);                                                                                   \
+    } else if ((lanes) == 2) {                                                                     \
+        call(2);                                                                                   \
+    } else if ((lanes) == 4) {                                                                     \
+        call(4);                                                                                   \
+    } else {                                                                                       \
+        call(8);                                                                                   \
+    }
+
+/* norms(r) = sum of |b| in a packed block of right-hand sides */
+static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
+    double chains[SLI_TILE];
+    sl_int s;
+    memset(chains, 0, sizeof chains);
+    for (s = 0; s < R->count; s++) {
+        const sl_int columns = sli_step_columns(&R->steps[s]);
+        const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
+#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+    }
+    sli_chains_sum(chains, lanes, norms);
+}
+
+/* The columns of the tree whose root is step s of a reach. */
+typedef struct sli_tree {
+    sl_int first, root;
+} sli_tree;
+
+SLI_INLINE sli_tree sli_tree_of(const sl_symbolic *S, const sli_step *root) {
+    const sl_int super = S->super_of[root->column];
+    sli_tree tree;
+    tree.first = S->super_first[S->descendant[super]];
+    tree.root = S->super_first[super + 1] - 1;
+    return tree;
+}
+
+/* After the forward sweep: is |z' b| small at every null pivot? A NaN passes, and so does what overflows: they show in
+ * x. */
+static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
+                             const double *norms) {
+    sl_int s, m, r;
+    for (s = 0; s < R->count; s++) {
+        sli_tree tree;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_of(F->S, &R->steps[s]);
+        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
+            const sl_int at = sli_reach_place_of(R, F->nulls[m]);
+            for (r = 0; at != -1 && r < lanes; r++) {
+                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
+                    return 0;
+                }
+            }
+        }
+    }
+    return 1;
+}
+
+/* What centring takes from one tree of the forward sweep. */
+typedef struct sli_shares {
+    double c[SLI_TILE], t[SLI_TILE];
+} sli_shares;
+
+/* The tree that begins at step s; returns the step after its root. m: the number of its anchor, or -1. */
+static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
+                             sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
+    double chains[SLI_TILE], sums[SLI_TILE];
+    sl_int r, at, up = s;
+    memset(share, 0, sizeof *share);
+    memset(chains, 0, sizeof chains);
+    while (up != -1) {
+        const sli_step *step = &R->steps[s++];
+        const double *v = F->centre + step->column, *row = y + (ptrdiff_t)step->base * lanes;
+        const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+        up = step->up;
+    }
+    *tree = sli_tree_of(F->S, &R->steps[s - 1]);
+    *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
+    if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
+        *m = -1;
+        return s;
+    }
+    at = sli_reach_place_of(R, F->anchors[*m]);
+    if (at != -1) {
+        memcpy(share->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
+    }
+    sli_chains_sum(chains, lanes, sums);
+    for (r = 0; r < lanes; r++) {
+        share->t[r] = share->c[r] * F->squares[*m] - sums[r];
+    }
+    return s;
+}
+
+/* y - c w on the columns of a step of the backward sweep. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_centre_give(double *row, const double *v, const double *D,
+                                       sl_int columns, const double *c, sl_int lanes) {
+    sl_int k, r;
+    for (k = 0; k < columns; k++, row += lanes) {
+        const double w = v[k] * D[k];
+        SLI_UNROLL
+        for (r = 0; r < lanes; r++) {
+            row[r] -= c[r] * w;
+        }
+    }
+}
+
+/* Between the sweeps: y in the columns of the one reach, x, which may be y, in those of the other. Trees ascend in both;
+ * where b has no row there is nothing to do. */
+static void sli_centre(const sl_factor *F, const sli_reach *from, const double *y,
+                       const sli_reach *to, double *x, sl_int lanes) {
+    sl_int s = 0, at = 0, m;
+    while (s < from->count && at < to->count) {
+        sli_shares share;
+        sli_tree tree;
+        sl_int place;
+        s = sli_centre_ask(F, from, s, y, lanes, &m, &tree, &share);
+        for (; at < to->count && to->steps[at].column <= tree.root; at++) {
+            const sli_step *step = &to->steps[at];
+            const double *v = F->centre + step->column, *D = F->D + step->column;
+            double *row = x + (ptrdiff_t)step->base * lanes;
+            const sl_int columns = sli_step_columns(step);
+            if (m != -1 && step->column >= tree.first) {
+#define SLI_CALL(constant) sli_centre_give(row, v, D, columns, share.c, constant)
+                SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+            }
+        }
+        place = m != -1 ? sli_reach_place_of(to, F->anchors[m]) : -1;
+        if (place != -1) { /* x is given there */
+            memcpy(x + (ptrdiff_t)place * lanes, share.t, (size_t)lanes * sizeof(double));
+        }
+    }
+}
+
+#undef SLI_FOR_LANES
+
+#endif
+/* end src/impl/nullspace.h */
 /* begin src/impl/factor.h */
 /* factor.h: the factor object: the method and the memory, factoring, factoring again, release */
 #ifndef SLI_FACTOR_H
@@ -14832,6 +15408,22 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const uint64_t workers = (uint64_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
+    if (F->rule.regularization != 0.0) {
+        F->rule.signs = SLI_TAKE(b, signed char, n);
+        F->rule.shifts = SLI_TAKE(b, double, n);
+        F->regularized = SLI_TAKE(b, sl_int, n);
+    }
+    if (F->definiteness == SL_SEMIDEFINITE) {
+        F->nulls = SLI_TAKE(b, sl_int, n);
+    }
+    if (F->is_centred) {
+        F->anchors = SLI_TAKE(b, sl_int, S->stats.components);
+        F->squares = SLI_TAKE(b, double, S->stats.components);
+        F->mass = SLI_TAKE(b, double, n);
+        F->centre = SLI_TAKE(b, double, n);
+        F->divide = SLI_TAKE(b, double, n);
+        F->centre_scratch = SLI_TAKE(b, double, sli_scratch_size(S->tallest, S->widest, 1));
+    }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
         F->buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
@@ -14901,6 +15493,7 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->seconds_setup = from->seconds_setup;
     to->seconds_factor = from->seconds_factor;
     to->bytes_factor = from->bytes_factor;
+    to->regularized = from->regularized;
 }
 
 /* What is not finite: an entry, where it stands in A or in the lower triangle of a sum, or a coefficient. */
@@ -14943,9 +15536,12 @@ static void sli_factor_stats_tell(const sl_factor *F, sl_stats *stats) {
 }
 
 /* What a factorization came to, for the caller and for F itself. */
-static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, sli_failure *failure,
                                  double started, sl_stats *stats) {
     sli_stats_clear_error(&F->stats);
+    if (failure->status == SL_OK && F->definiteness == SL_SEMIDEFINITE) {
+        (void)sli_nulls_make(F, failure);
+    }
     sli_factor_tell(F, A, failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
@@ -15073,11 +15669,44 @@ static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-/* Are the method, the definiteness and the number of threads such as exist? */
+/* Are the method, the definiteness and the number of threads such as exist, the tolerances numbers? What is
+ * null is either skipped or regularized. */
 static int sli_way_is_known(const sl_options *opt) {
-    return opt == NULL ||
-           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE && opt->threads.count >= 0);
+    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
+                           opt->threads.count >= 0 && opt->null_tolerance == opt->null_tolerance &&
+                           opt->consistency_tolerance == opt->consistency_tolerance &&
+                           opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
+                           (opt->regularization == 0.0 || opt->definiteness == SL_DEFINITE));
+}
+
+/* What the options say about null pivots, but for the arrays, which come later. */
+static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
+    const double null = opt == NULL ? 0.0 : opt->null_tolerance;
+    const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
+    F->definiteness = opt == NULL ? SL_DEFINITE : opt->definiteness;
+    F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
+    F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
+    F->rule.replaces = F->definiteness == SL_SEMIDEFINITE || F->rule.regularization != 0.0;
+    F->consistency = consistency == 0.0 ? 1e-6 : consistency;
+    F->is_centred = F->definiteness == SL_SEMIDEFINITE && opt->mass != NULL;
+}
+
+/* Copies the arrays that the rules refer to. */
+static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
+    const sl_symbolic *S = F->S;
+    sl_int i;
+    if (F->rule.regularization != 0.0 && opt->signs == NULL) {
+        F->rule.signs = NULL;
+    } else if (F->rule.regularization != 0.0) {
+        for (i = 0; i < S->n; i++) {
+            if (opt->signs[i] < -1 || opt->signs[i] > 1) {
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i]);
+            }
+            F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
+        }
+    }
+    return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
 /* A front costs some 50 ns whatever is in it: below this many flops each, as in diagonal matrices and
@@ -15091,12 +15720,12 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
 
 /* Are the wishes for a factor such as can be followed? */
 static int sli_factor_wishes_are_sound(const sl_options *opt) {
-    return sli_allocator_is_whole(opt) && sli_way_is_known(opt) &&
-           (opt == NULL || opt->null_tolerance == opt->null_tolerance);
+    return sli_allocator_is_whole(opt) && sli_way_is_known(opt);
 }
 
 /* A factor with its memory and its schedule, without numbers. */
-static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt) {
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                                sl_stats *stats) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
@@ -15106,9 +15735,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
-    draft.null_tolerance =
-        opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
-    draft.definiteness = opt == NULL ? SL_DEFINITE : opt->definiteness;
+    sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
     draft.schedule.workers = 1;
     if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
@@ -15132,6 +15759,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
         if (F->method == SL_METHOD_SUPERNODAL) {
             status = sli_factor_schedule(F);
         }
+        status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
         F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
             *out = F;
@@ -15146,7 +15774,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
 static sl_status sli_factor_make(sl_factor **out, const sl_symbolic *S, const sli_source *from,
                                  const sl_options *opt, sl_stats *stats) {
     sl_factor *F = NULL;
-    sl_status status = sli_factor_new(&F, S, opt);
+    sl_status status = sli_factor_new(&F, S, opt, stats);
     if (status == SL_OK) {
         sli_factor_begin(F);
         status = sli_factor_numbers(F, from, sli_seconds(), stats);
@@ -15214,21 +15842,40 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
-    sl_int k;
+/* Where rows can be listed. */
+static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int most,
+                                const sl_int *count) {
     if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
+    return F->is_good ? SL_OK : SL_ERR_STATE;
+}
+
+SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
+    const sl_status status = sli_check_list(F, rows, most, count);
+    sl_int m;
+    if (status != SL_OK) {
+        return status;
     }
-    *count = 0;
-    for (k = 0; k < F->S->n; k++) {
-        if (sli_is_skipped(F, k)) {
-            if (*count < most) {
-                rows[*count] = F->S->perm[k];
-            }
-            ++*count;
+    *count = F->n_nulls;
+    for (m = 0; m < sli_min(most, *count); m++) {
+        rows[m] = F->S->perm[F->nulls[m]];
+    }
+    return SL_OK;
+}
+
+SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, double *shifts,
+                                            sl_int most, sl_int *count) {
+    const sl_status status = sli_check_list(F, rows, most, count);
+    sl_int m;
+    if (status != SL_OK) {
+        return status;
+    }
+    *count = F->stats.regularized;
+    for (m = 0; m < sli_min(most, *count); m++) {
+        rows[m] = F->S->perm[F->regularized[m]];
+        if (shifts != NULL) {
+            shifts[m] = F->rule.shifts[F->regularized[m]];
         }
     }
     return SL_OK;
@@ -15490,6 +16137,14 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     return SL_OK;
 }
 
+/* The base of W, grown to what a layout has counted, for its second run. */
+static sl_status sli_work_lay(sl_work *W, sli_block *b) {
+    const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
+    b->base = (unsigned char *)W->block;
+    b->used = 0;
+    return status;
+}
+
 /* A stage of a call on a workspace: lays its arrays out, then fills them; what q holds after the stages before it
  * tells how large they are. */
 typedef struct sli_stage {
@@ -15741,35 +16396,94 @@ static void sli_cross_region(const sl_factor *F, const sli_query *q, int kind,
                      v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
-/* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good.
- */
-static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                      const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+/* The vectors of the next block of right-hand sides, in memory that has room. */
+static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory) {
+    sli_block b = {NULL, 0, 0};
+    sli_vectors v;
+    b.base = (unsigned char *)memory;
+    sli_vectors_layout(&v, &b, q, nrhs);
+    return v;
+}
+
+/* y := L^-1 y in the forward vector. */
+static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                              sl_int nrhs) {
+    F->kernels->forward[sli_lanes_kind(nrhs)](q->forward.count, q->forward.steps, q->forward.rows,
+                                              F->L, v->y, v->scratch);
+}
+
+/* y = L^-1 P b for up to 8 right-hand sides. Returns whether there is a solution, where F asks. */
+static int sli_sweep_in(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                        const double *B, sli_dense at, sl_int nrhs) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
+    double norms[SLI_TILE];
+    sli_pack(q, v->y, B, at, lanes, nrhs);
+    if (F->checks) {
+        sli_norms(&q->forward, v->y, lanes, norms);
+    }
+    sli_sweep_forward(F, q, v, nrhs);
+    return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
+}
+
+/* P x = L'^-1 D^-1 y in the backward vector. */
+static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                               sl_int nrhs) {
+    const int kind = sli_lanes_kind(nrhs);
+    const sl_int lanes = (sl_int)1 << kind;
+    if (!q->is_shared) {
+        sli_cross(q, v->y, v->x, lanes);
+    }
+    if (q->region != NULL) {
+        sli_cross_region(F, q, kind, v);
+    }
+    if (F->is_centred) {
+        sli_centre(F, &q->forward, v->y, &q->backward, v->x, lanes);
+    }
+    F->kernels->backward[kind](q->backward.count, q->backward.steps,
+                               q->backward.rows + q->backward.n_rows, F->L,
+                               F->is_centred ? F->divide : F->D, v->x, v->scratch);
+}
+
+/* Only whether A x = b has solutions; nothing but memory is written. */
+static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
+                                 sli_dense b_at, sl_int nrhs, void *memory) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
         const sl_int block = sli_min(8, nrhs - r);
-        const int kind = sli_lanes_kind(block);
-        const sl_int lanes = (sl_int)1 << kind;
-        sli_block b;
-        sli_vectors v;
-        b.base = (unsigned char *)memory;
-        b.used = 0;
-        b.overflow = 0;
-        sli_vectors_layout(&v, &b, q, block);
-        sli_pack(q, v.y, B + (size_t)r * b_at.column, b_at, lanes, block);
-        F->kernels->forward[kind](q->forward.count, q->forward.steps, q->forward.rows, F->L, v.y,
-                                  v.scratch);
-        if (!q->is_shared) {
-            sli_cross(q, v.y, v.x, lanes);
+        const sli_vectors v = sli_vectors_of(q, block, memory);
+        if (!sli_sweep_in(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+            return SL_ERR_INCONSISTENT;
         }
-        if (q->region != NULL) {
-            sli_cross_region(F, q, kind, &v);
-        }
-        F->kernels->backward[kind](q->backward.count, q->backward.steps,
-                                   q->backward.rows + q->backward.n_rows, F->L, F->D, v.x,
-                                   v.scratch);
-        sli_unpack(q, X + (size_t)r * x_at.column, x_at, v.x, lanes, block);
     }
+    return SL_OK;
+}
+
+/* A x = b for the rows of a query, block after block: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. Memory has room; F is
+ * good. The first block that is not consistent is where it ends. */
+static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
+                                  const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+    sl_int r;
+    for (r = 0; r < nrhs; r += 8) {
+        const sl_int block = sli_min(8, nrhs - r);
+        const sli_vectors v = sli_vectors_of(q, block, memory);
+        if (!sli_sweep_in(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+            return SL_ERR_INCONSISTENT;
+        }
+        sli_sweep_backward(F, q, &v, block);
+        sli_unpack(q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << sli_lanes_kind(block),
+                   block);
+    }
+    return SL_OK;
+}
+
+/* The same, where nothing of X may be written before all blocks are known to be consistent. */
+static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
+                           const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+    sl_status status = SL_OK;
+    if (F->checks && nrhs > 8 && q->nb > 0) {
+        status = sli_sweep_check(F, q, B + 8 * b_at.column, b_at, nrhs - 8, memory);
+    }
+    return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
 /* What every solve asks of its dense arguments: leading dimensions reach over the rows of a column,
@@ -15800,7 +16514,7 @@ static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, s
     bytes = sli_vectors_bytes(q, nrhs);
     status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
     if (status == SL_OK) {
-        sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
+        status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
     }
     sli_free(&own.allocator, own.block);
     return status;
@@ -16227,8 +16941,9 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         stats->bytes_plan = 0;
     }
     if (nrhs > 0 && q.nx > 0) {
-        sli_sweep(F, &q, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
-                  sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs, (unsigned char *)W->block + bytes);
+        return sli_sweep(F, &q, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
+                         sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs,
+                         (unsigned char *)W->block + bytes);
     }
     return SL_OK;
 }
@@ -17706,6 +18421,549 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
 
 #endif
 /* end src/impl/inverse_block.h */
+/* begin src/impl/refine.h */
+/* refine.h: iterative refinement of full solutions, column by column, by the backward error of every row */
+#ifndef SLI_REFINE_H
+#define SLI_REFINE_H
+
+/* Up to 8 right-hand sides on their way. */
+typedef struct sli_refinement {
+    const sl_factor *F;
+    const sl_csc *A;
+    sl_triangle triangle;
+    double *R, *T;         /* n x columns: residuals, then corrections; what is tried */
+    double *size;          /* n: |A| |x| + |b| */
+    unsigned char *memory; /* for solves */
+    double error[SLI_TILE];
+    int is_done[SLI_TILE];
+    sl_int steps; /* taken */
+} sli_refinement;
+
+static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
+    const sli_query q = sli_query_all(f->F->S);
+    const uint64_t n = (uint64_t)f->F->S->n;
+    const size_t bytes = sli_vectors_bytes(&q, columns);
+    f->R = SLI_TAKE(b, double, n *(uint64_t)columns);
+    f->T = SLI_TAKE(b, double, n *(uint64_t)columns);
+    f->size = SLI_TAKE(b, double, n);
+    f->memory = (unsigned char *)sli_take(b, bytes, 1);
+}
+
+/* r = b - A x and the backward error of x: the least change of every entry of A and b, relative to it, that makes x a
+ * solution. */
+static double sli_row_error(const sli_refinement *f, double *r, const double *x, const double *b) {
+    const sl_csc *A = f->A;
+    double *size = f->size, worst = 0.0;
+    sl_int i, j, p;
+    for (i = 0; i < A->n_cols; i++) {
+        r[i] = b[i];
+        size[i] = fabs(b[i]);
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            i = A->i[p];
+            if (sli_is_read(f->triangle, i, j)) {
+                r[i] -= A->x[p] * x[j];
+                size[i] += fabs(A->x[p] * x[j]);
+                if (i != j) {
+                    r[j] -= A->x[p] * x[i];
+                    size[j] += fabs(A->x[p] * x[i]);
+                }
+            }
+        }
+    }
+    for (i = 0; i < A->n_cols; i++) {
+        const double error = sli_backward_error(fabs(r[i]), 0.0, 0.0, size[i]);
+        worst = error <= worst || worst != worst ? worst : error;
+    }
+    return worst;
+}
+
+/* R := A^-1 R, as good as F knows it, consistent or not. */
+static void sli_correct(const sli_refinement *f, sl_int columns) {
+    const sli_query q = sli_query_all(f->F->S);
+    const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+    const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
+    sli_pack(&q, v.y, f->R, at, lanes, columns);
+    sli_sweep_forward(f->F, &q, &v, columns);
+    sli_sweep_backward(f->F, &q, &v, columns);
+    sli_unpack(&q, f->R, at, v.x, lanes, columns);
+}
+
+/* One correction of column c, already solved for; done where it does not halve the error. Returns whether it was taken.
+ */
+static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
+    const size_t n = (size_t)f->F->S->n;
+    double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
+    size_t i;
+    int is_better;
+    for (i = 0; i < n; i++) {
+        t[i] = x[i] + r[i];
+    }
+    error = sli_row_error(f, r, t, b);
+    is_better = error < f->error[c];
+    f->is_done[c] = !(error <= 0.5 * f->error[c]) || error <= DBL_EPSILON;
+    if (is_better) {
+        memcpy(x, t, n * sizeof(double));
+        f->error[c] = error;
+    }
+    return is_better;
+}
+
+static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const double *B, size_t ldb,
+                             sl_int columns, sl_int steps) {
+    const size_t n = (size_t)f->F->S->n;
+    sl_int c, step, todo = 0;
+    for (c = 0; c < columns; c++) {
+        f->error[c] =
+            sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
+        f->is_done[c] = f->error[c] <= DBL_EPSILON;
+        todo += !f->is_done[c];
+    }
+    for (step = 1; step <= steps && todo > 0; step++) {
+        sli_correct(f, columns);
+        todo = 0;
+        for (c = 0; c < columns; c++) {
+            if (!f->is_done[c]) {
+                if (sli_refine_column(f, c, X + ldx * (size_t)c, B + ldb * (size_t)c)) {
+                    f->steps = sli_max(f->steps, step);
+                }
+                todo += !f->is_done[c];
+            }
+        }
+    }
+}
+
+/* The larger of two errors, NaN if one is. */
+SLI_INLINE double sli_worse(double a, double b) {
+    return a != a || a > b ? a : b;
+}
+
+static void sli_refine_stats(sl_stats *stats, sl_int steps, double error) {
+    if (stats != NULL) {
+        stats->refine_steps = steps;
+        stats->backward_error = error;
+    }
+}
+
+SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
+                                  const double *B, size_t ldb, sl_int nrhs, sl_int steps,
+                                  sl_work *W, sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sli_refinement f;
+    sl_work own;
+    sl_status status;
+    double worst = 0.0;
+    sl_int r, c;
+    sli_stats_clear_error(stats);
+    if (F == NULL || steps < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&f, 0, sizeof f);
+    f.F = F;
+    f.A = A;
+    f.triangle = sli_triangle_scan(A);
+    own = sli_work_own(F);
+    W = W == NULL ? &own : W;
+    sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
+    status = nrhs > 0 ? sli_work_lay(W, &b) : SL_OK;
+    if (status == SL_OK && nrhs > 0) {
+        sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
+        for (r = 0; r < nrhs; r += 8) {
+            sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
+                             sli_min(8, nrhs - r), steps);
+            for (c = 0; c < sli_min(8, nrhs - r); c++) {
+                worst = sli_worse(f.error[c], worst);
+            }
+        }
+    }
+    sli_free(&own.allocator, own.block);
+    if (status == SL_OK) {
+        sli_refine_stats(stats, f.steps, worst);
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/refine.h */
+/* begin src/impl/refine_local.h */
+/* refine_local.h: local solves with a regularized factor: the residual E x of the rows that were regularized, solved for */
+#ifndef SLI_REFINE_LOCAL_H
+#define SLI_REFINE_LOCAL_H
+
+/* The regularized rows that a plan's right-hand sides can meet, and up to 8 right-hand sides on their way. */
+typedef struct sli_mending {
+    const sl_factor *F;
+    const sli_query *q;
+    sl_int count, room;
+    sl_int *row;           /* room: pivots, ascending */
+    sl_int *in_y;          /* room: their places in the forward vector .. */
+    sl_int *in_x;          /* .. and in the backward vector */
+    double *last;          /* room x 8: x there one step ago, 0 at first */
+    double *now;           /* nx x 8, column-major: the last x, */
+    double *kept;          /* the best */
+    unsigned char *memory; /* for sweeps */
+    double error[SLI_TILE];
+    int is_done[SLI_TILE];
+    sl_int steps;
+} sli_mending;
+
+static void sli_mending_layout(sli_mending *f, sli_block *b, sl_int nrhs) {
+    const size_t bytes = sli_vectors_bytes(f->q, nrhs);
+    const uint64_t columns = (uint64_t)sli_min(nrhs, 8);
+    f->row = SLI_TAKE(b, sl_int, f->room);
+    f->in_y = SLI_TAKE(b, sl_int, f->room);
+    f->in_x = SLI_TAKE(b, sl_int, f->room);
+    f->last = SLI_TAKE(b, double, (uint64_t)f->room *columns);
+    f->now = SLI_TAKE(b, double, (uint64_t)f->q->nx *columns);
+    f->kept = SLI_TAKE(b, double, (uint64_t)f->q->nx *columns);
+    f->memory = (unsigned char *)sli_take(b, bytes, 1);
+}
+
+/* Finds the regularized rows of every tree that b is in. -1, or the pivot of one that the reaches do not hold. */
+static sl_int sli_mending_find(sli_mending *f) {
+    const sl_factor *F = f->F;
+    const sli_reach *R = &f->q->forward;
+    sl_int s;
+    f->count = 0;
+    for (s = 0; s < R->count; s++) {
+        sli_tree tree;
+        sl_int m;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_of(F->S, &R->steps[s]);
+        m = sli_lower_bound(F->regularized, F->stats.regularized, tree.first);
+        for (; m < F->stats.regularized && F->regularized[m] <= tree.root; m++) {
+            const sl_int k = F->regularized[m];
+            const sl_int in_y = sli_reach_place_of(R, k),
+                         in_x = sli_reach_place_of(&f->q->backward, k);
+            if (in_y == -1 || in_x == -1) {
+                return k;
+            }
+            f->row[f->count] = k;
+            f->in_y[f->count] = in_y;
+            f->in_x[f->count++] = in_x;
+        }
+    }
+    return -1;
+}
+
+/* Solves (A + E) x = b + E last, and takes x where its residual E (x - last) is the least so far. */
+static void sli_mending_step(sli_mending *f, const double *B, sli_dense at, sl_int columns,
+                             const double *norms, sl_int step) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+    const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
+    const size_t nx = (size_t)f->q->nx;
+    sl_int m, c;
+    sli_pack(f->q, v.y, B, at, lanes, columns);
+    for (m = 0; m < f->count; m++) {
+        for (c = 0; c < columns; c++) {
+            v.y[(ptrdiff_t)f->in_y[m] * lanes + c] +=
+                f->F->rule.shifts[f->row[m]] * f->last[(ptrdiff_t)m * columns + c];
+        }
+    }
+    sli_sweep_forward(f->F, f->q, &v, columns);
+    sli_sweep_backward(f->F, f->q, &v, columns);
+    sli_unpack(f->q, f->now, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes, columns);
+    for (c = 0; c < columns; c++) {
+        double error = 0.0;
+        for (m = 0; m < f->count; m++) {
+            double *last = &f->last[(ptrdiff_t)m * columns + c];
+            const double x = v.x[(ptrdiff_t)f->in_x[m] * lanes + c];
+            error = sli_worse(fabs(f->F->rule.shifts[f->row[m]] * (x - *last)), error);
+            *last = x;
+        }
+        error = sli_backward_error(error, 0.0, 0.0, norms[c]);
+        if (step == 0 || (!f->is_done[c] && error < f->error[c])) {
+            f->is_done[c] = step > 0 && !(error <= 0.5 * f->error[c]);
+            f->is_done[c] |= error <= DBL_EPSILON;
+            f->error[c] = error;
+            f->steps = sli_max(f->steps, step);
+            memcpy(f->kept + nx * (size_t)c, f->now + nx * (size_t)c, nx * sizeof(double));
+        } else {
+            f->is_done[c] = 1;
+        }
+    }
+}
+
+static void sli_mend_block(sli_mending *f, double *X, size_t ldx, const double *B, size_t ldb,
+                           sl_int columns, sl_int steps) {
+    const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
+    const size_t nx = (size_t)f->q->nx;
+    double norms[SLI_TILE];
+    sl_int c, step, todo = columns;
+    for (c = 0; c < columns; c++) {
+        norms[c] = sli_largest(f->q->nb > 0 ? B + ldb * (size_t)c : B, f->q->nb);
+    }
+    memset(f->last, 0, (size_t)f->count * (size_t)columns * sizeof(double));
+    for (step = 0; step <= steps && todo > 0; step++) {
+        sli_mending_step(f, B, at, columns, norms, step);
+        for (c = 0, todo = 0; c < columns; c++) {
+            todo += !f->is_done[c];
+        }
+    }
+    for (c = 0; c < columns; c++) {
+        memcpy(X + ldx * (size_t)c, f->kept + nx * (size_t)c, nx * sizeof(double));
+    }
+}
+
+/* Blocks of a plan's right-hand sides in a workspace. */
+static sl_status sli_mend(sli_mending *f, double *X, size_t ldx, const double *B, size_t ldb,
+                          sl_int nrhs, sl_int steps, sl_work *W, sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    double worst = 0.0;
+    sl_status status;
+    sl_int r, c;
+    sli_mending_layout(f, &b, nrhs);
+    status = sli_work_lay(W, &b);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_mending_layout(f, &b, nrhs);
+    c = sli_mending_find(f);
+    if (c != -1) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
+    }
+    for (r = 0; r < nrhs; r += 8) {
+        const sl_int columns = sli_min(8, nrhs - r);
+        sli_mend_block(f, X + ldx * (size_t)r, ldx, f->q->nb > 0 ? B + ldb * (size_t)r : B, ldb,
+                       columns, steps);
+        for (c = 0; c < columns; c++) {
+            worst = sli_worse(f->error[c], worst);
+        }
+    }
+    sli_refine_stats(stats, f->steps, worst);
+    return SL_OK;
+}
+
+SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                                       const double *B, size_t ldb, sl_int nrhs, sl_int steps,
+                                       sl_work *W, sl_stats *stats) {
+    sli_mending f;
+    sl_work own;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (P == NULL || F == NULL || steps < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (F->stats.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
+        status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
+        if (status == SL_OK) {
+            sli_refine_stats(stats, 0, 0.0);
+        }
+        return status;
+    }
+    status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, SLI_COLUMN_MAJOR, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!sli_query_fits(&P->query, F)) {
+        return SL_ERR_STATE;
+    }
+    if (P->query.region != NULL) { /* E is not known to be 0 outside of it */
+        return SL_ERR_UNSUPPORTED;
+    }
+    memset(&f, 0, sizeof f);
+    f.F = F;
+    f.q = &P->query;
+    f.room = sli_min(F->stats.regularized, P->query.forward.columns);
+    own = sli_work_own(F);
+    status = sli_mend(&f, X, ldx, B, ldb, nrhs, steps, W == NULL ? &own : W, stats);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
+/* end src/impl/refine_local.h */
+/* begin src/impl/condition.h */
+/* condition.h: the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent */
+#ifndef SLI_CONDITION_H
+#define SLI_CONDITION_H
+
+/* A vector in pivot order that is solved for in place, and signs to go with it. */
+typedef struct sli_probe {
+    const sl_factor *F;
+    sli_reach all;
+    double *v, *signs, *scratch;
+} sli_probe;
+
+static void sli_probe_layout(sli_probe *p, sli_block *b) {
+    p->v = SLI_TAKE(b, double, p->all.columns);
+    p->signs = SLI_TAKE(b, double, p->all.columns);
+    p->scratch = SLI_TAKE(b, double, sli_scratch_size(p->all.tallest, p->all.widest, 1));
+}
+
+/* v := (P A P')^-1 v; returns the sum of its magnitudes. */
+static double sli_probe_solve(const sli_probe *p) {
+    const sl_factor *F = p->F;
+    double sum = 0.0;
+    sl_int k;
+    F->kernels->forward[SLI_LANES_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
+                                     p->scratch);
+    F->kernels->backward[SLI_LANES_1](p->all.count, p->all.steps, p->all.rows + p->all.n_rows, F->L,
+                                      F->D, p->v, p->scratch);
+    for (k = 0; k < p->all.columns; k++) {
+        sum += fabs(p->v[k]);
+    }
+    return sum;
+}
+
+/* The signs of v; returns whether they are what they were. */
+static int sli_probe_signs(const sli_probe *p) {
+    int same = 1;
+    sl_int k;
+    for (k = 0; k < p->all.columns; k++) {
+        const double sign = p->v[k] < 0.0 ? -1.0 : 1.0;
+        same &= sign == p->signs[k];
+        p->signs[k] = sign;
+    }
+    return same;
+}
+
+/* The place of the largest magnitude in v. */
+static sl_int sli_probe_largest(const sli_probe *p) {
+    sl_int k, best = 0;
+    for (k = 1; k < p->all.columns; k++) {
+        best = fabs(p->v[k]) > fabs(p->v[best]) ? k : best;
+    }
+    return best;
+}
+
+/* The largest column sum of |A^-1|, from below: the convex function ||A^-1 x|| climbed over the unit ball's corners e_j,
+ * of which the gradient A^-1 sign(A^-1 x) names the next one; then a vector that is hard to fool. A is
+ * symmetric: one kind of solve does for both. n > 0. */
+static double sli_inverse_norm(const sli_probe *p) {
+    const sl_int n = p->all.columns;
+    double best, sum;
+    sl_int k, j = -1, turn;
+    for (k = 0; k < n; k++) {
+        p->v[k] = 1.0 / n;
+        p->signs[k] = 0.0;
+    }
+    best = sli_probe_solve(p);
+    for (turn = 0; turn < 4 && !sli_probe_signs(p); turn++) {
+        sl_int last = j;
+        memcpy(p->v, p->signs, (size_t)n * sizeof(double));
+        (void)sli_probe_solve(p);
+        j = sli_probe_largest(p);
+        if (last != -1 && fabs(p->v[j]) <= fabs(p->v[last])) {
+            break;
+        }
+        memset(p->v, 0, (size_t)n * sizeof(double));
+        p->v[j] = 1.0;
+        sum = sli_probe_solve(p);
+        if (!(sum > best)) {
+            break;
+        }
+        best = sum;
+    }
+    for (k = 0; k < n; k++) {
+        p->v[k] = (k % 2 == 0 ? 1.0 : -1.0) * (1.0 + (double)k / (n > 1 ? n - 1 : 1));
+    }
+    sum = 2.0 * sli_probe_solve(p) / (3.0 * n);
+    return sum > best || sum != sum ? sum : best;
+}
+
+SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond, sl_work *W) {
+    sli_block b = {NULL, 0, 0};
+    sl_work own;
+    sli_probe p;
+    sl_status status;
+    if (F == NULL || rcond == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (F->S->n == 0 || F->n_nulls > 0) {
+        *rcond = F->S->n == 0 ? 1.0 : 0.0;
+        return SL_OK;
+    }
+    p.F = F;
+    p.all = sli_reach_all(F->S);
+    own = sli_work_own(F);
+    W = W == NULL ? &own : W;
+    sli_probe_layout(&p, &b);
+    status = sli_work_lay(W, &b);
+    if (status == SL_OK) {
+        double norm, inverse;
+        sli_probe_layout(&p, &b);
+        norm = sli_csc_norm(A, p.v);
+        inverse = sli_inverse_norm(&p);
+        *rcond = norm > 0.0 && inverse > 0.0 ? 1.0 / norm / inverse : 0.0;
+    }
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+/* The entries of y at the null pivots, block after block. */
+static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
+                        const double *B, size_t ldb, sl_int nrhs, void *memory) {
+    sl_int c, r, m;
+    for (c = 0; c < nrhs; c += 8) {
+        const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
+        const sli_vectors v = sli_vectors_of(q, block, memory);
+        sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
+        sli_sweep_forward(F, q, &v, block);
+        for (m = 0; m < F->n_nulls; m++) {
+            for (r = 0; r < block; r++) {
+                Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
+            }
+        }
+    }
+}
+
+SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
+                                   size_t ldb, sl_int nrhs, sl_work *W) {
+    sli_block b = {NULL, 0, 0};
+    sl_work own;
+    sli_query q;
+    sl_status status;
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_check_dense(Y, ldy, F->n_nulls, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    if (status != SL_OK || (Y == B && Y != NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (nrhs == 0 || F->n_nulls == 0) {
+        return SL_OK;
+    }
+    q = sli_query_all(F->S);
+    own = sli_work_own(F);
+    W = W == NULL ? &own : W;
+    b.used = sli_vectors_bytes(&q, nrhs);
+    b.overflow = b.used == SIZE_MAX;
+    status = sli_work_lay(W, &b);
+    if (status == SL_OK) {
+        sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);
+    }
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
+/* end src/impl/condition.h */
 /* begin src/impl/batch.h */
 /* batch.h: independent solves spread over workers by the entries of L that they read */
 #ifndef SLI_BATCH_H
@@ -17720,6 +18978,8 @@ typedef struct sli_batch {
     sl_work *const *works; /* one a worker, or NULL */
     unsigned char *memory; /* then `bytes` a worker */
     size_t bytes;
+    int checks;      /* some factor wants to know whether its right-hand sides are consistent: */
+    int only_checks; /* looks for a right-hand side that is not consistent, and writes no X */
 } sli_batch;
 
 SLI_INLINE const sl_factor *sli_request_factor(const sli_batch *b, const sl_request *r) {
@@ -17747,14 +19007,34 @@ static sl_int sli_blocks_before(double share, double before, double weight, sl_i
     return blocks <= 0.0 ? 0 : blocks * 8.0 >= nrhs ? nrhs : (sl_int)blocks * 8;
 }
 
-/* Worker k's share of the batch. */
+/* Worker k's scratch. */
+static void *sli_batch_memory(const sli_batch *b, sl_int k) {
+    return b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
+}
+
+/* Right-hand sides first .. last-1 of a request. */
+static sl_status sli_batch_part(const sli_batch *b, const sl_request *r, const sli_query *q,
+                                sl_int first, sl_int last, void *memory) {
+    const sl_factor *F = sli_request_factor(b, r);
+    const sli_layout layout = sli_request_layout(r);
+    const sli_dense x_at = sli_dense_of(layout, r->ldx), b_at = sli_dense_of(layout, r->ldb);
+    const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
+    if (b->only_checks) {
+        return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
+    }
+    return sli_sweep_blocks(F, q, r->X + (size_t)first * x_at.column, x_at, B, b_at, last - first,
+                            memory);
+}
+
+/* Worker k's share of the batch. Where it checks, it leaves the first request that failed, or -1, in its
+ * memory. */
 static void sli_batch_share(void *data, sl_int k) {
     const sli_batch *b = (const sli_batch *)data;
     const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
-    void *memory = b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
+    void *memory = sli_batch_memory(b, k);
     double before = 0.0;
-    sl_int m;
-    for (m = 0; m < b->count && before < to; m++) {
+    sl_int m, failed = -1;
+    for (m = 0; m < b->count && before < to && failed == -1; m++) {
         const sl_request *r = &b->requests[m];
         const sl_factor *F = sli_request_factor(b, r);
         const sli_query q = sli_request_query(F, r);
@@ -17762,16 +19042,27 @@ static void sli_batch_share(void *data, sl_int k) {
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
             k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
-        if (first < last && q.nx > 0) {
-            const sli_layout layout = sli_request_layout(r);
-            const sli_dense x_at = sli_dense_of(layout, r->ldx),
-                            b_at = sli_dense_of(layout, r->ldb);
-            sli_sweep(F, &q, r->X + (size_t)first * x_at.column, x_at,
-                      q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
-                      memory);
+        if (first < last && q.nx > 0 && sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
+            failed = m;
         }
         before += weight * (sli_tiles(r->nrhs));
     }
+    if (b->only_checks) {
+        memcpy(memory, &failed, sizeof failed);
+    }
+}
+
+/* Whether every right-hand side is consistent; *at: the first request with one that is not. */
+static sl_status sli_batch_consistent(sli_batch *b, const sl_threads *threads, sl_int *at) {
+    sl_int k, failed;
+    b->only_checks = 1;
+    sli_parallel(threads, b->workers, sli_batch_share, b);
+    b->only_checks = 0;
+    for (k = 0; k < b->workers && *at == -1; k++) { /* later workers have later requests */
+        memcpy(&failed, sli_batch_memory(b, k), sizeof failed);
+        *at = failed;
+    }
+    return *at == -1 ? SL_OK : SL_ERR_INCONSISTENT;
 }
 
 /* Checks every request; weighs them and finds the scratch that they need. */
@@ -17799,10 +19090,12 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
             return SL_ERR_TOO_LARGE;
         }
         b->bytes = bytes > b->bytes ? bytes : b->bytes;
+        b->checks |= F->checks;
         b->blocks += sli_tiles(r->nrhs);
         b->total += sli_query_weight(&q) * (sli_tiles(r->nrhs));
     }
     *at = -1;
+    b->bytes = b->bytes < SLI_ALIGN ? SLI_ALIGN : b->bytes;
     return SL_OK;
 }
 
@@ -17867,18 +19160,21 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     status = sli_batch_check(&b, &at);
     b.workers = sli_workers(threads);
     b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
-    if (failed != NULL) {
-        *failed = at;
-    }
     if (status == SL_OK && b.blocks > 0) {
         const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
         status = sli_batch_reserve(&b, works, a);
+        if (status == SL_OK && b.checks) {
+            status = sli_batch_consistent(&b, threads, &at);
+        }
         if (status == SL_OK) {
             sli_parallel(threads, b.workers, sli_batch_share, &b);
         }
         if (works == NULL) {
             sli_free(a, b.memory);
         }
+    }
+    if (failed != NULL) {
+        *failed = at;
     }
     return status;
 }
@@ -17961,7 +19257,7 @@ static void sli_family_tell(const sli_family *f, sl_int at, double started, sl_s
 /* Their memory, by this thread alone: whole rounds without threads, the rest with. Returns the first that
  * has none, or count. */
 static sl_int sli_family_make(sl_factor **out, sl_int count, const sl_symbolic *S,
-                              const sl_options *opt, sl_status *status) {
+                              const sl_options *opt, sl_status *status, sl_stats *stats) {
     const sl_threads none = {0, NULL, NULL};
     const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
     sl_options alone;
@@ -17972,8 +19268,8 @@ static sl_int sli_family_make(sl_factor **out, sl_int count, const sl_symbolic *
         alone.threads = none;
     }
     for (k = 0; k < count; k++) {
-        const sl_status here =
-            sli_factor_new(&out[k], S, k < count / workers * workers ? &alone : opt);
+        const sl_status here = sli_factor_new(
+            &out[k], S, k < count / workers * workers ? &alone : opt, at == count ? stats : NULL);
         if (here != SL_OK && at == count) {
             at = k;
             *status = here;
@@ -18007,7 +19303,7 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     if (status != SL_OK || count == 0) {
         return status;
     }
-    bare = sli_family_make(out, count, S, opt, &status);
+    bare = sli_family_make(out, count, S, opt, &status, stats);
     started = sli_seconds();
     at = sli_family_run(&f, opt == NULL ? &none : &opt->threads);
     status = at < bare ? out[at]->status : status;
@@ -18095,15 +19391,15 @@ typedef struct sli_diagonals {
     size_t ldo;
     const sl_int *rows; /* NULL: all n_rows */
     sl_int n_rows;
+    sl_threads none;
     sl_work *const *works; /* one a worker, with room for any of the factors */
 } sli_diagonals;
 
 /* One factor's. Inside a loop over several workers none of them begins another. */
 static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
-    static const sl_threads none = {0, NULL, NULL};
     const sl_factor *F = d->factors[k];
     return sli_entries_of(F, d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows,
-                          d->workers > 1 ? &none : &F->threads);
+                          d->workers > 1 ? &d->none : &F->threads);
 }
 
 /* Worker w's turns among the factors. */
@@ -18200,6 +19496,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
         return SL_ERR_ARGUMENT;
     }
+    d.none = none;
     d.factors = factors;
     d.count = count;
     d.workers = sli_min(sli_workers(threads), count);
@@ -18955,11 +20252,12 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
     return status;
 }
 
-/* Is Z, where there is one, of what F holds? */
+/* Is Z, where there is one, of what F holds? What centring adds to b is not 0 outside of any region. */
 static sl_status sli_region_check(const sl_factor *F, const sl_selected *Z) {
-    return F->is_good && (Z == NULL || (Z->F == F && Z->generation == F->generation))
-               ? SL_OK
-               : SL_ERR_STATE;
+    if (!F->is_good || (Z != NULL && (Z->F != F || Z->generation != F->generation))) {
+        return SL_ERR_STATE;
+    }
+    return F->is_centred ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
@@ -19050,6 +20348,7 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_ARM
 #undef SLI_INLINE
 #undef SLI_ALWAYS_INLINE
+#undef SLI_APART
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_ALIGNED

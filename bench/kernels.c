@@ -106,6 +106,7 @@ static void fill_front(const shape *s, double *item, uint64_t *chance) {
 
 static sli_front front_of(const shape *s, double *item) {
     static double inverse[INVERSE];
+    static const sli_pivot_rule as_they_are = {0.0, 0, 0.0, NULL, NULL};
     sli_front f;
     f.panel = item;
     f.width = s->w;
@@ -114,8 +115,8 @@ static sli_front front_of(const shape *s, double *item) {
     f.D = f.update + s->update;
     f.magnitude = f.D + s->pivots;
     f.inverse = inverse;
-    f.null_tolerance = 0.0;
-    f.skips_null = 0;
+    f.rule = &as_they_are;
+    f.column = 0;
     return f;
 }
 

@@ -38,6 +38,8 @@ static const question questions[] = {
      bench_adf},
     {"several", "M + t L for eight t: factors, one plan on all of them, heat-kernel signatures",
      bench_several},
+    {"neumann", "zero-mean solutions of raw Laplacians beside shifted ones; refinement",
+     bench_neumann},
 #ifdef SL_BENCH_PEERS
     {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
      bench_peers},

@@ -35,7 +35,8 @@ static double take_value(input_t *in) {
 typedef struct case_t {
     sl_csc A;
     sl_int p[MOST + 1], i[ENTRIES], perm[MOST], bset[MOST], xset[MOST];
-    double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS];
+    sl_int signs[MOST];
+    double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS], mass[MOST];
     sl_int nb, nx, nrhs;
     sl_options opt;
 } case_t;
@@ -82,6 +83,25 @@ static void run_backwards(void *context, sl_int count, void (*body)(void *data, 
     }
 }
 
+/* What becomes of null pivots: refused, skipped with weights or without, regularized. */
+static void take_nulls(case_t *c, input_t *in, int which) {
+    const int more = which > 0 ? take(in) : 0;
+    if (which == 1) {
+        c->opt.definiteness = SL_SEMIDEFINITE;
+        c->opt.mass = more & 1 ? c->mass : NULL;
+        c->opt.consistency_tolerance = more & 2 ? -1.0 : more & 4 ? more / 64.0 : 0.0;
+        for (sl_int k = 0; more & 1 && k < c->A.n_cols; k++) {
+            c->mass[k] = take_value(in);
+        }
+    } else if (which == 2) {
+        c->opt.regularization = more / 256.0;
+        c->opt.signs = more & 1 ? c->signs : NULL;
+        for (sl_int k = 0; more & 1 && k < c->A.n_cols; k++) {
+            c->signs[k] = take(in) % 3 - 1;
+        }
+    }
+}
+
 static void take_wishes(case_t *c, input_t *in) {
     const int wishes = take(in), more = take(in);
     const sl_int n = c->A.n_cols;
@@ -117,17 +137,33 @@ static void take_wishes(case_t *c, input_t *in) {
     for (sl_int q = 0; q < MOST * c->nrhs; q++) {
         c->B[q] = take_value(in);
     }
+    take_nulls(c, in, wishes / 120);
 }
 
 /* b known on bset, column-major with leading dimension MOST, spread over all rows and solved in full */
-static void solve_full(case_t *c, const sl_factor *F) {
+static sl_status solve_full(case_t *c, const sl_factor *F) {
     memset(c->full, 0, sizeof c->full);
     for (sl_int r = 0; r < c->nrhs; r++) {
         for (sl_int k = 0; k < c->nb; k++) {
             c->full[c->bset[k] + MOST * r] = c->B[k + MOST * r];
         }
     }
-    PROMISE(sl_factor_solve(F, c->full, MOST, c->full, MOST, c->nrhs, NULL) == SL_OK);
+    return sl_factor_solve(F, c->full, MOST, c->full, MOST, c->nrhs, NULL);
+}
+
+/* What asks for no plan: estimates, defects, refinement. */
+static void ask_all(case_t *c, const sl_factor *F, sl_work *W) {
+    sl_int count = -1;
+    double rcond = -1.0, defects[MOST * RHS];
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    sl_factor_stats(F, &stats);
+    PROMISE(sl_factor_null_rows(F, NULL, 0, &count) == SL_OK && count == stats.null);
+    PROMISE(sl_factor_regularized_rows(F, NULL, NULL, 0, &count) == SL_OK);
+    PROMISE(count == stats.regularized);
+    PROMISE(sl_factor_rcond(F, &c->A, &rcond, W) == SL_OK && rcond >= 0.0);
+    PROMISE(sl_factor_defects(F, defects, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
+    PROMISE(sl_factor_refine(F, &c->A, c->full, MOST, c->B, MOST, c->nrhs, 3, W, &stats) == SL_OK);
 }
 
 static void compare(const case_t *c) {
@@ -154,14 +190,23 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
     PROMISE(planned == SL_OK || planned == SL_ERR_ARGUMENT);
     const sl_status shot =
         sl_local_solve(F, c->X, MOST, c->xset, c->nx, c->B, MOST, c->bset, c->nb, c->nrhs, W, NULL);
-    PROMISE(planned == shot);
+    PROMISE(planned == shot || (planned == SL_OK && shot == SL_ERR_INCONSISTENT));
     if (P) {
-        solve_full(c, F);
-        compare(c);
+        const sl_status full = solve_full(c, F);
+        PROMISE(full == shot || c->nx == 0); /* where nothing is wanted nothing is looked at */
+        if (full == SL_OK) {
+            compare(c);
+        }
         memset(c->X, 0, sizeof c->X);
-        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
-        compare(c);
+        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == shot);
+        if (full == SL_OK) {
+            compare(c);
+        }
+        const sl_status refined =
+            sl_plan_solve_refined(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
+        PROMISE(refined == shot || (shot == SL_OK && refined == SL_ERR_ARGUMENT));
     }
+    ask_all(c, F, W);
     sl_work_free(W);
     sl_plan_free(P);
     sl_matrix_free(L);

@@ -154,6 +154,22 @@ static inline double *ref_scaled_inverse(sl_int n, const double *M) {
     return Z;
 }
 
+/* ||M|| ||M^-1||, by largest column sums. */
+static inline double ref_condition(sl_int n, const double *M) {
+    double *Z = ref_inverse(n, M), norm = 0.0, inverse = 0.0;
+    for (sl_int j = 0; j < n; j++) {
+        double a = 0.0, z = 0.0;
+        for (sl_int i = 0; i < n; i++) {
+            a += fabs(AT(M, i, j));
+            z += fabs(AT(Z, i, j));
+        }
+        norm = fmax(norm, a);
+        inverse = fmax(inverse, z);
+    }
+    free(Z);
+    return norm * inverse;
+}
+
 /* Pattern of L, diagonal included, by playing elimination on a symmetric pattern; M becomes it (lower triangle). */
 static inline void ref_fill(sl_int n, char *M) {
     for (sl_int k = 0; k < n; k++) {

@@ -87,51 +87,6 @@ static void laplacian_is_refused(const subject_t *y, sl_factor *F, const sl_opti
     sl_factor_free(G);
 }
 
-/* Components of the mesh; a vertex without a face is one. */
-static sl_int components_of(const mesh *m) {
-    sl_int *group = test_ints((size_t)m->n_vertices), count = m->n_vertices;
-    for (sl_int v = 0; v < m->n_vertices; v++) {
-        group[v] = v;
-    }
-    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
-        sl_int a = m->faces[k], b = m->faces[k - k % 3];
-        while (group[a] != a) {
-            a = group[a] = group[group[a]];
-        }
-        while (group[b] != b) {
-            b = group[b] = group[group[b]];
-        }
-        count -= a != b;
-        group[a > b ? a : b] = a > b ? b : a;
-    }
-    free(group);
-    return count;
-}
-
-/* The raw Laplacian in the semidefinite mode: a null pivot for each component, consistent systems solved. */
-static void laplacian_is_semidefinite(const subject_t *y, sl_isa isa) {
-    sl_csc L = sl_matrix_view(y->laplacian);
-    size_t n = (size_t)L.n_cols;
-    sl_options opt = options_none();
-    sl_factor *F = NULL;
-    sl_stats stats;
-    double *z = test_reals(n), *b = test_reals(n), *x = test_reals(n);
-    memset(&stats, 0, sizeof stats);
-    opt.isa = isa;
-    opt.definiteness = SL_SEMIDEFINITE;
-    SL_CHECK(sl_factor_create(&F, y->S, &L, &opt, &stats));
-    assert_int_equal(stats.null, components_of(&y->m));
-    assert_int_equal(stats.negative, 0);
-    gen_reals(z, n, 6);
-    SL_CHECK(sl_csc_multiply(&L, SL_AS_SYMMETRIC, b, n, z, n, 1));
-    SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
-    BACKWARD_PASSES(&L, x, n, b, n, 1);
-    sl_factor_free(F);
-    free(z);
-    free(b);
-    free(x);
-}
-
 /* Returns the worst backward error. The second system goes into the factor of the first. */
 static double try_subject(const subject_t *y, sl_isa isa, sl_work *W) {
     sl_factor *F = NULL;
@@ -155,7 +110,6 @@ static double try_subject(const subject_t *y, sl_isa isa, sl_work *W) {
     }
     if (y->m.n_faces > 0) {
         laplacian_is_refused(y, F, &opt);
-        laplacian_is_semidefinite(y, isa);
     }
     sl_factor_free(F);
     return worst;

@@ -278,6 +278,47 @@ static void squares_of_a_grid_equal_full_solves(void **state) {
     assert_true(copied > 0);
 }
 
+/* What a region cannot know: the weights outside of it, and what regularization changed there. */
+static void refused(void **state) {
+    (void)state;
+    enum { SIZE = 200 };
+    sl_options opt = options_none();
+    opt.definiteness = SL_SEMIDEFINITE;
+    problem_t y = problem_make(GEN_SINGULAR, SIZE, 1, 0, &opt);
+    sl_int n = y.M.view.n_cols, row = n / 2;
+    double *mass = test_reals((size_t)n), b = 1.0, x = 7.0;
+    sl_factor *F = NULL, *E = NULL;
+    sl_region *R = NULL;
+    sl_plan *P = NULL;
+    for (sl_int k = 0; k < n; k++) {
+        mass[k] = 1.0;
+    }
+    opt.mass = mass;
+    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_create(&R, F, &row, 1, NULL, &opt, NULL));
+    assert_null(R);
+    SL_CHECK(sl_region_create(&R, y.F, &row, 1, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_refill(R, F, NULL, NULL));
+    sl_region_free(R);
+    opt = options_none();
+    opt.regularization = 1e-8;
+    SL_CHECK(sl_factor_create(&E, y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_region_create(&R, E, &row, 1, NULL, NULL, NULL));
+    assert_true(sl_region_view(R).n_boundary > 0);
+    opt.region = R;
+    SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, &opt, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_plan_solve_refined(P, E, &x, 1, &b, 1, 1, 3, NULL, NULL));
+    assert_true(x == 7.0);
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(P, y.F, &x, 1, &b, 1, 1, 3, NULL, NULL));
+    SL_CHECK(sl_plan_solve(P, E, &x, 1, &b, 1, 1, NULL));
+    sl_plan_free(P);
+    sl_region_free(R);
+    sl_factor_free(F);
+    sl_factor_free(E);
+    free(mass);
+    problem_free(&y);
+}
+
 /* Null pivots skipped: in a region a solve gives what the full solve gives, null rows inside or not. */
 static void semidefinite(void **state) {
     (void)state;
@@ -341,6 +382,7 @@ int main(void) {
         cmocka_unit_test(every_kind_on_every_instruction_set),
         cmocka_unit_test(squares_of_a_grid_equal_full_solves),
         cmocka_unit_test(semidefinite),
+        cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

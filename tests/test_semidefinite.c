@@ -1,51 +1,7 @@
 /* test_semidefinite.c: null pivots skipped: their number and rows, solutions of consistent systems, the residual of others */
 #include "parallel_for.h"
 #include "problem.h"
-
-/* The Laplacian of a generated graph with weights that are not exact: a component is a null pivot. */
-static gen_matrix_t laplacian(gen_kind_t kind, sl_int size, int style, sl_int *components) {
-    gen_list_t t = gen_make(kind, size, 1, 17);
-    gen_list_t clean = gen_list(t.n);
-    sl_int *group = test_ints((size_t)t.n);
-    double *diagonal = test_reals((size_t)t.n);
-    for (sl_int k = 0; k < t.n; k++) {
-        group[k] = k;
-    }
-    for (size_t k = 0; k < t.count; k++) {
-        sl_int i = t.row[k], j = t.col[k];
-        if (i != j) {
-            double w = 0.1 + fabs(t.x[k]) / 3.0;
-            gen_add(&clean, i, j, -w);
-            diagonal[i] += w;
-            diagonal[j] += w;
-            while (group[i] != i) {
-                i = group[i];
-            }
-            while (group[j] != j) {
-                j = group[j];
-            }
-            group[i > j ? i : j] = i > j ? j : i;
-        }
-    }
-    *components = 0;
-    for (sl_int k = 0; k < t.n; k++) {
-        *components += group[k] == k;
-        gen_add(&clean, k, k, diagonal[k]); /* a lone row has a 0 */
-    }
-    gen_matrix_t M = gen_store(&clean, gen_style(style), 1);
-    gen_list_free(&t);
-    gen_list_free(&clean);
-    free(group);
-    free(diagonal);
-    return M;
-}
-
-static sl_options options_semidefinite(const way_list_t *ways, int k) {
-    sl_options opt = options_none();
-    way_take(&opt, ways, k);
-    opt.definiteness = SL_SEMIDEFINITE;
-    return opt;
-}
+#include "singular.h"
 
 /* Solves A x = A z, which is consistent, and A x = e_k + A z, which is not. */
 static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
@@ -99,6 +55,7 @@ static void a_null_pivot_for_each_component(void **state) {
             SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
             for (int k = 0; k < ways.count; k++) {
                 sl_options opt = options_semidefinite(&ways, k);
+                opt.consistency_tolerance = -1.0; /* what is inconsistent is solved, too */
                 sl_factor *F = NULL;
                 sl_stats stats;
                 double log_det, sign;
@@ -148,6 +105,7 @@ static void local_and_threads_as_ever(void **state) {
             sl_options opt = options_semidefinite(&ways, k);
             sl_factor *F = NULL, *G = NULL;
             int calls = 0;
+            opt.consistency_tolerance = -1.0;
             double *B = test_reals((size_t)(20 * nrhs)), *X = test_reals((size_t)(30 * nrhs));
             double *full = test_reals((size_t)(n * nrhs)),
                    *wanted = test_reals((size_t)(30 * nrhs));
@@ -197,6 +155,7 @@ static void entries_of_the_inverse(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     for (int k = 0; k < ways.count; k++) {
         sl_options opt = options_semidefinite(&ways, k);
+        opt.consistency_tolerance = -1.0;
         sl_factor *F = NULL;
         sl_selected *Z = NULL;
         double *X = test_reals(n * n), *diagonal = test_reals(n), *selected = test_reals(n),

@@ -40,6 +40,7 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 #define SLI_INLINE __attribute__((unused)) static inline
 /* for bodies that are worth it only with a constant argument folded into them */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
+#define SLI_APART __attribute__((unused, noinline)) /* what hot code must not carry along */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 /* the cache line some bytes from p, which need not exist: asking for it has no other effect */
@@ -49,6 +50,7 @@ extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise")
 #else
 #define SLI_INLINE static inline
 #define SLI_ALWAYS_INLINE static inline
+#define SLI_APART
 #define SLI_TARGET(list)
 #define SLI_ALIGNED(variable) variable
 #define SLI_PREFETCH(p, bytes) ((void)0)

@@ -15,6 +15,8 @@ typedef struct sli_batch {
     sl_work *const *works; /* one a worker, or NULL */
     unsigned char *memory; /* then `bytes` a worker */
     size_t bytes;
+    int checks;      /* some factor wants to know whether its right-hand sides are consistent: */
+    int only_checks; /* looks for a right-hand side that is not consistent, and writes no X */
 } sli_batch;
 
 SLI_INLINE const sl_factor *sli_request_factor(const sli_batch *b, const sl_request *r) {
@@ -42,14 +44,34 @@ static sl_int sli_blocks_before(double share, double before, double weight, sl_i
     return blocks <= 0.0 ? 0 : blocks * 8.0 >= nrhs ? nrhs : (sl_int)blocks * 8;
 }
 
-/* Worker k's share of the batch. */
+/* Worker k's scratch. */
+static void *sli_batch_memory(const sli_batch *b, sl_int k) {
+    return b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
+}
+
+/* Right-hand sides first .. last-1 of a request. */
+static sl_status sli_batch_part(const sli_batch *b, const sl_request *r, const sli_query *q,
+                                sl_int first, sl_int last, void *memory) {
+    const sl_factor *F = sli_request_factor(b, r);
+    const sli_layout layout = sli_request_layout(r);
+    const sli_dense x_at = sli_dense_of(layout, r->ldx), b_at = sli_dense_of(layout, r->ldb);
+    const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
+    if (b->only_checks) {
+        return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
+    }
+    return sli_sweep_blocks(F, q, r->X + (size_t)first * x_at.column, x_at, B, b_at, last - first,
+                            memory);
+}
+
+/* Worker k's share of the batch. Where it checks, it leaves the first request that failed, or -1, in its
+ * memory. */
 static void sli_batch_share(void *data, sl_int k) {
     const sli_batch *b = (const sli_batch *)data;
     const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
-    void *memory = b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
+    void *memory = sli_batch_memory(b, k);
     double before = 0.0;
-    sl_int m;
-    for (m = 0; m < b->count && before < to; m++) {
+    sl_int m, failed = -1;
+    for (m = 0; m < b->count && before < to && failed == -1; m++) {
         const sl_request *r = &b->requests[m];
         const sl_factor *F = sli_request_factor(b, r);
         const sli_query q = sli_request_query(F, r);
@@ -57,16 +79,27 @@ static void sli_batch_share(void *data, sl_int k) {
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
             k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
-        if (first < last && q.nx > 0) {
-            const sli_layout layout = sli_request_layout(r);
-            const sli_dense x_at = sli_dense_of(layout, r->ldx),
-                            b_at = sli_dense_of(layout, r->ldb);
-            sli_sweep(F, &q, r->X + (size_t)first * x_at.column, x_at,
-                      q.nb > 0 ? r->B + (size_t)first * b_at.column : r->B, b_at, last - first,
-                      memory);
+        if (first < last && q.nx > 0 && sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
+            failed = m;
         }
         before += weight * (sli_tiles(r->nrhs));
     }
+    if (b->only_checks) {
+        memcpy(memory, &failed, sizeof failed);
+    }
+}
+
+/* Whether every right-hand side is consistent; *at: the first request with one that is not. */
+static sl_status sli_batch_consistent(sli_batch *b, const sl_threads *threads, sl_int *at) {
+    sl_int k, failed;
+    b->only_checks = 1;
+    sli_parallel(threads, b->workers, sli_batch_share, b);
+    b->only_checks = 0;
+    for (k = 0; k < b->workers && *at == -1; k++) { /* later workers have later requests */
+        memcpy(&failed, sli_batch_memory(b, k), sizeof failed);
+        *at = failed;
+    }
+    return *at == -1 ? SL_OK : SL_ERR_INCONSISTENT;
 }
 
 /* Checks every request; weighs them and finds the scratch that they need. */
@@ -94,10 +127,12 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
             return SL_ERR_TOO_LARGE;
         }
         b->bytes = bytes > b->bytes ? bytes : b->bytes;
+        b->checks |= F->checks;
         b->blocks += sli_tiles(r->nrhs);
         b->total += sli_query_weight(&q) * (sli_tiles(r->nrhs));
     }
     *at = -1;
+    b->bytes = b->bytes < SLI_ALIGN ? SLI_ALIGN : b->bytes;
     return SL_OK;
 }
 
@@ -162,18 +197,21 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
     status = sli_batch_check(&b, &at);
     b.workers = sli_workers(threads);
     b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
-    if (failed != NULL) {
-        *failed = at;
-    }
     if (status == SL_OK && b.blocks > 0) {
         const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
         status = sli_batch_reserve(&b, works, a);
+        if (status == SL_OK && b.checks) {
+            status = sli_batch_consistent(&b, threads, &at);
+        }
         if (status == SL_OK) {
             sli_parallel(threads, b.workers, sli_batch_share, &b);
         }
         if (works == NULL) {
             sli_free(a, b.memory);
         }
+    }
+    if (failed != NULL) {
+        *failed = at;
     }
     return status;
 }

@@ -75,7 +75,7 @@ static void sli_family_tell(const sli_family *f, sl_int at, double started, sl_s
 /* Their memory, by this thread alone: whole rounds without threads, the rest with. Returns the first that
  * has none, or count. */
 static sl_int sli_family_make(sl_factor **out, sl_int count, const sl_symbolic *S,
-                              const sl_options *opt, sl_status *status) {
+                              const sl_options *opt, sl_status *status, sl_stats *stats) {
     const sl_threads none = {0, NULL, NULL};
     const sl_int workers = opt == NULL ? 1 : sli_workers(&opt->threads);
     sl_options alone;
@@ -86,8 +86,8 @@ static sl_int sli_family_make(sl_factor **out, sl_int count, const sl_symbolic *
         alone.threads = none;
     }
     for (k = 0; k < count; k++) {
-        const sl_status here =
-            sli_factor_new(&out[k], S, k < count / workers * workers ? &alone : opt);
+        const sl_status here = sli_factor_new(
+            &out[k], S, k < count / workers * workers ? &alone : opt, at == count ? stats : NULL);
         if (here != SL_OK && at == count) {
             at = k;
             *status = here;
@@ -121,7 +121,7 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
     if (status != SL_OK || count == 0) {
         return status;
     }
-    bare = sli_family_make(out, count, S, opt, &status);
+    bare = sli_family_make(out, count, S, opt, &status, stats);
     started = sli_seconds();
     at = sli_family_run(&f, opt == NULL ? &none : &opt->threads);
     status = at < bare ? out[at]->status : status;

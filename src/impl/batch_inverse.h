@@ -13,15 +13,15 @@ typedef struct sli_diagonals {
     size_t ldo;
     const sl_int *rows; /* NULL: all n_rows */
     sl_int n_rows;
+    sl_threads none;
     sl_work *const *works; /* one a worker, with room for any of the factors */
 } sli_diagonals;
 
 /* One factor's. Inside a loop over several workers none of them begins another. */
 static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
-    static const sl_threads none = {0, NULL, NULL};
     const sl_factor *F = d->factors[k];
     return sli_entries_of(F, d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows,
-                          d->workers > 1 ? &none : &F->threads);
+                          d->workers > 1 ? &d->none : &F->threads);
 }
 
 /* Worker w's turns among the factors. */
@@ -118,6 +118,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
         return SL_ERR_ARGUMENT;
     }
+    d.none = none;
     d.factors = factors;
     d.count = count;
     d.workers = sli_min(sli_workers(threads), count);

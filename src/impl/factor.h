@@ -8,6 +8,7 @@
 #include "leftlooking.h"
 #include "mapping.h"
 #include "multifrontal.h"
+#include "nullspace.h"
 #include "select.h"
 #include "uplooking.h"
 
@@ -17,6 +18,22 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const uint64_t workers = (uint64_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
+    if (F->rule.regularization != 0.0) {
+        F->rule.signs = SLI_TAKE(b, signed char, n);
+        F->rule.shifts = SLI_TAKE(b, double, n);
+        F->regularized = SLI_TAKE(b, sl_int, n);
+    }
+    if (F->definiteness == SL_SEMIDEFINITE) {
+        F->nulls = SLI_TAKE(b, sl_int, n);
+    }
+    if (F->is_centred) {
+        F->anchors = SLI_TAKE(b, sl_int, S->stats.components);
+        F->squares = SLI_TAKE(b, double, S->stats.components);
+        F->mass = SLI_TAKE(b, double, n);
+        F->centre = SLI_TAKE(b, double, n);
+        F->divide = SLI_TAKE(b, double, n);
+        F->centre_scratch = SLI_TAKE(b, double, sli_scratch_size(S->tallest, S->widest, 1));
+    }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
         F->buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
@@ -86,6 +103,7 @@ static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->seconds_setup = from->seconds_setup;
     to->seconds_factor = from->seconds_factor;
     to->bytes_factor = from->bytes_factor;
+    to->regularized = from->regularized;
 }
 
 /* What is not finite: an entry, where it stands in A or in the lower triangle of a sum, or a coefficient. */
@@ -128,9 +146,12 @@ static void sli_factor_stats_tell(const sl_factor *F, sl_stats *stats) {
 }
 
 /* What a factorization came to, for the caller and for F itself. */
-static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+static sl_status sli_factor_done(sl_factor *F, const sl_csc *A, sli_failure *failure,
                                  double started, sl_stats *stats) {
     sli_stats_clear_error(&F->stats);
+    if (failure->status == SL_OK && F->definiteness == SL_SEMIDEFINITE) {
+        (void)sli_nulls_make(F, failure);
+    }
     sli_factor_tell(F, A, failure);
     F->stats.seconds_factor = sli_seconds() - started;
     F->is_good = failure->status == SL_OK;
@@ -258,11 +279,44 @@ static double sli_null_tolerance(sl_int n) {
     return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-/* Are the method, the definiteness and the number of threads such as exist? */
+/* Are the method, the definiteness and the number of threads such as exist, the tolerances numbers? What is
+ * null is either skipped or regularized. */
 static int sli_way_is_known(const sl_options *opt) {
-    return opt == NULL ||
-           ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE && opt->threads.count >= 0);
+    return opt == NULL || ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+                           (unsigned)opt->definiteness <= (unsigned)SL_SEMIDEFINITE &&
+                           opt->threads.count >= 0 && opt->null_tolerance == opt->null_tolerance &&
+                           opt->consistency_tolerance == opt->consistency_tolerance &&
+                           opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
+                           (opt->regularization == 0.0 || opt->definiteness == SL_DEFINITE));
+}
+
+/* What the options say about null pivots, but for the arrays, which come later. */
+static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
+    const double null = opt == NULL ? 0.0 : opt->null_tolerance;
+    const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
+    F->definiteness = opt == NULL ? SL_DEFINITE : opt->definiteness;
+    F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
+    F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
+    F->rule.replaces = F->definiteness == SL_SEMIDEFINITE || F->rule.regularization != 0.0;
+    F->consistency = consistency == 0.0 ? 1e-6 : consistency;
+    F->is_centred = F->definiteness == SL_SEMIDEFINITE && opt->mass != NULL;
+}
+
+/* Copies the arrays that the rules refer to. */
+static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
+    const sl_symbolic *S = F->S;
+    sl_int i;
+    if (F->rule.regularization != 0.0 && opt->signs == NULL) {
+        F->rule.signs = NULL;
+    } else if (F->rule.regularization != 0.0) {
+        for (i = 0; i < S->n; i++) {
+            if (opt->signs[i] < -1 || opt->signs[i] > 1) {
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, (double)opt->signs[i]);
+            }
+            F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
+        }
+    }
+    return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
 /* A front costs some 50 ns whatever is in it: below this many flops each, as in diagonal matrices and
@@ -276,12 +330,12 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
 
 /* Are the wishes for a factor such as can be followed? */
 static int sli_factor_wishes_are_sound(const sl_options *opt) {
-    return sli_allocator_is_whole(opt) && sli_way_is_known(opt) &&
-           (opt == NULL || opt->null_tolerance == opt->null_tolerance);
+    return sli_allocator_is_whole(opt) && sli_way_is_known(opt);
 }
 
 /* A factor with its memory and its schedule, without numbers. */
-static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt) {
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                                sl_stats *stats) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
@@ -291,9 +345,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
-    draft.null_tolerance =
-        opt == NULL || opt->null_tolerance == 0.0 ? sli_null_tolerance(S->n) : opt->null_tolerance;
-    draft.definiteness = opt == NULL ? SL_DEFINITE : opt->definiteness;
+    sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
     draft.schedule.workers = 1;
     if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
@@ -317,6 +369,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
         if (F->method == SL_METHOD_SUPERNODAL) {
             status = sli_factor_schedule(F);
         }
+        status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
         F->stats.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {
             *out = F;
@@ -331,7 +384,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
 static sl_status sli_factor_make(sl_factor **out, const sl_symbolic *S, const sli_source *from,
                                  const sl_options *opt, sl_stats *stats) {
     sl_factor *F = NULL;
-    sl_status status = sli_factor_new(&F, S, opt);
+    sl_status status = sli_factor_new(&F, S, opt, stats);
     if (status == SL_OK) {
         sli_factor_begin(F);
         status = sli_factor_numbers(F, from, sli_seconds(), stats);

@@ -28,21 +28,40 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
-    sl_int k;
+/* Where rows can be listed. */
+static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int most,
+                                const sl_int *count) {
     if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
+    return F->is_good ? SL_OK : SL_ERR_STATE;
+}
+
+SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
+    const sl_status status = sli_check_list(F, rows, most, count);
+    sl_int m;
+    if (status != SL_OK) {
+        return status;
     }
-    *count = 0;
-    for (k = 0; k < F->S->n; k++) {
-        if (sli_is_skipped(F, k)) {
-            if (*count < most) {
-                rows[*count] = F->S->perm[k];
-            }
-            ++*count;
+    *count = F->n_nulls;
+    for (m = 0; m < sli_min(most, *count); m++) {
+        rows[m] = F->S->perm[F->nulls[m]];
+    }
+    return SL_OK;
+}
+
+SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, double *shifts,
+                                            sl_int most, sl_int *count) {
+    const sl_status status = sli_check_list(F, rows, most, count);
+    sl_int m;
+    if (status != SL_OK) {
+        return status;
+    }
+    *count = F->stats.regularized;
+    for (m = 0; m < sli_min(most, *count); m++) {
+        rows[m] = F->S->perm[F->regularized[m]];
+        if (shifts != NULL) {
+            shifts[m] = F->rule.shifts[F->regularized[m]];
         }
     }
     return SL_OK;

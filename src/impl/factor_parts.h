@@ -31,7 +31,7 @@ struct sl_factor {
     sl_stats stats;       /* the factor group and the error fields */
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
-    double null_tolerance;
+    sli_pivot_rule rule;
     sl_definiteness definiteness;
     sl_method method;
     int is_good;         /* L and D hold a factor */
@@ -39,7 +39,22 @@ struct sl_factor {
     uint64_t generation; /* of the numbers: how often they were begun anew */
     double *L;           /* the panels */
     double *D;           /* n pivots */
-    double *buffer;      /* kernel scratch, for each worker */
+    sl_int *
+        regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
+    /* null pivots */
+    double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
+    int checks;         /* there are null pivots, and solves look whether b is consistent */
+    int is_centred;     /* there are null pivots, and solves are centred by mass: */
+    sl_int n_nulls;
+    sl_int *nulls; /* n: n_nulls null pivots, ascending */
+    sl_int n_anchors;
+    sl_int *anchors; /* a tree each: the null pivots that weights take care of, ascending */
+    double *mass;    /* n, in pivot order; NULL: none */
+    double *centre;  /* n: v = D^-1 L^-1 m / z' m */
+    double *squares; /* a tree each: v' D v of the one of each anchor */
+    double *divide;  /* n: D with 1 for null pivots: x is given there */
+    double *centre_scratch;
+    double *buffer; /* kernel scratch, for each worker */
     /* multifrontal; what a worker needs stands once for each */
     sl_threads threads;
     sli_schedule schedule;
@@ -139,33 +154,42 @@ static sl_status sli_panel_add(const sl_factor *F, const sli_source *from, sl_in
 }
 
 /* Refuses a pivot that is not a number or null against what it was made of. */
+/* Was pivot k null and skipped? */
+SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
+    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
+}
+
+/* Was pivot k changed by regularization? */
+SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
+    return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
+}
+
+/* Refuses a pivot that is not a number, or null against what it was made of and not replaced. */
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
                                      sli_failure *failure) {
     if (!sli_is_finite(pivot)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
     }
-    if (sli_is_null(pivot, magnitude, F->null_tolerance)) {
+    if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
     return SL_OK;
-}
-
-/* Was pivot k null and skipped? */
-SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
 }
 
 /* Counts and bounds of the first pivots. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_stats *stats = &F->stats;
     sl_int k;
-    stats->positive = stats->negative = stats->null = 0;
+    stats->positive = stats->negative = stats->null = stats->regularized = 0;
     stats->pivot_min = stats->pivot_max = 0.0;
     for (k = 0; k < count; k++) {
         const double size = fabs(F->D[k]);
         if (sli_is_skipped(F, k)) {
             stats->null++;
             continue;
+        }
+        if (sli_is_regularized(F, k)) {
+            F->regularized[stats->regularized++] = k;
         }
         if (stats->positive + stats->negative == 0) {
             stats->pivot_min = size;

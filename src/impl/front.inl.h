@@ -38,8 +38,8 @@
         SLV_STORE(sums, m)                                                                         \
         SLV_LANE(b, a##k, k)                                                                       \
         d = x[SLI_TILE * (k) + (k)];                                                               \
-        if (f->skips_null && sli_is_null(d, sums[k], f->null_tolerance)) {                         \
-            d = SLI_NULL_PIVOT;                                                                    \
+        if (rule != NULL) {                                                                        \
+            d = sli_pivot_ruled(rule, column + (k), d, sums[k]);                                   \
             SLV_BROADCAST(b, &d)                                                                   \
         }                                                                                          \
         SLV_DIVIDE(l, a##k, b)                                                                     \
@@ -71,6 +71,8 @@
 /* The pivots of column tile c, whose columns before it are done: 8, or fewer in the last one. */
 SLV_FUNCTION static void SLV_NAME(pivots_of_tile)(const sli_front *f, sl_int c, double *inverse) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+    const sl_int column = f->column + first;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
     double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
     double *D = f->D + first, *magnitude = f->magnitude + first;
     double *reciprocal = inverse, *against = inverse + SLI_TILE;

@@ -150,6 +150,15 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
 /* Doubles of a front's inverse. */
 #define SLI_FRONT_INVERSE (2 * SLI_GROUP * SLI_TILE)
 
+/* What becomes of a pivot that is null, or of the wrong sign. Its arrays go by the column of L. */
+typedef struct sli_pivot_rule {
+    double null_tolerance;
+    int replaces;          /* anything at all; else null pivots are the caller's to find */
+    double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
+    signed char *signs;    /* n: 1, -1, or 0 where either will do; NULL: all 1 */
+    double *shifts;        /* n: what regularization added to each pivot; NULL: there is none */
+} sli_pivot_rule;
+
 typedef struct sli_front {
     double *panel;
     sl_int width, below;
@@ -157,8 +166,8 @@ typedef struct sli_front {
     double *D;         /* width pivots */
     double *magnitude; /* 8 a tile: what each diagonal entry was made of, in absolute value */
     double *inverse;   /* 16 a column tile: 1/d, or 0 first where they are out of range; -sign d */
-    double null_tolerance;
-    int skips_null; /* a null pivot becomes SLI_NULL_PIVOT */
+    const sli_pivot_rule *rule;
+    sl_int column; /* the first of the supernode */
 } sli_front;
 
 /* Stands for a null pivot that is skipped: so large that what is divided by it is nothing, and 0 times
@@ -170,6 +179,28 @@ typedef struct sli_front {
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
     const double size = fabs(pivot);
     return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
+}
+
+/* The pivot of column k by a rule that replaces. A regularized one has the size of what it was made of, times a
+ * factor: a scaling of A changes nothing. One whose wrong sign is no rounding error is only turned: made small
+ * it would let L grow beyond all bounds. Never inlined: it would cost definite matrices up to 8 percent. */
+SLI_APART static double sli_pivot_ruled(const sli_pivot_rule *rule, sl_int k, double d,
+                                        double magnitude) {
+    const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
+    int sign = rule->signs == NULL ? 1 : rule->signs[k];
+    double least;
+    if (rule->regularization == 0.0) {
+        return is_null ? SLI_NULL_PIVOT : d;
+    }
+    rule->shifts[k] = 0.0;
+    if (!is_null && !(d * sign < 0.0)) {
+        return d;
+    }
+    sign = sign != 0 ? sign : d < 0.0 ? -1 : 1;
+    least = rule->regularization * (magnitude > 0.0 ? magnitude : 1.0);
+    least = sign * (fabs(d) > least ? fabs(d) : least);
+    rule->shifts[k] = least - d;
+    return least;
 }
 
 /* The steps of a front, group after group of column tiles c0 .. c0 + SLI_GROUP - 1, then the rest. On

@@ -3,6 +3,7 @@
 #undef SLI_ARM
 #undef SLI_INLINE
 #undef SLI_ALWAYS_INLINE
+#undef SLI_APART
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_ALIGNED

@@ -24,8 +24,8 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.D = F->D + step->column;
     f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
     f.inverse = F->inverse + (ptrdiff_t)worker * SLI_FRONT_INVERSE;
-    f.null_tolerance = F->null_tolerance;
-    f.skips_null = F->definiteness == SL_SEMIDEFINITE;
+    f.rule = &F->rule;
+    f.column = step->column;
     return f;
 }
 
@@ -86,16 +86,14 @@ static void sli_front_hand_over(const sli_front *f) {
            SLI_TILE * (size_t)tiles * sizeof(double));
 }
 
-/* A null pivot that was not skipped is a failure. */
+/* A null pivot that nothing was done about is a failure. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < f->width && status == SL_OK; k++) {
-        if (!sli_is_skipped(F, first + k)) {
-            status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
-        }
+        status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
     }
     return status;
 }

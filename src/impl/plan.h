@@ -363,8 +363,9 @@ static sl_status sli_local(const sl_factor *F, double *X, size_t ldx, sli_set *b
         stats->bytes_plan = 0;
     }
     if (nrhs > 0 && q.nx > 0) {
-        sli_sweep(F, &q, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
-                  sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs, (unsigned char *)W->block + bytes);
+        return sli_sweep(F, &q, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
+                         sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs,
+                         (unsigned char *)W->block + bytes);
     }
     return SL_OK;
 }

@@ -256,6 +256,18 @@ SLI_INLINE sl_int sli_reach_place(const sli_reach *R, sl_int *at, sl_int column)
     return column - R->steps[*at].column + R->steps[*at].base;
 }
 
+/* The place of any column in the reach's vector, -1 where it has none. */
+static sl_int sli_reach_place_of(const sli_reach *R, sl_int column) {
+    const sli_step *step;
+    if (R->count == 0) {
+        return -1;
+    }
+    step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
+    return column >= step->column && column < step->column + sli_step_columns(step)
+               ? step->base + column - step->column
+               : -1;
+}
+
 /* A walk over the supernodes that two reaches share: set up by sli_meeting_of, then sli_meet until it
  * gives 0. */
 typedef struct sli_meeting {

@@ -408,11 +408,12 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
     return status;
 }
 
-/* Is Z, where there is one, of what F holds? */
+/* Is Z, where there is one, of what F holds? What centring adds to b is not 0 outside of any region. */
 static sl_status sli_region_check(const sl_factor *F, const sl_selected *Z) {
-    return F->is_good && (Z == NULL || (Z->F == F && Z->generation == F->generation))
-               ? SL_OK
-               : SL_ERR_STATE;
+    if (!F->is_good || (Z != NULL && (Z->F != F || Z->generation != F->generation))) {
+        return SL_ERR_STATE;
+    }
+    return F->is_centred ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,

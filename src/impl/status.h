@@ -29,6 +29,8 @@ SL_API const char *sl_status_string(sl_status status) {
         return "ordering failed";
     case SL_ERR_STATE:
         return "failed factor, or objects that do not belong together";
+    case SL_ERR_INCONSISTENT:
+        return "inconsistent right-hand side of a singular system";
     }
     return "unknown status";
 }

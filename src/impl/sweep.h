@@ -2,8 +2,7 @@
 #ifndef SLI_SWEEP_H
 #define SLI_SWEEP_H
 
-#include "reach.h"
-#include "factor_parts.h"
+#include "nullspace.h"
 #include "region_parts.h"
 #include "work.h"
 
@@ -183,35 +182,94 @@ static void sli_cross_region(const sl_factor *F, const sli_query *q, int kind,
                      v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
-/* A x = b for the rows of a query: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. W has room; F is good.
- */
-static void sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                      const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+/* The vectors of the next block of right-hand sides, in memory that has room. */
+static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory) {
+    sli_block b = {NULL, 0, 0};
+    sli_vectors v;
+    b.base = (unsigned char *)memory;
+    sli_vectors_layout(&v, &b, q, nrhs);
+    return v;
+}
+
+/* y := L^-1 y in the forward vector. */
+static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                              sl_int nrhs) {
+    F->kernels->forward[sli_lanes_kind(nrhs)](q->forward.count, q->forward.steps, q->forward.rows,
+                                              F->L, v->y, v->scratch);
+}
+
+/* y = L^-1 P b for up to 8 right-hand sides. Returns whether there is a solution, where F asks. */
+static int sli_sweep_in(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                        const double *B, sli_dense at, sl_int nrhs) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
+    double norms[SLI_TILE];
+    sli_pack(q, v->y, B, at, lanes, nrhs);
+    if (F->checks) {
+        sli_norms(&q->forward, v->y, lanes, norms);
+    }
+    sli_sweep_forward(F, q, v, nrhs);
+    return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
+}
+
+/* P x = L'^-1 D^-1 y in the backward vector. */
+static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
+                               sl_int nrhs) {
+    const int kind = sli_lanes_kind(nrhs);
+    const sl_int lanes = (sl_int)1 << kind;
+    if (!q->is_shared) {
+        sli_cross(q, v->y, v->x, lanes);
+    }
+    if (q->region != NULL) {
+        sli_cross_region(F, q, kind, v);
+    }
+    if (F->is_centred) {
+        sli_centre(F, &q->forward, v->y, &q->backward, v->x, lanes);
+    }
+    F->kernels->backward[kind](q->backward.count, q->backward.steps,
+                               q->backward.rows + q->backward.n_rows, F->L,
+                               F->is_centred ? F->divide : F->D, v->x, v->scratch);
+}
+
+/* Only whether A x = b has solutions; nothing but memory is written. */
+static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
+                                 sli_dense b_at, sl_int nrhs, void *memory) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
         const sl_int block = sli_min(8, nrhs - r);
-        const int kind = sli_lanes_kind(block);
-        const sl_int lanes = (sl_int)1 << kind;
-        sli_block b;
-        sli_vectors v;
-        b.base = (unsigned char *)memory;
-        b.used = 0;
-        b.overflow = 0;
-        sli_vectors_layout(&v, &b, q, block);
-        sli_pack(q, v.y, B + (size_t)r * b_at.column, b_at, lanes, block);
-        F->kernels->forward[kind](q->forward.count, q->forward.steps, q->forward.rows, F->L, v.y,
-                                  v.scratch);
-        if (!q->is_shared) {
-            sli_cross(q, v.y, v.x, lanes);
+        const sli_vectors v = sli_vectors_of(q, block, memory);
+        if (!sli_sweep_in(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+            return SL_ERR_INCONSISTENT;
         }
-        if (q->region != NULL) {
-            sli_cross_region(F, q, kind, &v);
-        }
-        F->kernels->backward[kind](q->backward.count, q->backward.steps,
-                                   q->backward.rows + q->backward.n_rows, F->L, F->D, v.x,
-                                   v.scratch);
-        sli_unpack(q, X + (size_t)r * x_at.column, x_at, v.x, lanes, block);
     }
+    return SL_OK;
+}
+
+/* A x = b for the rows of a query, block after block: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. Memory has room; F is
+ * good. The first block that is not consistent is where it ends. */
+static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
+                                  const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+    sl_int r;
+    for (r = 0; r < nrhs; r += 8) {
+        const sl_int block = sli_min(8, nrhs - r);
+        const sli_vectors v = sli_vectors_of(q, block, memory);
+        if (!sli_sweep_in(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+            return SL_ERR_INCONSISTENT;
+        }
+        sli_sweep_backward(F, q, &v, block);
+        sli_unpack(q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << sli_lanes_kind(block),
+                   block);
+    }
+    return SL_OK;
+}
+
+/* The same, where nothing of X may be written before all blocks are known to be consistent. */
+static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
+                           const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+    sl_status status = SL_OK;
+    if (F->checks && nrhs > 8 && q->nb > 0) {
+        status = sli_sweep_check(F, q, B + 8 * b_at.column, b_at, nrhs - 8, memory);
+    }
+    return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
 /* What every solve asks of its dense arguments: leading dimensions reach over the rows of a column,
@@ -242,7 +300,7 @@ static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, s
     bytes = sli_vectors_bytes(q, nrhs);
     status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
     if (status == SL_OK) {
-        sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
+        status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
     }
     sli_free(&own.allocator, own.block);
     return status;

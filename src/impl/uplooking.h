@@ -69,13 +69,9 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         magnitude = fabs(pivot);
         *diagonal = 0.0;
         sli_do_all_rows(F, k, &pivot, &magnitude);
+        pivot = F->rule.replaces ? sli_pivot_ruled(&F->rule, k, pivot, magnitude) : pivot;
         F->D[k] = pivot;
-        if (F->definiteness == SL_SEMIDEFINITE &&
-            sli_is_null(pivot, magnitude, F->null_tolerance)) {
-            F->D[k] = SLI_NULL_PIVOT;
-        } else {
-            status = sli_check_pivot(F, k, pivot, magnitude, failure);
-        }
+        status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
             sli_wait_for_row(F, s);

@@ -27,6 +27,14 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     return SL_OK;
 }
 
+/* The base of W, grown to what a layout has counted, for its second run. */
+static sl_status sli_work_lay(sl_work *W, sli_block *b) {
+    const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
+    b->base = (unsigned char *)W->block;
+    b->used = 0;
+    return status;
+}
+
 /* A stage of a call on a workspace: lays its arrays out, then fills them; what q holds after the stages before it
  * tells how large they are. */
 typedef struct sli_stage {

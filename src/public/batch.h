@@ -30,8 +30,10 @@ typedef struct sl_request {
  *                      this call.
  *  failed    [out]     the request at fault, or -1; may be NULL. On error no X has been touched.
  *  Returns   SL_OK; SL_ERR_ARGUMENT, also for works that hold a NULL or one workspace twice; SL_ERR_STATE: failed
- *            factor, or a plan that sl_plan_solve refuses; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *            factor, or a plan that sl_plan_solve refuses; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *            SL_ERR_MEMORY.
  *  Cost      that of the solves, shared out by the entries of L that each reads; threads times the largest workspace.
+ *            Where right-hand sides have to be consistent, all of them are swept forward once more beforehand.
  *  Threads   as sl_plan_solve.
  *  Example   tests/test_batch.c
  */

@@ -43,6 +43,8 @@
  *  [ET75]    Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix, 1975.
  *  [SelInv]  Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric matrix, 2011.
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal method, 1989.
+ *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
+ *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination, 1980.
  *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs, 1998.
  */
 

@@ -46,8 +46,10 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  scratch; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or, in a region, other
- *           numbers than those it was made or refilled of; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once W has grown.
+ *           numbers than those it was made or refilled of; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once
+ *           W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
  *  Example  tests/test_plan.c
  */
@@ -75,7 +77,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, cons
 /** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
  *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: as in sl_factor_solve;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the sum of both; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_plan.c

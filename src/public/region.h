@@ -10,7 +10,8 @@
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
  * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding.
+ * solve to rounding. Of a singular matrix (SL_SEMIDEFINITE) that holds for a b that is consistent: nobody looks at null rows
+ * outside of the region.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.
@@ -30,8 +31,8 @@
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
  *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_UNSUPPORTED: a factor
+ *           whose solves are centred (options.mass); SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
  *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
  *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
@@ -51,7 +52,7 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  scratch; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or Z is not of F as it is;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_UNSUPPORTED: as there; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_region_create, less the plan; no allocation once W has grown.
  *  Threads  nobody else may use R, or a plan in it, meanwhile.
  *  Example  tests/test_region.c

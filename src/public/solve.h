@@ -28,7 +28,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_fact
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
 
-/** Solves A X = B.
+/** Solves A X = B. Of a singular A: the solution that sl_factor_create tells of.
  *
  *  F      [in]   factor of A, n x n.
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, in the order of A's rows; may be B itself
@@ -36,9 +36,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
  *  nrhs   [in]   number of right-hand sides, 0 or more; solved in blocks of 8, for the time of two to three alone.
  *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and
- *           could not.
- *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: a column of B has no solution
+ *           (SL_SEMIDEFINITE without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W had to grow and could not.
+ *  Cost     4 nnz_panels flops a right-hand side; reads L twice for each block; W grows to O(n min(nrhs, 8)). Where B
+ *           has to be consistent, right-hand sides beyond the eighth are swept forward once more beforehand.
  *  Threads  any number at once on one F, each with its own W.
  *  Example  tests/test_solve.c
  */

@@ -16,7 +16,8 @@ typedef enum sl_status {
     SL_ERR_UNSUPPORTED, /* not compiled in, not on this processor, or a file format that is not read */
     SL_ERR_IO,       /* a file could not be opened, read, parsed or written; stats name the line */
     SL_ERR_ORDERING, /* the ordering library failed */
-    SL_ERR_STATE     /* a failed factor, or objects that do not belong together */
+    SL_ERR_STATE,    /* a failed factor, or objects that do not belong together */
+    SL_ERR_INCONSISTENT /* a singular system whose right-hand side has no solution */
 } sl_status;
 
 /** A name for a status, in words, static storage. Any value is accepted. */
@@ -133,6 +134,23 @@ typedef struct sl_options {
         region; /* of sl_plan_create: where its sweeps may end; borrowed, must outlive the plan; NULL: none */
     size_t
         region_bytes; /* of sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
+
+    /* SL_SEMIDEFINITE, sl_factor_create: which of many solutions is meant, and when there is none */
+
+    /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and b is made consistent by a
+     * multiple of m; NULL: x is 0 in the null rows */
+    const double *mass;
+    /* without mass a solve refuses b where |z' b| > consistency_tolerance * (sum of |b|) for a null vector z that is
+     * 1 in its null row; 0: 1e-6, which lets pass what single precision loses; negative: nothing is refused */
+    double consistency_tolerance;
+
+    /* SL_DEFINITE, sl_factor_create: signed regularization */
+
+    /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|, regularization * the sum of the magnitudes
+     * that made it, 1 where that is 0); 1e-8 suits refinement; 0: none */
+    double regularization;
+    /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do; copied; NULL: all 1 */
+    const sl_int *signs;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -172,6 +190,7 @@ typedef struct sl_stats {
     double seconds_setup; /* processor seconds in the schedule and the memory of sl_factor_create */
     double seconds_factor; /* processor seconds in the numbers, those of all threads summed up */
     size_t bytes_factor;
+    sl_int regularized; /* pivots that regularization changed; they count by their new sign */
 
     /* sl_plan_create, sl_local_solve; sl_inverse_*, which have no backward sweep */
     sl_int b_supernodes; /* visited by the forward sweep */
@@ -204,6 +223,10 @@ typedef struct sl_stats {
 
     /* sl_inverse_diagonal, sl_inverse_pairs */
     sl_inverse_method inverse_method; /* the one that was used */
+
+    /* sl_factor_refine, sl_plan_solve_refined */
+    sl_int refine_steps;   /* corrections that were taken, the most of all right-hand sides */
+    double backward_error; /* what is left, the largest of all right-hand sides */
 } sl_stats;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */

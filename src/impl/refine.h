@@ -1,0 +1,180 @@
+/* refine.h: iterative refinement of full solutions, column by column, by the backward error of every row */
+#ifndef SLI_REFINE_H
+#define SLI_REFINE_H
+
+#include "../public/accuracy.h"
+#include "csc_products.h"
+#include "factor.h"
+#include "inverse.h"
+
+/* Up to 8 right-hand sides on their way. */
+typedef struct sli_refinement {
+    const sl_factor *F;
+    const sl_csc *A;
+    sl_triangle triangle;
+    double *R, *T;         /* n x columns: residuals, then corrections; what is tried */
+    double *size;          /* n: |A| |x| + |b| */
+    unsigned char *memory; /* for solves */
+    double error[SLI_TILE];
+    int is_done[SLI_TILE];
+    sl_int steps; /* taken */
+} sli_refinement;
+
+static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
+    const sli_query q = sli_query_all(f->F->S);
+    const uint64_t n = (uint64_t)f->F->S->n;
+    const size_t bytes = sli_vectors_bytes(&q, columns);
+    f->R = SLI_TAKE(b, double, n *(uint64_t)columns);
+    f->T = SLI_TAKE(b, double, n *(uint64_t)columns);
+    f->size = SLI_TAKE(b, double, n);
+    f->memory = (unsigned char *)sli_take(b, bytes, 1);
+}
+
+/* r = b - A x and the backward error of x: the least change of every entry of A and b, relative to it, that makes x a
+ * solution. */
+static double sli_row_error(const sli_refinement *f, double *r, const double *x, const double *b) {
+    const sl_csc *A = f->A;
+    double *size = f->size, worst = 0.0;
+    sl_int i, j, p;
+    for (i = 0; i < A->n_cols; i++) {
+        r[i] = b[i];
+        size[i] = fabs(b[i]);
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            i = A->i[p];
+            if (sli_is_read(f->triangle, i, j)) {
+                r[i] -= A->x[p] * x[j];
+                size[i] += fabs(A->x[p] * x[j]);
+                if (i != j) {
+                    r[j] -= A->x[p] * x[i];
+                    size[j] += fabs(A->x[p] * x[i]);
+                }
+            }
+        }
+    }
+    for (i = 0; i < A->n_cols; i++) {
+        const double error = sli_backward_error(fabs(r[i]), 0.0, 0.0, size[i]);
+        worst = error <= worst || worst != worst ? worst : error;
+    }
+    return worst;
+}
+
+/* R := A^-1 R, as good as F knows it, consistent or not. */
+static void sli_correct(const sli_refinement *f, sl_int columns) {
+    const sli_query q = sli_query_all(f->F->S);
+    const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+    const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
+    sli_pack(&q, v.y, f->R, at, lanes, columns);
+    sli_sweep_forward(f->F, &q, &v, columns);
+    sli_sweep_backward(f->F, &q, &v, columns);
+    sli_unpack(&q, f->R, at, v.x, lanes, columns);
+}
+
+/* One correction of column c, already solved for; done where it does not halve the error. Returns whether it was taken.
+ */
+static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
+    const size_t n = (size_t)f->F->S->n;
+    double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
+    size_t i;
+    int is_better;
+    for (i = 0; i < n; i++) {
+        t[i] = x[i] + r[i];
+    }
+    error = sli_row_error(f, r, t, b);
+    is_better = error < f->error[c];
+    f->is_done[c] = !(error <= 0.5 * f->error[c]) || error <= DBL_EPSILON;
+    if (is_better) {
+        memcpy(x, t, n * sizeof(double));
+        f->error[c] = error;
+    }
+    return is_better;
+}
+
+static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const double *B, size_t ldb,
+                             sl_int columns, sl_int steps) {
+    const size_t n = (size_t)f->F->S->n;
+    sl_int c, step, todo = 0;
+    for (c = 0; c < columns; c++) {
+        f->error[c] =
+            sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
+        f->is_done[c] = f->error[c] <= DBL_EPSILON;
+        todo += !f->is_done[c];
+    }
+    for (step = 1; step <= steps && todo > 0; step++) {
+        sli_correct(f, columns);
+        todo = 0;
+        for (c = 0; c < columns; c++) {
+            if (!f->is_done[c]) {
+                if (sli_refine_column(f, c, X + ldx * (size_t)c, B + ldb * (size_t)c)) {
+                    f->steps = sli_max(f->steps, step);
+                }
+                todo += !f->is_done[c];
+            }
+        }
+    }
+}
+
+/* The larger of two errors, NaN if one is. */
+SLI_INLINE double sli_worse(double a, double b) {
+    return a != a || a > b ? a : b;
+}
+
+static void sli_refine_stats(sl_stats *stats, sl_int steps, double error) {
+    if (stats != NULL) {
+        stats->refine_steps = steps;
+        stats->backward_error = error;
+    }
+}
+
+SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
+                                  const double *B, size_t ldb, sl_int nrhs, sl_int steps,
+                                  sl_work *W, sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sli_refinement f;
+    sl_work own;
+    sl_status status;
+    double worst = 0.0;
+    sl_int r, c;
+    sli_stats_clear_error(stats);
+    if (F == NULL || steps < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_good) {
+        return SL_ERR_STATE;
+    }
+    status = sli_factor_check(F->S, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&f, 0, sizeof f);
+    f.F = F;
+    f.A = A;
+    f.triangle = sli_triangle_scan(A);
+    own = sli_work_own(F);
+    W = W == NULL ? &own : W;
+    sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
+    status = nrhs > 0 ? sli_work_lay(W, &b) : SL_OK;
+    if (status == SL_OK && nrhs > 0) {
+        sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
+        for (r = 0; r < nrhs; r += 8) {
+            sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
+                             sli_min(8, nrhs - r), steps);
+            for (c = 0; c < sli_min(8, nrhs - r); c++) {
+                worst = sli_worse(f.error[c], worst);
+            }
+        }
+    }
+    sli_free(&own.allocator, own.block);
+    if (status == SL_OK) {
+        sli_refine_stats(stats, f.steps, worst);
+    }
+    return status;
+}
+
+#endif

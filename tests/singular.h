@@ -1,0 +1,62 @@
+/* singular.h: Laplacians of generated graphs, singular once for each component, and the wishes that factor them */
+#ifndef SL_TEST_SINGULAR_H
+#define SL_TEST_SINGULAR_H
+
+#include "gen.h"
+
+/* The Laplacian of a generated graph with weights that are not exact: a component is a null pivot. of: n, the first row of
+ * each row's component; may be NULL. */
+static inline gen_matrix_t laplacian_of(gen_kind_t kind, sl_int size, int style, sl_int *components,
+                                        sl_int *of) {
+    gen_list_t t = gen_make(kind, size, 1, 17);
+    gen_list_t clean = gen_list(t.n);
+    sl_int *group = test_ints((size_t)t.n);
+    double *diagonal = test_reals((size_t)t.n);
+    for (sl_int k = 0; k < t.n; k++) {
+        group[k] = k;
+    }
+    for (size_t k = 0; k < t.count; k++) {
+        sl_int i = t.row[k], j = t.col[k];
+        if (i != j) {
+            double w = 0.1 + fabs(t.x[k]) / 3.0;
+            gen_add(&clean, i, j, -w);
+            diagonal[i] += w;
+            diagonal[j] += w;
+            while (group[i] != i) {
+                i = group[i];
+            }
+            while (group[j] != j) {
+                j = group[j];
+            }
+            group[i > j ? i : j] = i > j ? j : i;
+        }
+    }
+    *components = 0;
+    for (sl_int k = 0; k < t.n; k++) {
+        *components += group[k] == k;
+        gen_add(&clean, k, k, diagonal[k]); /* a lone row has a 0 */
+        group[k] = group[group[k]];         /* ascending: the group of a smaller row is final */
+    }
+    gen_matrix_t M = gen_store(&clean, gen_style(style), 1);
+    if (of && t.n > 0) {
+        memcpy(of, group, (size_t)t.n * sizeof *of);
+    }
+    gen_list_free(&t);
+    gen_list_free(&clean);
+    free(group);
+    free(diagonal);
+    return M;
+}
+
+static inline gen_matrix_t laplacian(gen_kind_t kind, sl_int size, int style, sl_int *components) {
+    return laplacian_of(kind, size, style, components, NULL);
+}
+
+static inline sl_options options_semidefinite(const way_list_t *ways, int k) {
+    sl_options opt = options_none();
+    way_take(&opt, ways, k);
+    opt.definiteness = SL_SEMIDEFINITE;
+    return opt;
+}
+
+#endif

@@ -1,0 +1,173 @@
+/* test_centred.c: options.mass: the centred solution of a singular system, against dense ones, full and local, in every form */
+#include "centred.h"
+#include "parallel_for.h"
+#include "question.h"
+
+/* The same x from the dense system [A m; m' 0], with a row and a column for each component. */
+static void assert_dense(const sl_csc *A, const sl_int *of, sl_int components, const double *m,
+                         const double *x, const double *b) {
+    sl_int rows = A->n_cols, n = rows + components, at = rows;
+    double *M = ref_dense(A), *K = test_reals((size_t)n * (size_t)n), *y = test_reals((size_t)n);
+    for (sl_int j = 0; j < rows; j++) {
+        for (sl_int i = 0; i < rows; i++) {
+            AT(K, i, j) = M[(size_t)i + (size_t)rows * (size_t)j];
+        }
+        y[j] = b[j];
+    }
+    for (sl_int c = 0; c < rows; c++) {
+        for (sl_int i = 0; of[c] == c && i < rows; i++) {
+            AT(K, i, at) = AT(K, at, i) = of[i] == c ? m[i] : 0.0;
+        }
+        at += of[c] == c;
+    }
+    double bound = n * DBL_EPSILON * ref_condition(n, K), most = 0.0;
+    ref_solve(n, K, y, 1);
+    for (sl_int i = 0; i < rows; i++) {
+        most = fmax(most, fabs(y[i]));
+    }
+    for (sl_int i = 0; i < rows; i++) { /* n eps, times the condition of the bordered matrix */
+        assert_true(fabs(x[i] - y[i]) <= bound * most);
+    }
+    free(M);
+    free(K);
+    free(y);
+}
+
+static void against_dense_systems(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[9] = {GEN_ONE,    GEN_DIAGONAL, GEN_PATH,
+                                        GEN_STAR,   GEN_GRID2,    GEN_GRID3,
+                                        GEN_FOREST, GEN_RANDOM,   GEN_COMPONENTS};
+    static const sl_int sizes[2] = {12, 90};
+    way_list_t ways = ways_present();
+    for (int kind = 0; kind < 9; kind++) {
+        for (int size = 0; size < 2; size++) {
+            sl_int components = 0, *of = test_ints((size_t)sizes[size]);
+            gen_matrix_t M =
+                laplacian_of(kinds[kind], sizes[size], kind % GEN_STYLES, &components, of);
+            size_t n = (size_t)M.view.n_cols;
+            double *m = weights((sl_int)n, 3), *b = test_reals(n), *x = test_reals(n);
+            sl_symbolic *S = NULL;
+            gen_reals(b, n, 5);
+            SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+            for (int k = 0; k < ways.count; k++) {
+                sl_options opt = options_semidefinite(&ways, k);
+                sl_factor *F = NULL;
+                opt.mass = m;
+                SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+                for (int again = 0; again < 3; again++) {
+                    const sl_int column = 0;
+                    SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
+                    assert_centred(&M.view, of, m, x, b);
+                    assert_dense(&M.view, of, components, m, x, b);
+                    SL_CHECK(again ? sl_factor_refactor_changed(F, &M.view, &column, 1, NULL)
+                                   : sl_factor_refactor(F, &M.view, NULL));
+                }
+                sl_factor_free(F);
+            }
+            sl_symbolic_free(S);
+            gen_matrix_free(&M);
+            free(of);
+            free(m);
+            free(b);
+            free(x);
+        }
+    }
+}
+
+/* Every form of solve has the bits of the full one, and none allocates once its workspace has grown; threads change
+ * none. */
+static void every_form(void **state) {
+    (void)state;
+    sl_int components = 0, n = 600, *of = test_ints(600);
+    gen_matrix_t M = laplacian_of(GEN_COMPONENTS, n, 0, &components, of);
+    double *m = weights(n, 4);
+    way_list_t ways = ways_present();
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        sl_factor *F = NULL, *G = NULL;
+        sl_work *W = NULL;
+        int calls = 0;
+        opt.mass = m;
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        opt.threads.count = 3;
+        opt.threads.run = run_backwards;
+        opt.threads.context = &calls;
+        SL_CHECK(sl_factor_create(&G, S, &M.view, &opt, NULL));
+        assert_same_bits(F, G);
+        SL_CHECK(sl_work_create(&W, NULL));
+        for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+            for (int which = 0; which < 6; which++) {
+                static const sl_int nb[6] = {1, 1, 20, -1, 30, 0}, nx[6] = {1, 30, -1, 5, 30, 3};
+                question_t q = ask(F, n, nb[which], nx[which], nrhs, (uint64_t)(which + 10 * nrhs));
+                answer(S, F, &q, W);
+                answer(S, G, &q, W);
+                forget(&q);
+            }
+        }
+        sl_work_free(W);
+        sl_factor_free(F);
+        sl_factor_free(G);
+    }
+    free(of);
+    free(m);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* Interleaved, in a batch, in place: the same bits. */
+static void interleaved_and_batches(void **state) {
+    (void)state;
+    enum { N = 300, R = 11 };
+    sl_int components = 0, *of = test_ints(N);
+    gen_matrix_t M = laplacian_of(GEN_COMPONENTS, N, 0, &components, of);
+    double *m = weights(N, 6), *B = test_reals(N * R), *X = test_reals(N * R);
+    double *Y = test_reals(N * R);
+    way_list_t ways = ways_present();
+    sl_symbolic *S = NULL;
+    gen_reals(B, N * R, 9);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        sl_factor *F = NULL;
+        opt.mass = m;
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        SL_CHECK(sl_factor_solve(F, X, N, B, N, R, NULL));
+        for (int r = 0; r < R; r++) {
+            assert_centred(&M.view, of, m, X + N * r, B + N * r);
+        }
+        for (int i = 0; i < N; i++) {
+            for (int r = 0; r < R; r++) {
+                Y[r + R * i] = B[i + N * r];
+            }
+        }
+        SL_CHECK(sl_factor_solve_interleaved(F, Y, R, Y, R, R, NULL));
+        for (int i = 0; i < N; i++) {
+            for (int r = 0; r < R; r++) {
+                assert_true(same_value(Y[r + R * i], X[i + N * r]));
+            }
+        }
+        sl_request request = {NULL, Y, N, B, N, 0, R, NULL};
+        SL_CHECK(sl_batch_solve(F, &request, 1, NULL, NULL, NULL));
+        SAME_VALUES(Y, X, N * R);
+        sl_factor_free(F);
+    }
+    free(of);
+    free(m);
+    free(B);
+    free(X);
+    free(Y);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_dense_systems),
+        cmocka_unit_test(every_form),
+        cmocka_unit_test(interleaved_and_batches),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,295 @@
+/* test_consistent.c: singular systems without weights: what is inconsistent is refused by every form of solve, and by how much told */
+#include "parallel_for.h"
+#include "problem.h"
+#include "singular.h"
+
+enum { N = 300, R = 19, NB = 40, NX = 30 };
+
+/* A singular system of several components, right-hand sides that have solutions, and room for those. */
+typedef struct fixture_t {
+    gen_matrix_t M;
+    sl_int of[N], bset[N], xset[N], components; /* of the sets NB and NX */
+    sl_symbolic *S;
+    sl_plan *P;
+    double B[N * R];  /* consistent: sums over components are 0 within rounding */
+    double C[NB * R]; /* the same on bset */
+    double X[N * R], before[N * R];
+} fixture_t;
+
+/* Takes from the rows of a set what the values sum up to in each component; lone rows get 0. */
+static void make_consistent(const fixture_t *f, double *b, const sl_int *set, sl_int count) {
+    for (sl_int k = 0; k < count; k++) {
+        sl_int c = f->of[set ? set[k] : k], last = -1;
+        double sum = 0.0;
+        for (sl_int m = 0; m < count; m++) {
+            if (f->of[set ? set[m] : m] == c) {
+                sum += b[m];
+                last = m;
+            }
+        }
+        b[last] -= sum;
+    }
+}
+
+static fixture_t *fixture_make(void) {
+    fixture_t *f = (fixture_t *)test_array(1, sizeof *f);
+    uint64_t seed = 4;
+    f->M = laplacian_of(GEN_COMPONENTS, N, 0, &f->components, f->of);
+    gen_set(f->bset, NB, N, gen_bits(&seed));
+    gen_set(f->xset, NX, N, gen_bits(&seed));
+    gen_reals(f->B, N * R, 2);
+    gen_reals(f->C, NB * R, 3);
+    gen_reals(f->before, N * R, 5);
+    for (int r = 0; r < R; r++) {
+        make_consistent(f, f->B + N * r, NULL, N);
+        make_consistent(f, f->C + NB * r, f->bset, NB);
+    }
+    SL_CHECK(sl_symbolic_create(&f->S, &f->M.view, NULL, NULL));
+    SL_CHECK(sl_plan_create(&f->P, f->S, f->bset, NB, f->xset, NX, NULL, NULL));
+    return f;
+}
+
+static void fixture_free(fixture_t *f) {
+    sl_plan_free(f->P);
+    sl_symbolic_free(f->S);
+    gen_matrix_free(&f->M);
+    free(f);
+}
+
+/* All forms of solve on the first nrhs right-hand sides: each comes to `wanted`, and on error leaves X. */
+static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status wanted,
+                       sl_work *W) {
+    for (int form = 0; form < 8; form++) {
+        double *X = f->X, *turned = test_reals((size_t)(N * R));
+        sl_status status = SL_OK;
+        sl_int failed = 7;
+        memcpy(X, f->before, sizeof f->before);
+        for (sl_int r = 0; r < nrhs; r++) {
+            for (sl_int k = 0; k < (form == 3 ? NB : N); k++) {
+                turned[r + nrhs * k] = form == 3 ? f->C[k + NB * r] : f->B[k + N * r];
+            }
+        }
+        double *kept = test_reals((size_t)(N * R));
+        memcpy(kept, turned, (size_t)(N * R) * sizeof *kept);
+        if (form == 0) {
+            status = sl_factor_solve(F, X, N, f->B, N, nrhs, W);
+        } else if (form == 1) { /* in place */
+            status = sl_factor_solve_interleaved(F, turned, (size_t)nrhs, turned, (size_t)nrhs,
+                                                 nrhs, NULL);
+            assert_int_equal(status != SL_OK,
+                             memcmp(turned, kept, (size_t)(N * nrhs) * sizeof *kept) == 0);
+        } else if (form == 2) {
+            status = sl_plan_solve(f->P, F, X, NX, f->C, NB, nrhs, W);
+        } else if (form == 3) {
+            status =
+                sl_plan_solve_interleaved(f->P, F, X, (size_t)nrhs, turned, (size_t)nrhs, nrhs, W);
+        } else if (form == 4) {
+            status = sl_local_solve(F, X, NX, f->xset, NX, f->C, NB, f->bset, NB, nrhs, W, NULL);
+        } else if (form == 5) { /* in place */
+            memcpy(turned, f->B, sizeof f->B);
+            status = sl_factor_solve(F, turned, N, turned, N, nrhs, W);
+            assert_int_equal(status != SL_OK, memcmp(turned, f->B, sizeof f->B) == 0);
+        } else {
+            const sl_factor *own = form == 6 ? NULL : F; /* the call's factor, or the requests' */
+            const sl_request requests[2] = {{NULL, X, N, f->B, N, 0, nrhs / 2, own},
+                                            {f->P, X + N * (nrhs / 2), NX, f->C, NB, 0, nrhs, own}};
+            int calls = 0;
+            sl_threads threads = {form == 6 ? 1 : 3, run_backwards, &calls};
+            status = sl_batch_solve(form == 6 ? F : NULL, requests, 2, &threads, NULL, &failed);
+            assert_int_equal(failed, status == SL_OK ? -1 : 1);
+        }
+        test_status(status, wanted, "a form of solve", __FILE__, __LINE__);
+        if (status != SL_OK) {
+            assert_memory_equal(X, f->before, sizeof f->before);
+        }
+        free(turned);
+        free(kept);
+    }
+}
+
+/* One value of the last right-hand side is off: by rounding it passes, by 1e-3 it does not. A NaN is not refused. */
+static void refused_by_every_form(void **state) {
+    (void)state;
+    fixture_t *f = fixture_make();
+    way_list_t ways = ways_present();
+    static const sl_int counts[6] = {1, 2, 3, 8, 9, 19};
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        sl_factor *F = NULL;
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, NULL));
+        SL_CHECK(sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
+        for (int c = 0; c < 6; c++) {
+            static const double off[4] = {0.0, 1e-12, 1e-3, NAN};
+            sl_int last = counts[c] - 1;
+            for (int m = 0; m < 4; m++) {
+                double *b = f->B + N * last + 150, *p = f->C + NB * last + 11, b0 = *b, p0 = *p;
+                *b += off[m];
+                *p += off[m];
+                every_form(f, F, counts[c], m == 2 ? SL_ERR_INCONSISTENT : SL_OK, W);
+                *b = b0;
+                *p = p0;
+            }
+        }
+        sl_factor_free(F);
+        /* the tolerance is the caller's, and a negative one refuses nothing */
+        f->B[7] += 1e-3;
+        for (int m = 0; m < 3; m++) {
+            static const double tolerance[3] = {1e-1, 1e-9, -1.0};
+            opt.consistency_tolerance = tolerance[m];
+            SL_CHECK(sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
+            SL_EXPECT(m == 1 ? SL_ERR_INCONSISTENT : SL_OK,
+                      sl_factor_solve(F, f->X, N, f->B, N, 1, W));
+            sl_factor_free(F);
+        }
+        f->B[7] -= 1e-3;
+        opt.consistency_tolerance = NAN;
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
+        sl_work_free(W);
+    }
+    fixture_free(f);
+}
+
+/* The defects are the sums over the components, and taken off the null rows they make any b consistent. */
+static void defects_are_told(void **state) {
+    (void)state;
+    fixture_t *f = fixture_make();
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        sl_factor *F = NULL;
+        sl_int rows[N], count = 0;
+        SL_CHECK(sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
+        SL_CHECK(sl_factor_null_rows(F, rows, N, &count));
+        assert_int_equal(count, f->components);
+        double *B = test_reals(N * R), *Y = test_reals((size_t)(count + 1) * R);
+        gen_reals(B, N * R, 11);
+        for (int w = 0; w < 2; w++) {
+            sl_work *W = NULL;
+            SL_CHECK(sl_work_create(&W, NULL));
+            SL_CHECK(sl_factor_defects(F, Y, (size_t)count + 1, B, N, R, w ? W : NULL));
+            sl_work_free(W);
+        }
+        for (int r = 0; r < R; r++) {
+            for (sl_int c = 0; c < count; c++) {
+                double sum = 0.0, size = 0.0;
+                for (sl_int i = 0; i < N; i++) {
+                    sum += f->of[i] == f->of[rows[c]] ? B[i + N * r] : 0.0;
+                    size += fabs(B[i + N * r]);
+                }
+                assert_true(fabs(Y[c + (count + 1) * r] - sum) <= pass_figure(N) * size);
+                B[rows[c] + N * r] -= Y[c + (count + 1) * r];
+            }
+        }
+        SL_CHECK(sl_factor_solve(F, f->X, N, B, N, R, NULL));
+        BACKWARD_PASSES(&f->M.view, f->X, N, B, N, R);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(NULL, Y, (size_t)count, B, N, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, Y, (size_t)count - 1, B, N, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, Y, (size_t)count, B, N - 1, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, Y, (size_t)count, NULL, N, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, NULL, (size_t)count, B, N, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, Y, (size_t)count, B, N, -1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, B, N, B, N, 1, NULL));
+        SL_CHECK(sl_factor_defects(F, NULL, 0, NULL, 0, 0, NULL));
+        sl_factor_free(F);
+        free(B);
+        free(Y);
+    }
+    fixture_free(f);
+}
+
+/* A definite matrix has no defects and refuses nothing; several null vectors of one component are told apart. */
+static void none_and_several(void **state) {
+    (void)state;
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        problem_t y = problem_make(GEN_GRID2, 100, 1, 0, &opt);
+        double b[100], x[100], one = 5.0;
+        gen_reals(b, 100, 3);
+        SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));
+        SL_CHECK(sl_factor_defects(y.F, &one, 1, b, 100, 1, NULL));
+        assert_true(one == 5.0);
+        problem_free(&y);
+        /* v v' with v = (1, 2, 3): null vectors (-2, 1, 0) and (-3, 0, 1) where row 0 comes first */
+        const sl_int p[4] = {0, 3, 5, 6}, i[6] = {0, 1, 2, 1, 2, 2};
+        const double a[6] = {1, 2, 3, 4, 6, 9}, good[3] = {2, 4, 6}, bad[3] = {2, 4, 7};
+        const sl_csc A = {3, 3, p, i, a};
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        double defects[2];
+        memset(&stats, 0, sizeof stats);
+        opt.ordering = SL_ORDERING_NATURAL;
+        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+        assert_int_equal(stats.null, 2);
+        SL_CHECK(sl_factor_solve(F, x, 3, good, 3, 1, NULL));
+        BACKWARD_PASSES(&A, x, 3, good, 3, 1);
+        SL_EXPECT(SL_ERR_INCONSISTENT, sl_factor_solve(F, x, 3, bad, 3, 1, NULL));
+        SL_CHECK(sl_factor_defects(F, defects, 2, bad, 3, 1, NULL));
+        assert_true(fabs(defects[0]) < 1e-14 && fabs(defects[1] - 1.0) < 1e-14);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
+/* Weights from 1e-6 to 1e6, exact in the diagonal: what A z rounds to is consistent. */
+static void weights_far_apart(void **state) {
+    (void)state;
+    enum { SIDE = 20, COUNT = SIDE * SIDE };
+    way_list_t ways = ways_present();
+    uint64_t seed = 12;
+    gen_list_t t = gen_list(COUNT);
+    double *diagonal = test_reals(COUNT), *z = test_reals(COUNT), *b = test_reals(COUNT);
+    for (sl_int k = 0; k < COUNT; k++) {
+        for (int side = 0; side < 2; side++) {
+            sl_int other = side ? k + SIDE : k + 1;
+            if (side ? other < COUNT : other % SIDE != 0) {
+                double w = ldexp(1.0, (int)gen_below(&seed, 41) - 20);
+                gen_add(&t, other, k, -w);
+                diagonal[k] += w;
+                diagonal[other] += w;
+            }
+        }
+    }
+    for (sl_int k = 0; k < COUNT; k++) {
+        gen_add(&t, k, k, diagonal[k]);
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    for (int k = 0; k < ways.count; k++) {
+        sl_options opt = options_semidefinite(&ways, k);
+        sl_factor *F = NULL;
+        double *x = test_reals(COUNT);
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+        assert_int_equal(stats.null, 1);
+        for (uint64_t m = 0; m < 20; m++) {
+            gen_reals(z, COUNT, m);
+            SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, b, COUNT, z, COUNT, 1));
+            SL_CHECK(sl_factor_solve(F, x, COUNT, b, COUNT, 1, NULL));
+            BACKWARD_PASSES(&M.view, x, COUNT, b, COUNT, 1);
+        }
+        free(x);
+        sl_factor_free(F);
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(diagonal);
+    free(z);
+    free(b);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refused_by_every_form),
+        cmocka_unit_test(defects_are_told),
+        cmocka_unit_test(none_and_several),
+        cmocka_unit_test(weights_far_apart),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,289 @@
+/* test_refine_local.c: sl_plan_solve_refined: regularized systems on a few rows, against full refinement and dense solutions */
+#include "kkt.h"
+#include "problem.h"
+
+enum { N = 240, NB = 12, NX = 15, R = 11 };
+
+/* A regularized factor of a regular saddle-point system, a plan around its changed rows, and one of all rows. */
+typedef struct fixture_t {
+    kkt_t y;
+    sl_factor *F;
+    sl_int count, rows[N], bset[N], xset[N], nb,
+        nx; /* the changed rows stand at the end of both sets */
+    sl_plan *P, *all;
+    double *B;    /* nb x R: 0 in the changed rows that are not in b */
+    double *full; /* N x R, the same */
+} fixture_t;
+
+static int contains(const sl_int *set, sl_int count, sl_int row) {
+    for (sl_int k = 0; k < count; k++) {
+        if (set[k] == row) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static fixture_t *fixture_make(const way_list_t *ways, int k) {
+    fixture_t *f = (fixture_t *)test_array(1, sizeof *f);
+    sl_options opt = options_none();
+    way_take(&opt, ways, k);
+    f->y = kkt_make(N, 0, SL_ORDERING_DEFAULT);
+    opt.regularization = 1e-7;
+    opt.signs = f->y.signs;
+    SL_CHECK(sl_factor_create(&f->F, f->y.S, &f->y.M.view, &opt, NULL));
+    SL_CHECK(sl_factor_regularized_rows(f->F, f->rows, NULL, N, &f->count));
+    assert_true(f->count > 5);
+    gen_set(f->bset, NB, N, 3);
+    gen_set(f->xset, NX, N, 4);
+    f->nb = NB;
+    f->nx = NX;
+    for (sl_int m = 0; m < f->count; m++) {
+        if (!contains(f->bset, NB, f->rows[m])) {
+            f->bset[f->nb++] = f->rows[m];
+        }
+        if (!contains(f->xset, NX, f->rows[m])) {
+            f->xset[f->nx++] = f->rows[m];
+        }
+    }
+    f->B = test_reals((size_t)f->nb * R);
+    f->full = test_reals(N * R);
+    for (sl_int r = 0; r < R; r++) {
+        gen_reals(f->B + f->nb * r, NB, (uint64_t)r + 20);
+        for (sl_int b = 0; b < NB; b++) {
+            f->full[f->bset[b] + N * r] = f->B[b + f->nb * r];
+        }
+    }
+    SL_CHECK(sl_plan_create(&f->P, f->y.S, f->bset, f->nb, f->xset, f->nx, NULL, NULL));
+    SL_CHECK(sl_plan_create(&f->all, f->y.S, NULL, 0, NULL, 0, NULL, NULL));
+    return f;
+}
+
+static void fixture_free(fixture_t *f) {
+    sl_plan_free(f->P);
+    sl_plan_free(f->all);
+    sl_factor_free(f->F);
+    kkt_free(&f->y);
+    free(f->B);
+    free(f->full);
+    free(f);
+}
+
+/* Dense: x of A x = b, and the bound n eps ||A^-1|| ||A|| on its relative error. */
+static double dense_bound(const sl_csc *A, double *X) {
+    double *M = ref_dense(A), condition = ref_condition(A->n_cols, M);
+    ref_solve(A->n_cols, M, X, R);
+    free(M);
+    return A->n_cols * DBL_EPSILON * condition;
+}
+
+static void local_and_full_and_dense(void **state) {
+    (void)state;
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
+        fixture_t *f = fixture_make(&ways, k);
+        size_t nx = (size_t)f->nx, nb = (size_t)f->nb;
+        double *X = test_reals(nx * R), *all = test_reals(N * R), *exact = test_reals(N * R);
+        double *plain = test_reals(nx * R);
+        memcpy(exact, f->full, N * R * sizeof *exact);
+        double bound = dense_bound(&f->y.M.view, exact);
+        for (sl_int nrhs = 1; nrhs <= R; nrhs++) {
+            sl_stats stats, whole;
+            memset(&stats, 0, sizeof stats);
+            memset(&whole, 0, sizeof whole);
+            SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, nrhs, 20, NULL, &stats));
+            SL_CHECK(
+                sl_plan_solve_refined(f->all, f->F, all, N, f->full, N, nrhs, 20, NULL, &whole));
+            SL_CHECK(sl_plan_solve(f->P, f->F, plain, nx, f->B, nb, nrhs, NULL));
+            assert_in_range(stats.refine_steps, 1, 6);
+            assert_int_equal(stats.refine_steps, whole.refine_steps);
+            assert_true(stats.backward_error == whole.backward_error);
+            /* rounding of E x, which may be larger than b; regularization alone left 1e-5 */
+            assert_true(stats.backward_error <= 100.0 * DBL_EPSILON);
+            double off = 0.0, was = 0.0, most = 0.0;
+            for (sl_int r = 0; r < nrhs; r++) {
+                for (sl_int i = 0; i < f->nx; i++) {
+                    double x = X[i + f->nx * r], right = exact[f->xset[i] + N * r];
+                    assert_true(same_value(x, all[f->xset[i] + N * r]));
+                    off = fmax(off, fabs(x - right));
+                    was = fmax(was, fabs(plain[i + f->nx * r] - right));
+                    most = fmax(most, fabs(right));
+                }
+            }
+            assert_true(was > 1e-10 * most); /* there was something to better */
+            assert_true(off <= bound * most);
+            if (nrhs == 1 && k == 0) {
+                print_message(
+                    "%d of %d rows regularized: off by %.1e, refined by %.1e, bound %.1e\n",
+                    (int)f->count, N, was / most, off / most, bound);
+            }
+        }
+        /* no step is the plain solve */
+        SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, 3, 0, NULL, NULL));
+        SL_CHECK(sl_plan_solve(f->P, f->F, plain, nx, f->B, nb, 3, NULL));
+        SAME_VALUES(X, plain, 3 * nx);
+        /* in place: the plan of all rows */
+        SL_CHECK(sl_plan_solve_refined(f->all, f->F, f->full, N, f->full, N, R, 20, NULL, NULL));
+        SAME_VALUES(f->full, all, N * R);
+        free(X);
+        free(all);
+        free(exact);
+        free(plain);
+        fixture_free(f);
+    }
+}
+
+/* Where a changed row is missing, that is told; where none was changed it is a plain solve; sets may be empty. */
+static void what_a_plan_must_hold(void **state) {
+    (void)state;
+    way_list_t ways = ways_present();
+    for (int k = 0; k < ways.count; k++) {
+        fixture_t *f = fixture_make(&ways, k);
+        sl_symbolic_view_t v = sl_symbolic_view(f->y.S);
+        double x[N], before[N];
+        sl_plan *P = NULL;
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        gen_reals(before, N, 2);
+        memcpy(x, before, sizeof x);
+        /* the root of a tree alone: its reach is itself */
+        sl_int root = v.iperm[f->rows[0]];
+        while (v.parent[root] != -1) {
+            root = v.parent[root];
+        }
+        const sl_int top = v.perm[root];
+        for (int side = 0; side < 2; side++) {
+            SL_CHECK(sl_plan_create(&P, f->y.S, side ? f->bset : &top, side ? f->nb : 1,
+                                    side ? &top : f->xset, side ? 1 : f->nx, NULL, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_refined(P, f->F, x, N, f->B, (size_t)f->nb, 1,
+                                                             5, NULL, &stats));
+            assert_true(contains(f->rows, f->count, stats.error_row));
+            assert_memory_equal(x, before, sizeof x);
+            sl_plan_free(P);
+        }
+        SL_CHECK(sl_plan_create(&P, f->y.S, &top, 0, &top, 1, NULL, NULL)); /* b = 0 */
+        SL_CHECK(sl_plan_solve_refined(P, f->F, x, 1, NULL, 0, 1, 5, NULL, &stats));
+        assert_true(x[0] == 0.0 && stats.backward_error == 0.0);
+        sl_plan_free(P);
+        SL_CHECK(sl_plan_create(&P, f->y.S, f->bset, f->nb, &top, 0, NULL, NULL));
+        SL_CHECK(sl_plan_solve_refined(P, f->F, NULL, 0, f->B, (size_t)f->nb, 1, 5, NULL, &stats));
+        sl_plan_free(P);
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_plan_solve_refined(NULL, f->F, x, N, f->B, N, 1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_plan_solve_refined(f->P, NULL, x, N, f->B, N, 1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_plan_solve_refined(f->P, f->F, NULL, N, f->B, N, 1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_plan_solve_refined(f->P, f->F, x, 1, f->B, N, 1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_plan_solve_refined(f->P, f->F, x, N, f->B, N, -1, 5, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_plan_solve_refined(f->P, f->F, x, N, f->B, N, 1, -5, NULL, NULL));
+        /* another analysis, a factor without changed rows, a failed one */
+        sl_options opt = options_none();
+        way_take(&opt, &ways, k);
+        problem_t y = problem_make(GEN_GRID2, 225, 1, 0, &opt);
+        SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(f->P, y.F, x, N, f->B, N, 1, 5, NULL, NULL));
+        sl_int set[3] = {3, 50, 200};
+        double b[3] = {1, -2, 3}, plain[3];
+        SL_CHECK(sl_plan_create(&P, y.S, set, 3, set, 3, NULL, NULL));
+        SL_CHECK(sl_plan_solve_refined(P, y.F, x, 3, b, 3, 1, 5, NULL, &stats));
+        SL_CHECK(sl_plan_solve(P, y.F, plain, 3, b, 3, 1, NULL));
+        SAME_VALUES(x, plain, 3);
+        assert_int_equal(stats.refine_steps, 0);
+        sl_plan_free(P);
+        problem_free(&y);
+        f->y.M.x[0] = NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(f->F, &f->y.M.view, NULL));
+        SL_EXPECT(SL_ERR_STATE,
+                  sl_plan_solve_refined(f->P, f->F, x, N, f->B, (size_t)f->nb, 1, 5, NULL, NULL));
+        fixture_free(f);
+    }
+}
+
+/* Changed rows of components that b is not in need not be in the plan. */
+static void other_components(void **state) {
+    (void)state;
+    enum { SIZE = 30 };
+    kkt_t y = kkt_make(SIZE, 2, SL_ORDERING_NATURAL);
+    gen_list_t t = gen_list(2 * SIZE);
+    for (sl_int j = 0; j < SIZE; j++) {
+        for (sl_int p = y.M.p[j]; p < y.M.p[j + 1]; p++) {
+            gen_add(&t, y.M.i[p], j, y.M.x[p]);
+            gen_add(&t, y.M.i[p] + SIZE, j + SIZE, y.M.x[p]);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_int signs[2 * SIZE], rows[2 * SIZE], count;
+    for (int k = 0; k < 2 * SIZE; k++) {
+        signs[k] = y.signs[k % SIZE];
+    }
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_plan *P = NULL;
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.regularization = 1e-7;
+    opt.signs = signs;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_regularized_rows(F, rows, NULL, 2 * SIZE, &count));
+    assert_int_equal(count, 4);
+    assert_true(rows[1] < SIZE && rows[2] >= SIZE);
+    double b[2] = {1, 2}, x[2];
+    SL_CHECK(sl_plan_create(&P, S, rows, 2, rows, 2, NULL, NULL));
+    SL_CHECK(sl_plan_solve_refined(P, F, x, 2, b, 2, 1, 5, NULL, &stats));
+    sl_plan_free(P);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    kkt_free(&y);
+}
+
+/* Memory that fails at every point, and none asked for once the workspace has grown. */
+static void memory(void **state) {
+    (void)state;
+    way_list_t ways = ways_present();
+    fixture_t *f = fixture_make(&ways, 0);
+    size_t nx = (size_t)f->nx, nb = (size_t)f->nb;
+    double *X = test_reals(nx * R), *keep = test_reals(nx * R);
+    gen_reals(keep, nx * R, 1);
+    memcpy(X, keep, nx * R * sizeof *X);
+    for (int64_t k = 0, done = 0; !done; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, &opt));
+        counter.fail_at = (int64_t)counter.calls + k;
+        sl_status status = sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL);
+        done = status == SL_OK;
+        if (!done) {
+            test_status(status, SL_ERR_MEMORY, "sl_plan_solve_refined", __FILE__, __LINE__);
+            assert_memory_equal(X, keep, nx * R * sizeof *X);
+        } else {
+            size_t calls = counter.calls;
+            SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL));
+            assert_int_equal(counter.calls, calls);
+            assert_true(k > 0);
+        }
+        sl_work_free(W);
+        COUNTER_CLEAN(&counter);
+    }
+    free(X);
+    free(keep);
+    fixture_free(f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(local_and_full_and_dense),
+        cmocka_unit_test(what_a_plan_must_hold),
+        cmocka_unit_test(other_components),
+        cmocka_unit_test(memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
