@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 359dcc5900d05652
+ * FNV-1a of all that follows this comment, license aside: 7565233806f00f2f
  *
  * Contents
  *         (what a user reads)
@@ -74,12 +74,12 @@
  *  15642  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
  *  15890  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
  *  16102  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  16390  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16610  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16764  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  16982  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  16405  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16625  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16779  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  16997  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
  *         (last: takes every internal macro away again)
- *  17083  impl/leave.h               takes every internal macro away again
+ *  17098  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16108,6 +16108,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
  * its first column. */
 typedef struct sli_entries {
     const sl_factor *F;
+    const sl_threads *threads; /* of a descent */
     double *out;
     sli_requests requests;
     sl_inverse_method method;
@@ -16202,7 +16203,7 @@ static void sli_entries_choose(void *call) {
                         : SL_INVERSE_SELECTED;
     }
     if (q->method == SL_INVERSE_SELECTED) {
-        q->descent = sli_descent_of(q->F->S, supers, sli_workers(&q->F->threads));
+        q->descent = sli_descent_of(q->F->S, supers, sli_workers(q->threads));
         q->descent.is_partial = !sli_entries_is_all(q);
     }
 }
@@ -16312,11 +16313,28 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     }
 }
 
-static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+/* A call for count entries, rows NULL for the whole diagonal. */
+static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
+                                  const sl_int *columns, sl_int count) {
+    sli_entries q;
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.threads = &F->threads;
+    q.out = out;
+    q.requests = sli_requests_of(F, rows, columns, count);
+    return q;
+}
+
+/* Chooses the way and lays everything out; W may grow, nothing else is written. */
+static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
     static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
                                         {sli_entries_lay_way, sli_entries_plan},
                                         {sli_entries_lay_run, NULL}};
-    const sl_status status = sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, stages, 3, q);
+}
+
+static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+    const sl_status status = sli_entries_prepare(q, W);
     if (status != SL_OK) {
         return status;
     }
@@ -16325,7 +16343,7 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
     } else {
         q->run.F = q->F;
         q->run.d = &q->descent;
-        q->run.threads = &q->F->threads;
+        q->run.threads = q->threads;
         q->run.take = sli_entries_take;
         q->run.to = q;
         sli_descend(&q->run);
@@ -16358,10 +16376,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
         return status;
     }
     sli_inverse_stats(stats);
-    memset(&q, 0, sizeof q);
-    q.F = F;
-    q.out = out;
-    q.requests = sli_requests_of(F, rows, columns, count);
+    q = sli_entries_of(F, out, rows, columns, count);
     own = sli_work_own(F);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);

@@ -9,6 +9,7 @@
  * its first column. */
 typedef struct sli_entries {
     const sl_factor *F;
+    const sl_threads *threads; /* of a descent */
     double *out;
     sli_requests requests;
     sl_inverse_method method;
@@ -103,7 +104,7 @@ static void sli_entries_choose(void *call) {
                         : SL_INVERSE_SELECTED;
     }
     if (q->method == SL_INVERSE_SELECTED) {
-        q->descent = sli_descent_of(q->F->S, supers, sli_workers(&q->F->threads));
+        q->descent = sli_descent_of(q->F->S, supers, sli_workers(q->threads));
         q->descent.is_partial = !sli_entries_is_all(q);
     }
 }
@@ -213,11 +214,28 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     }
 }
 
-static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+/* A call for count entries, rows NULL for the whole diagonal. */
+static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
+                                  const sl_int *columns, sl_int count) {
+    sli_entries q;
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.threads = &F->threads;
+    q.out = out;
+    q.requests = sli_requests_of(F, rows, columns, count);
+    return q;
+}
+
+/* Chooses the way and lays everything out; W may grow, nothing else is written. */
+static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
     static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
                                         {sli_entries_lay_way, sli_entries_plan},
                                         {sli_entries_lay_run, NULL}};
-    const sl_status status = sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, stages, 3, q);
+}
+
+static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
+    const sl_status status = sli_entries_prepare(q, W);
     if (status != SL_OK) {
         return status;
     }
@@ -226,7 +244,7 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
     } else {
         q->run.F = q->F;
         q->run.d = &q->descent;
-        q->run.threads = &q->F->threads;
+        q->run.threads = q->threads;
         q->run.take = sli_entries_take;
         q->run.to = q;
         sli_descend(&q->run);
@@ -259,10 +277,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
         return status;
     }
     sli_inverse_stats(stats);
-    memset(&q, 0, sizeof q);
-    q.F = F;
-    q.out = out;
-    q.requests = sli_requests_of(F, rows, columns, count);
+    q = sli_entries_of(F, out, rows, columns, count);
     own = sli_work_own(F);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
