@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 7565233806f00f2f
+ * FNV-1a of all that follows this comment, license aside: 82201aa76f81fdc5
  *
  * Contents
  *         (what a user reads)
@@ -73,13 +73,13 @@
  *  15470  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
  *  15642  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
  *  15890  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  16102  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  16405  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16625  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16779  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  16997  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  16103  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  16407  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16628  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16782  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  17001  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
  *         (last: takes every internal macro away again)
- *  17098  impl/leave.h               takes every internal macro away again
+ *  17102  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16038,11 +16038,12 @@ static void sli_bilinear_pack(sli_bilinear *q) {
     }
 }
 
+static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
+                                                 {sli_bilinear_lay_sweep, NULL}};
+
 static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
-    static const sli_stage stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
-                                        {sli_bilinear_lay_sweep, NULL}};
     const sl_int first = 0, second = q->vectors - 1;
-    const sl_status status = sli_work_stages(W, stages, 2, q);
+    const sl_status status = sli_work_stages(W, sli_bilinear_stages, 2, q);
     if (status == SL_OK) {
         sli_bilinear_pack(q);
         sli_forward_run(&q->forward, q->F, stats);
@@ -16325,12 +16326,13 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
     return q;
 }
 
+static const sli_stage sli_entries_stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
+                                                {sli_entries_lay_way, sli_entries_plan},
+                                                {sli_entries_lay_run, NULL}};
+
 /* Chooses the way and lays everything out; W may grow, nothing else is written. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-    static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
-                                        {sli_entries_lay_way, sli_entries_plan},
-                                        {sli_entries_lay_run, NULL}};
-    return sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
 static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
@@ -16573,10 +16575,11 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
     }
 }
 
+static const sli_stage sli_block_stages[2] = {{sli_block_lay_requests, sli_block_group},
+                                              {sli_block_lay_sweeps, NULL}};
+
 static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *stats) {
-    static const sli_stage stages[2] = {{sli_block_lay_requests, sli_block_group},
-                                        {sli_block_lay_sweeps, NULL}};
-    const sl_status status = sli_work_stages(W, stages, 2, q);
+    const sl_status status = sli_work_stages(W, sli_block_stages, 2, q);
     if (status == SL_OK) {
         sli_block_fill(q, stats);
     }
@@ -16899,9 +16902,10 @@ static void sli_selected_lay(void *q, sli_block *b) {
     sli_descent_layout_run(run, run->d, b);
 }
 
+static const sli_stage sli_selected_stage = {sli_selected_lay, NULL};
+
 /* The numbers, in the caller's workspace or in one for this call. F fits. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    static const sli_stage stage = {sli_selected_lay, NULL};
     sl_work own;
     sli_descending run;
     sl_status status;
@@ -16914,7 +16918,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     run.threads = &Z->threads;
     run.take = sli_selected_keep;
     run.to = Z;
-    status = sli_work_stages(W == NULL ? &own : W, &stage, 1, &run);
+    status = sli_work_stages(W == NULL ? &own : W, &sli_selected_stage, 1, &run);
     if (status == SL_OK) {
         sli_descend(&run);
     }

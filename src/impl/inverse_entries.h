@@ -226,12 +226,13 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
     return q;
 }
 
+static const sli_stage sli_entries_stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
+                                                {sli_entries_lay_way, sli_entries_plan},
+                                                {sli_entries_lay_run, NULL}};
+
 /* Chooses the way and lays everything out; W may grow, nothing else is written. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-    static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
-                                        {sli_entries_lay_way, sli_entries_plan},
-                                        {sli_entries_lay_run, NULL}};
-    return sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
 static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
