@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: c8bf3d3f8b078273
+ * FNV-1a of all that follows this comment, license aside: 15604b2f602c24e9
  *
  * Contents
  *         (what a user reads)
@@ -83,19 +83,19 @@
  *  17249  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
  *  17421  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
  *  17669  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17881  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  18183  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18424  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  18601  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  18791  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  18967  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  19184  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  19382  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  19525  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  19747  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  19847  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  17882  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  18186  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18428  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  18605  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  18795  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  18971  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  19188  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  19386  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  19530  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  19753  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  19853  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  20345  impl/leave.h               takes every internal macro away again
+ *  20351  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -17817,11 +17817,12 @@ static void sli_bilinear_pack(sli_bilinear *q) {
     }
 }
 
+static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
+                                                 {sli_bilinear_lay_sweep, NULL}};
+
 static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
-    static const sli_stage stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
-                                        {sli_bilinear_lay_sweep, NULL}};
     const sl_int first = 0, second = q->vectors - 1;
-    const sl_status status = sli_work_stages(W, stages, 2, q);
+    const sl_status status = sli_work_stages(W, sli_bilinear_stages, 2, q);
     if (status == SL_OK) {
         sli_bilinear_pack(q);
         sli_forward_run(&q->forward, q->F, stats);
@@ -17887,7 +17888,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
  * its first column. */
 typedef struct sli_entries {
     const sl_factor *F;
-    const sl_threads *threads;
+    const sl_threads *threads; /* of a descent */
     double *out;
     sli_requests requests;
     sl_inverse_method method;
@@ -18092,23 +18093,25 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     }
 }
 
+/* A call for count entries, rows NULL for the whole diagonal. */
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
-                                  const sl_int *columns, sl_int count, const sl_threads *threads) {
+                                  const sl_int *columns, sl_int count) {
     sli_entries q;
     memset(&q, 0, sizeof q);
     q.F = F;
-    q.threads = threads;
+    q.threads = &F->threads;
     q.out = out;
     q.requests = sli_requests_of(F, rows, columns, count);
     return q;
 }
 
-/* Everything up to the numbers, in W, which grows to what they need. */
+static const sli_stage sli_entries_stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
+                                                {sli_entries_lay_way, sli_entries_plan},
+                                                {sli_entries_lay_run, NULL}};
+
+/* Chooses the way and lays everything out; W may grow, nothing else is written. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-    static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
-                                        {sli_entries_lay_way, sli_entries_plan},
-                                        {sli_entries_lay_run, NULL}};
-    return sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
 static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
@@ -18154,7 +18157,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
         return status;
     }
     sli_inverse_stats(stats);
-    q = sli_entries_of(F, out, rows, columns, count, &F->threads);
+    q = sli_entries_of(F, out, rows, columns, count);
     own = sli_work_own(F);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
@@ -18358,10 +18361,11 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
     }
 }
 
+static const sli_stage sli_block_stages[2] = {{sli_block_lay_requests, sli_block_group},
+                                              {sli_block_lay_sweeps, NULL}};
+
 static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *stats) {
-    static const sli_stage stages[2] = {{sli_block_lay_requests, sli_block_group},
-                                        {sli_block_lay_sweeps, NULL}};
-    const sl_status status = sli_work_stages(W, stages, 2, q);
+    const sl_status status = sli_work_stages(W, sli_block_stages, 2, q);
     if (status == SL_OK) {
         sli_block_fill(q, stats);
     }
@@ -19397,9 +19401,10 @@ typedef struct sli_diagonals {
 
 /* One factor's. Inside a loop over several workers none of them begins another. */
 static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
-    const sl_factor *F = d->factors[k];
-    return sli_entries_of(F, d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows,
-                          d->workers > 1 ? &d->none : &F->threads);
+    sli_entries q = sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows,
+                                   d->n_rows);
+    q.threads = d->workers > 1 ? &d->none : q.threads;
+    return q;
 }
 
 /* Worker w's turns among the factors. */
@@ -19647,9 +19652,10 @@ static void sli_selected_lay(void *q, sli_block *b) {
     sli_descent_layout_run(run, run->d, b);
 }
 
+static const sli_stage sli_selected_stage = {sli_selected_lay, NULL};
+
 /* The numbers, in the caller's workspace or in one for this call. F fits. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    static const sli_stage stage = {sli_selected_lay, NULL};
     sl_work own;
     sli_descending run;
     sl_status status;
@@ -19662,7 +19668,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     run.threads = &Z->threads;
     run.take = sli_selected_keep;
     run.to = Z;
-    status = sli_work_stages(W == NULL ? &own : W, &stage, 1, &run);
+    status = sli_work_stages(W == NULL ? &own : W, &sli_selected_stage, 1, &run);
     if (status == SL_OK) {
         sli_descend(&run);
         Z->F = F;

@@ -7,7 +7,8 @@
 
 /* Random pairs as in [HDA17] section 5, random diagonal entries, and a dense block among random vertices and among those
  * of a patch. Times are those of one entry, of a block those of the whole. Local solves find their reach anew, but
- * for the diagonal, where plans made before are the rival. */
+ * for the diagonal, where plans made before are the rival. One list takes forward sweeps together, or on a small mesh selected
+ * inversion. */
 enum { METHODS = 4, CHECKED = 8, BLOCK = 128 };
 
 typedef struct entries {
@@ -188,7 +189,7 @@ static void done(entries *e) {
 static void pairs(bench_run *run, bench_report *report, const bench_system *system) {
     static void (*const calls[])(void *) = {one_tree, two_trees, forward_apart, forward_together};
     static const char *const names[] = {"one tree", "two trees", "forward, one by one",
-                                        "forward, together"};
+                                        "one list"};
     entries e = make(system, run->size == BENCH_QUICK ? 1000 : 10000, 0);
     uint64_t chance = 2017;
     e.columns = bench_alloc((size_t)e.count, sizeof *e.columns);
@@ -201,7 +202,7 @@ static void pairs(bench_run *run, bench_report *report, const bench_system *syst
 static void diagonal(bench_run *run, bench_report *report, const bench_system *system) {
     static void (*const calls[])(void *) = {one_tree, planned, forward_apart, forward_together};
     static const char *const names[] = {"one shot", "plan solve", "forward, one by one",
-                                        "forward, together"};
+                                        "one list"};
     entries e = make(system, run->size == BENCH_QUICK ? 200 : 1000, 0);
     uint64_t chance = 4711;
     draw(e.rows, e.count, system->n, &chance);
@@ -242,7 +243,7 @@ void bench_inverse(bench_run *run) {
     if (bench_systems(run, run->size == BENCH_QUICK ? &quick_n : &default_n, 1, &system) == 1) {
         bench_report *report =
             bench_report_open(run, "inverse", "entries of the inverse by forward sweeps alone",
-                              "forward sweeps together");
+                              "one list");
         bench_patch patch;
         diagonal(run, report, system);
         pairs(run, report, system);

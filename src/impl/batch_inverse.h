@@ -19,9 +19,10 @@ typedef struct sli_diagonals {
 
 /* One factor's. Inside a loop over several workers none of them begins another. */
 static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
-    const sl_factor *F = d->factors[k];
-    return sli_entries_of(F, d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows,
-                          d->workers > 1 ? &d->none : &F->threads);
+    sli_entries q = sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows,
+                                   d->n_rows);
+    q.threads = d->workers > 1 ? &d->none : q.threads;
+    return q;
 }
 
 /* Worker w's turns among the factors. */

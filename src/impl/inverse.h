@@ -152,11 +152,12 @@ static void sli_bilinear_pack(sli_bilinear *q) {
     }
 }
 
+static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
+                                                 {sli_bilinear_lay_sweep, NULL}};
+
 static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
-    static const sli_stage stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
-                                        {sli_bilinear_lay_sweep, NULL}};
     const sl_int first = 0, second = q->vectors - 1;
-    const sl_status status = sli_work_stages(W, stages, 2, q);
+    const sl_status status = sli_work_stages(W, sli_bilinear_stages, 2, q);
     if (status == SL_OK) {
         sli_bilinear_pack(q);
         sli_forward_run(&q->forward, q->F, stats);

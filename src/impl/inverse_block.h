@@ -177,10 +177,11 @@ static void sli_block_fill(sli_inverse_block *q, sl_stats *stats) {
     }
 }
 
+static const sli_stage sli_block_stages[2] = {{sli_block_lay_requests, sli_block_group},
+                                              {sli_block_lay_sweeps, NULL}};
+
 static sl_status sli_block_answer(sli_inverse_block *q, sl_work *W, sl_stats *stats) {
-    static const sli_stage stages[2] = {{sli_block_lay_requests, sli_block_group},
-                                        {sli_block_lay_sweeps, NULL}};
-    const sl_status status = sli_work_stages(W, stages, 2, q);
+    const sl_status status = sli_work_stages(W, sli_block_stages, 2, q);
     if (status == SL_OK) {
         sli_block_fill(q, stats);
     }

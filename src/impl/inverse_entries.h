@@ -9,7 +9,7 @@
  * its first column. */
 typedef struct sli_entries {
     const sl_factor *F;
-    const sl_threads *threads;
+    const sl_threads *threads; /* of a descent */
     double *out;
     sli_requests requests;
     sl_inverse_method method;
@@ -214,23 +214,25 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     }
 }
 
+/* A call for count entries, rows NULL for the whole diagonal. */
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
-                                  const sl_int *columns, sl_int count, const sl_threads *threads) {
+                                  const sl_int *columns, sl_int count) {
     sli_entries q;
     memset(&q, 0, sizeof q);
     q.F = F;
-    q.threads = threads;
+    q.threads = &F->threads;
     q.out = out;
     q.requests = sli_requests_of(F, rows, columns, count);
     return q;
 }
 
-/* Everything up to the numbers, in W, which grows to what they need. */
+static const sli_stage sli_entries_stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
+                                                {sli_entries_lay_way, sli_entries_plan},
+                                                {sli_entries_lay_run, NULL}};
+
+/* Chooses the way and lays everything out; W may grow, nothing else is written. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-    static const sli_stage stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
-                                        {sli_entries_lay_way, sli_entries_plan},
-                                        {sli_entries_lay_run, NULL}};
-    return sli_work_stages(W, stages, 3, q);
+    return sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
 static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
@@ -276,7 +278,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
         return status;
     }
     sli_inverse_stats(stats);
-    q = sli_entries_of(F, out, rows, columns, count, &F->threads);
+    q = sli_entries_of(F, out, rows, columns, count);
     own = sli_work_own(F);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);

@@ -127,9 +127,10 @@ static void sli_selected_lay(void *q, sli_block *b) {
     sli_descent_layout_run(run, run->d, b);
 }
 
+static const sli_stage sli_selected_stage = {sli_selected_lay, NULL};
+
 /* The numbers, in the caller's workspace or in one for this call. F fits. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    static const sli_stage stage = {sli_selected_lay, NULL};
     sl_work own;
     sli_descending run;
     sl_status status;
@@ -142,7 +143,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     run.threads = &Z->threads;
     run.take = sli_selected_keep;
     run.to = Z;
-    status = sli_work_stages(W == NULL ? &own : W, &stage, 1, &run);
+    status = sli_work_stages(W == NULL ? &own : W, &sli_selected_stage, 1, &run);
     if (status == SL_OK) {
         sli_descend(&run);
         Z->F = F;
