@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 8a92332821c01946
+ * FNV-1a of all that follows this comment, license aside: 7e0c44ef2435ee34
  *
  * Contents
  *         (what a user reads)
@@ -17,68 +17,68 @@
  *   1051  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1140  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1231  impl/status.h              status codes in words, and the error fields of stats
- *   1287  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1412  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1487  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1524  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1141  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1232  impl/status.h              status codes in words, and the error fields of stats
+ *   1288  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1413  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1488  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1525  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1558  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1823  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1961  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1991  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3162  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3208  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3345  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3560  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3826  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3988  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4260  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4311  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4456  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5269  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6548  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8721  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10951  impl/select.h              the kernel table for an instruction set
+ *   1559  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1824  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1962  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1992  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3163  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3209  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3346  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3561  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3827  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3989  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4261  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4312  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4457  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5270  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6549  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8722  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10952  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10984  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11412  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11485  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10985  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11413  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11486  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11839  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11878  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12025  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12139  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12283  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12368  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12441  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12607  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12683  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12724  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12917  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13203  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11840  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11879  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12026  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12140  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12284  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12369  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12442  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12608  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12684  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12725  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12918  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13204  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13501  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13634  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13720  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13980  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14067  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14367  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14482  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14586  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14646  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14908  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14950  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13502  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13635  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13721  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13981  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14068  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14368  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14483  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  14587  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14647  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14909  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14951  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15353  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15593  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15912  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16160  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16315  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16762  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15354  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15594  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15913  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16161  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16316  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16763  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
  *         (last: takes every internal macro away again)
- *  17259  impl/leave.h               takes every internal macro away again
+ *  17260  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1059,7 +1059,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
  * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding.
+ * solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the rows and
+ * columns of null pivots.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.

@@ -139,6 +139,38 @@ static void compare(const case_t *c) {
     }
 }
 
+/* The same inside a region for both sets: without a boundary it has the bits, too; with one, and with values such as
+ * these, it need only come to an end. */
+static void solve_in_region(case_t *c, const sl_symbolic *S, const sl_factor *F, sl_work *W) {
+    sl_int set[2 * MOST];
+    for (sl_int k = 0; k < c->nb + c->nx; k++) {
+        set[k] = k < c->nb ? c->bset[k] : c->xset[k - c->nb];
+    }
+    for (int is_free = 0; is_free < 2; is_free++) {
+        sl_options opt;
+        sl_region *R = NULL;
+        sl_plan *P = NULL;
+        sl_stats stats;
+        memset(&opt, 0, sizeof opt);
+        memset(&stats, 0, sizeof stats);
+        opt.region_bytes = is_free ? 0 : 1;
+        PROMISE(sl_region_create(&R, F, set, c->nb + c->nx, NULL, &opt, &stats) == SL_OK);
+        PROMISE(is_free || stats.region_boundary == 0);
+        opt.region = R;
+        PROMISE(sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, &opt, &stats) == SL_OK);
+        PROMISE(stats.plan_in_region == 1);
+        memset(c->X, 0, sizeof c->X);
+        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
+        if (!is_free) {
+            compare(c);
+        }
+        PROMISE(sl_region_refill(R, F, NULL, W) == SL_OK);
+        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
+        sl_plan_free(P);
+        sl_region_free(R);
+    }
+}
+
 static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
     double log_abs_det, sign;
     sl_matrix *L = NULL;
@@ -161,6 +193,7 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
         memset(c->X, 0, sizeof c->X);
         PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
         compare(c);
+        solve_in_region(c, S, F, W);
     }
     sl_work_free(W);
     sl_plan_free(P);

@@ -10,7 +10,8 @@
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
  * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding.
+ * solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the rows and
+ * columns of null pivots.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.
