@@ -1,84 +1,85 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 7e0c44ef2435ee34
+ * FNV-1a of all that follows this comment, license aside: 4e72b3dd214f26e9
  *
  * Contents
  *         (what a user reads)
- *     86  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    137  public/config.h            what a user may set before including the header, the version, and the integer types
- *    186  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    393  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    513  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    575  public/factor.h            the numbers: P A P' = L D L'
- *    681  public/solve.h             full solves, and the workspace that every solve writes to
- *    750  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    838  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    917  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    954  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1051  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *     87  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    138  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    187  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    394  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    514  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    576  public/factor.h            the numbers: P A P' = L D L'
+ *    682  public/solve.h             full solves, and the workspace that every solve writes to
+ *    751  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    839  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    918  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    955  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1052  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1141  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1232  impl/status.h              status codes in words, and the error fields of stats
- *   1288  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1413  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1488  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1525  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1142  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1233  impl/status.h              status codes in words, and the error fields of stats
+ *   1289  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1414  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1489  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1526  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1559  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1824  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1962  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1992  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3163  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3209  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3346  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3561  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3827  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3989  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4261  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4312  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4457  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5270  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6549  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8722  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10952  impl/select.h              the kernel table for an instruction set
+ *   1560  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1825  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1963  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1993  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3164  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3210  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3347  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3562  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3828  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3990  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4262  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4313  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4458  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5271  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6550  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8723  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10953  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10985  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11413  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11486  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10986  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11414  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11487  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11840  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11879  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12026  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12140  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12284  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  12369  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  12442  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  12608  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  12684  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  12725  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  12918  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13204  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11841  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11880  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12027  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12141  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12285  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  12370  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  12443  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  12609  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  12685  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  12726  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  12919  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13205  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  13502  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  13635  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  13721  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  13981  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  14068  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  14368  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  14483  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  14587  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  14647  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  14909  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  14951  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  13503  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  13636  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  13722  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  13982  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  14069  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  14369  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  14484  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  14605  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  14665  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  14927  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  14969  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  15354  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  15594  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  15913  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  16161  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  16316  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
- *  16763  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  15372  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  15612  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  15931  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  16179  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  16334  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  16781  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
+ *  17031  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
  *         (last: takes every internal macro away again)
- *  17260  impl/leave.h               takes every internal macro away again
+ *  17268  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1053,37 +1054,37 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
 #ifndef SL_PUBLIC_REGION_H
 #define SL_PUBLIC_REGION_H
 
-/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole subtrees
- * of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
+/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole
+ * subtrees of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
  *
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
- * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the rows and
- * columns of null pivots.
+ * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the
+ * full solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the
+ * rows and columns of null pivots.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.
  *
- *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees have a
- *  short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows that
- *  happen to be in the subtrees are in the region too.
+ *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees
+ *  have a short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows
+ *  that happen to be in the subtrees are in the region too.
  *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. Give it to sl_plan_create as options.region.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again, or
- *                begun to be, plans in the region are refused until sl_region_refill.
+ *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of sl_plan_create.
+ *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again,
+ *                or begun to be, plans in the region are refused until sl_region_refill.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
  *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
- *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
- *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
+ *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than
+ *                twice as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
  *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
- *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
- *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
+ *  Cost     a plan for the set; and a forward sweep of 8 lanes to the roots for every 8 rows of the boundary, with
+ *           (boundary)^2 / 2 times the columns of such a path for the sums, or a binary search an entry of Z.
  *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
  *  Threads  reads F and Z.
  *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
@@ -14532,6 +14533,23 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
     return step;
 }
 
+static void sli_region_layout(sl_region *R, sli_block *b) {
+    const sl_int rows = R->fence.n_rows;
+    sl_off size = 0;
+    sl_int first;
+    (void)sli_take(b, 1, sizeof(sl_region));
+    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
+    R->rows = SLI_TAKE(b, sl_int, rows);
+    R->asked = SLI_TAKE(b, sl_int, rows);
+    R->places = SLI_TAKE(b, sl_int, rows);
+    R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
+    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+    }
+    R->Z = SLI_TAKE(b, double, size);
+    R->bytes = b->used;
+}
+
 /* Does Z belong to the numbers that F holds? */
 SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
     return R->F == F && R->generation == F->generation;
@@ -16760,10 +16778,10 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 
 #endif
 /* end src/impl/selected.h */
-/* begin src/impl/region.h */
-/* region.h: regions: which subtrees to keep whole, and the inverse on what bounds them */
-#ifndef SLI_REGION_H
-#define SLI_REGION_H
+/* begin src/impl/region_choose.h */
+/* region_choose.h: which subtrees a region holds whole: those that leave the least to be read */
+#ifndef SLI_REGION_CHOOSE_H
+#define SLI_REGION_CHOOSE_H
 
 /* The supernodes inside and the boundary while they are chosen, over the compiled reach of the set. A row
  * is in the boundary if it is asked for, or below a supernode inside, and not inside itself. */
@@ -16798,23 +16816,6 @@ SLI_INLINE double sli_choice_boundary(sl_int boundary) {
 
 SLI_INLINE double sli_choice_cost(const sli_choice *c) {
     return c->cost + sli_choice_boundary(c->boundary);
-}
-
-static void sli_region_layout(sl_region *R, sli_block *b) {
-    const sl_int rows = R->fence.n_rows;
-    sl_off size = 0;
-    sl_int first;
-    (void)sli_take(b, 1, sizeof(sl_region));
-    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
-    R->rows = SLI_TAKE(b, sl_int, rows);
-    R->asked = SLI_TAKE(b, sl_int, rows);
-    R->places = SLI_TAKE(b, sl_int, rows);
-    R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
-    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
-    }
-    R->Z = SLI_TAKE(b, double, size);
-    R->bytes = b->used;
 }
 
 /* Does a region of so many rows and subtrees keep within its bytes? */
@@ -17024,6 +17025,13 @@ static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *sta
     c->count = once;
     return status;
 }
+
+#endif
+/* end src/impl/region_choose.h */
+/* begin src/impl/region.h */
+/* region.h: regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse */
+#ifndef SLI_REGION_H
+#define SLI_REGION_H
 
 /* The object, all but its numbers. */
 static void sli_region_take(sl_region *R, const sli_choice *c) {

@@ -75,6 +75,7 @@ extern "C" {
 #include "impl/inverse_block.h"
 #include "impl/batch.h"
 #include "impl/selected.h"
+#include "impl/region_choose.h"
 #include "impl/region.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"
