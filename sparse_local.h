@@ -1,101 +1,102 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 15604b2f602c24e9
+ * FNV-1a of all that follows this comment, license aside: e025b406a2cc284e
  *
  * Contents
  *         (what a user reads)
- *    103  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    156  public/config.h            what a user may set before including the header, the version, and the integer types
- *    205  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    445  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    565  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    627  public/factor.h            the numbers: P A P' = L D L'
- *    765  public/solve.h             full solves, and the workspace that every solve writes to
- *    835  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    926  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
- *   1018  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1112  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
- *   1156  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
- *   1323  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1422  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *    104  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    157  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    206  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    446  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    566  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    628  public/factor.h            the numbers: P A P' = L D L'
+ *    766  public/solve.h             full solves, and the workspace that every solve writes to
+ *    836  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    927  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *   1019  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1113  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *   1157  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1324  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1423  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1512  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1605  impl/status.h              status codes in words, and the error fields of stats
- *   1663  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1788  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1863  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1900  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1513  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1606  impl/status.h              status codes in words, and the error fields of stats
+ *   1664  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1789  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1864  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1901  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1941  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   2287  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2425  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2455  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3626  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3672  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3809  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   4026  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   4323  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4485  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4758  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4809  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4954  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5767  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   7080  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   9287  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11551  impl/select.h              the kernel table for an instruction set
+ *   1942  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   2288  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2426  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2456  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3627  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3673  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3810  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   4027  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   4324  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4486  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4759  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4810  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4955  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5768  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   7081  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   9288  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11552  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11584  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
- *  11895  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
- *  12019  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  12092  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
- *  12182  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11585  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11896  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  12020  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  12093  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  12183  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12536  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12575  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12722  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12836  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12980  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  13065  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  13138  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  13304  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  13380  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  13410  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  13451  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13662  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13948  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12537  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12576  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12723  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
+ *  12837  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
+ *  12981  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  13066  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  13139  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  13305  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  13381  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  13411  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  13452  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  13663  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  13949  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  14258  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  14459  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  14628  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14710  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14958  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  15058  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  15400  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  15816  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  15950  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  16054  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  16113  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16218  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  16539  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  16581  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  14259  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  14460  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  14629  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  14711  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  14959  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  15059  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  15401  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  15817  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  15951  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  16072  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  16131  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  16236  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  16557  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  16599  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  16985  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  17249  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  17421  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17669  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17882  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  18186  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18428  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  18605  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  18795  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  18971  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  19188  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  19386  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  19530  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  19753  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  19853  impl/region.h              regions: which subtrees to keep whole, and the inverse on what bounds them
+ *  17003  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  17267  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  17439  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17687  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  17900  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  18204  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18446  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  18623  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  18813  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  18989  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  19206  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  19404  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  19548  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  19771  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  19871  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
+ *  20121  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
  *         (last: takes every internal macro away again)
- *  20351  impl/leave.h               takes every internal macro away again
+ *  20359  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1424,37 +1425,37 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z);
 #ifndef SL_PUBLIC_REGION_H
 #define SL_PUBLIC_REGION_H
 
-/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole subtrees
- * of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
+/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole
+ * subtrees of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
  *
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
- * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding. Of a singular matrix (SL_SEMIDEFINITE) that holds for a b that is consistent: nobody looks at null rows
- * outside of the region.
+ * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the
+ * full solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the
+ * rows and columns of null pivots; whether b is consistent is not looked at where null rows are outside of the region.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.
  *
- *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees have a
- *  short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows that
- *  happen to be in the subtrees are in the region too.
+ *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees
+ *  have a short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows
+ *  that happen to be in the subtrees are in the region too.
  *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. Give it to sl_plan_create as options.region.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again, or
- *                begun to be, plans in the region are refused until sl_region_refill.
+ *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of sl_plan_create.
+ *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again,
+ *                or begun to be, plans in the region are refused until sl_region_refill.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
  *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
- *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
- *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
+ *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than
+ *                twice as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
  *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_UNSUPPORTED: a factor
  *           whose solves are centred (options.mass); SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
- *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
+ *  Cost     a plan for the set; and a forward sweep of 8 lanes to the roots for every 8 rows of the boundary, with
+ *           (boundary)^2 / 2 times the columns of such a path for the sums, or a binary search an entry of Z.
  *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
  *  Threads  reads F and Z.
  *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
@@ -15999,6 +16000,23 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
     return step;
 }
 
+static void sli_region_layout(sl_region *R, sli_block *b) {
+    const sl_int rows = R->fence.n_rows;
+    sl_off size = 0;
+    sl_int first;
+    (void)sli_take(b, 1, sizeof(sl_region));
+    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
+    R->rows = SLI_TAKE(b, sl_int, rows);
+    R->asked = SLI_TAKE(b, sl_int, rows);
+    R->places = SLI_TAKE(b, sl_int, rows);
+    R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
+    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+    }
+    R->Z = SLI_TAKE(b, double, size);
+    R->bytes = b->used;
+}
+
 /* Does Z belong to the numbers that F holds? */
 SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
     return R->F == F && R->generation == F->generation;
@@ -19850,10 +19868,10 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 
 #endif
 /* end src/impl/selected_ask.h */
-/* begin src/impl/region.h */
-/* region.h: regions: which subtrees to keep whole, and the inverse on what bounds them */
-#ifndef SLI_REGION_H
-#define SLI_REGION_H
+/* begin src/impl/region_choose.h */
+/* region_choose.h: which subtrees a region holds whole: those that leave the least to be read */
+#ifndef SLI_REGION_CHOOSE_H
+#define SLI_REGION_CHOOSE_H
 
 /* The supernodes inside and the boundary while they are chosen, over the compiled reach of the set. A row
  * is in the boundary if it is asked for, or below a supernode inside, and not inside itself. */
@@ -19888,23 +19906,6 @@ SLI_INLINE double sli_choice_boundary(sl_int boundary) {
 
 SLI_INLINE double sli_choice_cost(const sli_choice *c) {
     return c->cost + sli_choice_boundary(c->boundary);
-}
-
-static void sli_region_layout(sl_region *R, sli_block *b) {
-    const sl_int rows = R->fence.n_rows;
-    sl_off size = 0;
-    sl_int first;
-    (void)sli_take(b, 1, sizeof(sl_region));
-    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
-    R->rows = SLI_TAKE(b, sl_int, rows);
-    R->asked = SLI_TAKE(b, sl_int, rows);
-    R->places = SLI_TAKE(b, sl_int, rows);
-    R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
-    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
-    }
-    R->Z = SLI_TAKE(b, double, size);
-    R->bytes = b->used;
 }
 
 /* Does a region of so many rows and subtrees keep within its bytes? */
@@ -20114,6 +20115,13 @@ static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *sta
     c->count = once;
     return status;
 }
+
+#endif
+/* end src/impl/region_choose.h */
+/* begin src/impl/region.h */
+/* region.h: regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse */
+#ifndef SLI_REGION_H
+#define SLI_REGION_H
 
 /* The object, all but its numbers. */
 static void sli_region_take(sl_region *R, const sli_choice *c) {

@@ -92,6 +92,7 @@ extern "C" {
 #include "impl/batch_inverse.h"
 #include "impl/selected.h"
 #include "impl/selected_ask.h"
+#include "impl/region_choose.h"
 #include "impl/region.h"
 /* last: takes every internal macro away again */
 #include "impl/leave.h"

@@ -175,6 +175,44 @@ static void compare(const case_t *c) {
     }
 }
 
+/* The same inside a region for both sets: without a boundary it has the bits, too; with one, and with values such as
+ * these, it need only come to an end. */
+static void solve_in_region(case_t *c, const sl_symbolic *S, const sl_factor *F, sl_status shot,
+                            sl_status full, sl_work *W) {
+    sl_int set[2 * MOST];
+    for (sl_int k = 0; k < c->nb + c->nx; k++) {
+        set[k] = k < c->nb ? c->bset[k] : c->xset[k - c->nb];
+    }
+    for (int is_free = 0; is_free < 2; is_free++) {
+        sl_options opt;
+        sl_region *R = NULL;
+        sl_plan *P = NULL;
+        sl_stats stats;
+        memset(&opt, 0, sizeof opt);
+        memset(&stats, 0, sizeof stats);
+        opt.region_bytes = is_free ? 0 : 1;
+        const sl_status status = sl_region_create(&R, F, set, c->nb + c->nx, NULL, &opt, &stats);
+        PROMISE(status == SL_OK || status == SL_ERR_UNSUPPORTED); /* solves are centred */
+        if (status != SL_OK) {
+            return;
+        }
+        PROMISE(is_free || stats.region_boundary == 0);
+        opt.region = R;
+        PROMISE(sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, &opt, &stats) == SL_OK);
+        PROMISE(stats.plan_in_region == 1);
+        memset(c->X, 0, sizeof c->X);
+        const sl_status inside = sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W);
+        PROMISE(is_free ? inside == SL_OK || inside == SL_ERR_INCONSISTENT : inside == shot);
+        if (!is_free && full == SL_OK) {
+            compare(c);
+        }
+        PROMISE(sl_region_refill(R, F, NULL, W) == SL_OK);
+        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == inside);
+        sl_plan_free(P);
+        sl_region_free(R);
+    }
+}
+
 static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
     double log_abs_det, sign;
     sl_matrix *L = NULL;
@@ -205,6 +243,7 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
         const sl_status refined =
             sl_plan_solve_refined(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
         PROMISE(refined == shot || (shot == SL_OK && refined == SL_ERR_ARGUMENT));
+        solve_in_region(c, S, F, shot, full, W);
     }
     ask_all(c, F, W);
     sl_work_free(W);

@@ -1,4 +1,4 @@
-/* test_region_use.c: regions used rightly and wrongly: rows outside, numbers out of date, other factors, memory, threads */
+/* test_region_use.c: regions used rightly and wrongly: rows outside, old numbers, other factors, memory, threads */
 #include "parallel_for.h"
 #include "region.h"
 

@@ -53,6 +53,23 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
     return step;
 }
 
+static void sli_region_layout(sl_region *R, sli_block *b) {
+    const sl_int rows = R->fence.n_rows;
+    sl_off size = 0;
+    sl_int first;
+    (void)sli_take(b, 1, sizeof(sl_region));
+    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
+    R->rows = SLI_TAKE(b, sl_int, rows);
+    R->asked = SLI_TAKE(b, sl_int, rows);
+    R->places = SLI_TAKE(b, sl_int, rows);
+    R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
+    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+    }
+    R->Z = SLI_TAKE(b, double, size);
+    R->bytes = b->used;
+}
+
 /* Does Z belong to the numbers that F holds? */
 SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
     return R->F == F && R->generation == F->generation;

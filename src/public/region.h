@@ -4,37 +4,37 @@
 
 #include "types.h"
 
-/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole subtrees
- * of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
+/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole
+ * subtrees of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
  *
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
- * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the full
- * solve to rounding. Of a singular matrix (SL_SEMIDEFINITE) that holds for a b that is consistent: nobody looks at null rows
- * outside of the region.
+ * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the
+ * full solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the
+ * rows and columns of null pivots; whether b is consistent is not looked at where null rows are outside of the region.
  */
 
 /** Makes the region for a set of rows: what solves with b and x there need of the inverse.
  *
- *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees have a
- *  short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows that
- *  happen to be in the subtrees are in the region too.
+ *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees
+ *  have a short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows
+ *  that happen to be in the subtrees are in the region too.
  *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. Give it to sl_plan_create as options.region.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again, or
- *                begun to be, plans in the region are refused until sl_region_refill.
+ *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of sl_plan_create.
+ *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again,
+ *                or begun to be, plans in the region are refused until sl_region_refill.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
  *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
  *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
- *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than twice
- *                as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
+ *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than
+ *                twice as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
  *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
  *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_UNSUPPORTED: a factor
  *           whose solves are centred (options.mass); SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     a plan for the set, and rows of the boundary / 8 forward sweeps of 8 lanes from it to the roots with
- *           (boundary)^2 / 2 times the columns of such a path for the sums; a binary search an entry where Z is read.
+ *  Cost     a plan for the set; and a forward sweep of 8 lanes to the roots for every 8 rows of the boundary, with
+ *           (boundary)^2 / 2 times the columns of such a path for the sums, or a binary search an entry of Z.
  *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
  *  Threads  reads F and Z.
  *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
