@@ -8,5 +8,6 @@ int command_adf(int argc, char **argv);
 int command_heat(int argc, char **argv);
 int command_hks(int argc, char **argv);
 int command_info(int argc, char **argv);
+int command_pairs(int argc, char **argv);
 
 #endif

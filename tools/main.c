@@ -16,6 +16,7 @@ static const command commands[] = {
     {"heat", "heat that flows from some vertices, wanted at some others", command_heat},
     {"adf", "auto-diffusion: the heat that stays, for some vertices or all", command_adf},
     {"hks", "heat-kernel signatures: auto-diffusion over a range of times", command_hks},
+    {"pairs", "heat that pairs of vertices exchange; one tree against two", command_pairs},
 };
 
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
