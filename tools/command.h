@@ -9,5 +9,6 @@ int command_heat(int argc, char **argv);
 int command_hks(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_pairs(int argc, char **argv);
+int command_reach(int argc, char **argv);
 
 #endif

@@ -17,6 +17,7 @@ static const command commands[] = {
     {"adf", "auto-diffusion: the heat that stays, for some vertices or all", command_adf},
     {"hks", "heat-kernel signatures: auto-diffusion over a range of times", command_hks},
     {"pairs", "heat that pairs of vertices exchange; one tree against two", command_pairs},
+    {"reach", "pictures of what a local solve touches", command_reach},
 };
 
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
