@@ -42,6 +42,9 @@ double app_now(void);
 /** Says on standard error how far long work is: only where that is a terminal, and not before a second has passed. */
 void app_progress(const char *what, double fraction);
 
+/** Says on standard error what is being done, of which no share is known: only where that is a terminal. */
+void app_stage(const char *what);
+
 /** Wipes the progress line; the next piece of work starts its own second. */
 void app_progress_end(void);
 

@@ -136,6 +136,25 @@ static void draw(const reach_question *q, const app_output *output, const mesh *
     }
 }
 
+static void print_reach(const sl_symbolic_view_t *view, const int *kind, const sl_int *level,
+                        sl_int count, sl_int visited, sl_int levels) {
+    double entries = 0, all = 0;
+    for (sl_int k = 0; k < view->n; k++) {
+        entries += kind[k] >= 0 ? view->counts[k] : 0;
+        all += view->counts[k];
+    }
+    printf("patch %d of %d vertices; columns visited %d, %d of them beyond the patch\n", (int)count,
+           (int)view->n, (int)visited, (int)(visited - count));
+    printf("entries of L in them: %.0f of %.0f (%.2f %%)\n", entries, all, 100 * entries / all);
+    for (sl_int d = 0; d < levels; d++) {
+        sl_int columns = 0;
+        for (sl_int k = 0; k < view->n; k++) {
+            columns += level[k] == d;
+        }
+        printf("separators of level %d: %d vertices\n", (int)d, (int)columns);
+    }
+}
+
 int command_reach(int argc, char **argv) {
     const char *operand = NULL;
     reach_question q = {"0", NULL, NULL, NULL, 500, 6};
@@ -173,21 +192,7 @@ int command_reach(int argc, char **argv) {
     if (found < 0) {
         app_die("out of memory");
     }
-    double entries = 0, all = 0;
-    for (sl_int k = 0; k < view.n; k++) {
-        entries += kind[k] >= 0 ? view.counts[k] : 0;
-        all += view.counts[k];
-    }
-    printf("patch %d of %d vertices; columns visited %d, %d of them beyond the patch\n", (int)count,
-           (int)m.n_vertices, (int)visited, (int)(visited - count));
-    printf("entries of L in them: %.0f of %.0f (%.2f %%)\n", entries, all, 100 * entries / all);
-    for (sl_int d = 0; d < found; d++) {
-        sl_int columns = 0;
-        for (sl_int k = 0; k < view.n; k++) {
-            columns += level[k] == d;
-        }
-        printf("separators of level %d: %d vertices\n", (int)d, (int)columns);
-    }
+    print_reach(&view, kind, level, count, visited, found);
     if (output.csv != NULL) {
         write_csv(output.csv, &m, &view, kind, level);
     }
