@@ -39,7 +39,8 @@ TEST_LIBS = -lcmocka
 PARTS := $(wildcard src/public/*.h src/impl/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
 PROGRAMS := $(shell grep -l '^int main\b' tools/*.c)
-TOOLS := $(filter-out $(PROGRAMS),$(wildcard tools/*.c))
+NEED_PNG := tools/png_write.c
+TOOLS := $(filter-out $(PROGRAMS) $(NEED_PNG),$(wildcard tools/*.c))
 TESTS := $(wildcard tests/test_*.c)
 FUZZERS := $(wildcard tests/fuzz_*.c)
 HELPERS := $(filter-out $(TESTS) $(FUZZERS) tests/replay.c,$(wildcard tests/*.c))
@@ -56,8 +57,8 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
-	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
+	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
+	figures format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -103,12 +104,19 @@ check-promises: sparse_local.h build/deps.ok ## does the header hold each of its
 
 # ---- what others must give; Debian packages, installed where missing ----
 
+DEPS = metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
 deps: build/deps.ok ## METIS, cmocka, zlib
-	@tools/deps.sh metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
+	@tools/deps.sh $(DEPS)
 
 build/deps.ok: tools/deps.sh
 	@mkdir -p $(@D)
-	@tools/deps.sh metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
+	@tools/deps.sh $(DEPS)
+	@touch $@
+
+deps-png: build/deps-png.ok ## libpng: the pictures of sparse-local
+build/deps-png.ok: tools/deps.sh
+	@mkdir -p $(@D)
+	@tools/deps.sh png.h=libpng-dev
 	@touch $@
 
 deps-cxx: ## g++
@@ -166,7 +174,13 @@ $(B)/%: $(B)/obj/tools/%.o $(LIBRARY) $(IMPL)
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
-programs: $(patsubst tools/%.c,$(B)/%,$(filter-out tools/amalgamate.c,$(PROGRAMS))) ## the programs of tools/
+# The program over the header; main.c finds the commands, which stand in the library.
+$(call object,$(NEED_PNG:.c=)): | build/deps-png.ok
+$(B)/sparse-local: $(call object,tools/main $(NEED_PNG:.c=)) $(LIBRARY) $(IMPL)
+	$(call say,LINK)
+	$(Q)$(LINK) -o $@ $^ $(LIBS) -lpng
+
+programs: $(patsubst tools/%.c,$(B)/%,$(filter-out tools/amalgamate.c tools/main.c,$(PROGRAMS))) $(B)/sparse-local ## build/sparse-local: the paper's experiments on meshes
 
 -include $(shell find $(B)/obj -name '*.d' 2>/dev/null)
 
@@ -182,13 +196,14 @@ $(B)/tests/replay_%: $(B)/obj/tests/fuzz_%.o $(B)/obj/tests/replay.o $(LIBRARY) 
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
-# What the variants below share: they differ in B, compiler and flags.
-build-tests: $(TEST_PROGRAMS) $(REPLAYS)
+# What the variants below share: they differ in B, compiler and flags. PROGRAM is sparse-local, where a script tests it.
+PROGRAM =
+build-tests: $(TEST_PROGRAMS) $(REPLAYS) $(PROGRAM)
 run-tests: build-tests
-	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)
+	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)
 
-test: deps ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@$(MAKE) --no-print-directory run-tests ALSO=tests/check_header.sh
+test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
+	@$(MAKE) --no-print-directory run-tests ALSO='tests/check_header.sh tests/check_program.sh' PROGRAM=$(B)/sparse-local
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
@@ -204,9 +219,9 @@ test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, e
 	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
 	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
 
-sanitize: deps sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
+sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
-	-fsanitize=address,undefined -fno-sanitize-recover=all'
+	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO=tests/check_program.sh PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads
 
@@ -270,6 +285,14 @@ bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmon
 readme-table: ## what the last bench-peers measured, as a Markdown table
 	@awk -f tools/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv)
+
+# ---- the paper ----
+
+FIGURES = build/figures$(if $(MESH),/$(firstword $(subst ., ,$(notdir $(MESH)))))
+# The bench is built as for `make bench`, the program as for the tests.
+figures: deps deps-png sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
+	@$(MAKE) --no-print-directory build/timed/bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
+	@tools/figures.sh $(B)/sparse-local build/timed/bench '$(FIGURES)' '$(MESH)'
 
 # ---- the rest ----
 
