@@ -122,10 +122,11 @@ sl_status conformal_create(conformal *out, const disk *d, const sl_matrix *N) {
     return status;
 }
 
-/* y = B x without its mean: the part of x that the iteration keeps; returns the sum of its squares. */
-static double boundary_of(double *y, const disk *d, const double *X) {
+/* y = B x without its mean: the part of x that the iteration keeps. False: there is nothing but rounding in it, or a
+ * NaN. */
+static bool boundary_of(double *y, const disk *d, const double *X) {
     size_t n = (size_t)d->p.m.n_vertices;
-    double mean[2] = {0, 0}, sum = 0;
+    double mean[2] = {0, 0}, sum = 0, size = 0;
     for (sl_int k = 0; k < d->n_boundary; k++) {
         mean[0] += X[d->boundary[k]] / (double)d->n_boundary;
         mean[1] += X[n + (size_t)d->boundary[k]] / (double)d->n_boundary;
@@ -136,15 +137,16 @@ static double boundary_of(double *y, const disk *d, const double *X) {
         y[2 * v] = X[v] - mean[0];
         y[2 * v + 1] = X[n + v] - mean[1];
         sum += y[2 * v] * y[2 * v] + y[2 * v + 1] * y[2 * v + 1];
+        size += X[v] * X[v] + X[n + v] * X[n + v];
     }
-    return sum;
+    return sum > 1e-26 * size && isfinite(sum);
 }
 
 sl_status conformal_iterate(conformal *c, double *X, double *lambda) {
     const disk *d = c->d;
     size_t n = (size_t)d->p.m.n_vertices;
-    double before = boundary_of(c->y, d, X), mean[2] = {0, 0}, after = 0, cross = 0;
-    if (!(before > 0) || !isfinite(before)) {
+    double mean[2] = {0, 0}, after = 0, cross = 0;
+    if (!boundary_of(c->y, d, X)) {
         return SL_ERR_NOT_FINITE;
     }
     sl_status status = sl_factor_solve(c->F, c->y, 2 * n, c->y, 2 * n, 1, c->work);

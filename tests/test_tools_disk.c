@@ -1,0 +1,329 @@
+/* test_tools_disk.c: patches as disks: grown from a vertex, refused as lists with the reason, numbered locally */
+#include "bent_grids.h"
+
+#include "../tools/dataset.h"
+
+/* Independent of disk.c: every edge of one or two faces that run it in opposite directions, the boundary a loop. */
+static void is_disk(const disk *d) {
+    const mesh *m = &d->p.m;
+    sl_int n = m->n_vertices;
+    sl_int once = 0;
+    for (sl_int f = 0; f < m->n_faces; f++) {
+        for (int c = 0; c < 3; c++) {
+            sl_int u = m->faces[3 * f + c], v = m->faces[3 * f + (c + 1) % 3];
+            int same = 0, opposite = 0;
+            for (sl_int g = 0; g < m->n_faces; g++) {
+                for (int e = 0; e < 3; e++) {
+                    sl_int a = m->faces[3 * g + e], b = m->faces[3 * g + (e + 1) % 3];
+                    same += a == u && b == v;
+                    opposite += a == v && b == u;
+                }
+            }
+            assert_int_equal(same, 1);
+            assert_true(opposite <= 1);
+            once += opposite == 0;
+        }
+    }
+    assert_int_equal(once, d->n_boundary);
+    /* V - E + F = 1, of E edges 3 F - E have two faces */
+    assert_int_equal(n - (3 * m->n_faces + once) / 2 + m->n_faces, 1);
+    for (sl_int k = 0; k < d->n_boundary; k++) {
+        sl_int u = d->boundary[k], v = d->boundary[(k + 1) % d->n_boundary];
+        bool found = false;
+        for (size_t c = 0; c < 3 * (size_t)m->n_faces; c++) {
+            found = found || (m->faces[c] == u && m->faces[c / 3 * 3 + (c + 1) % 3] == v);
+        }
+        assert_true(found);
+        for (sl_int j = 0; j < k; j++) {
+            assert_true(d->boundary[j] != u);
+        }
+    }
+}
+
+/* Corners of local faces are those of the mesh's, vertices stand where they stood, the rim is where faces are missing. */
+static void is_part_of(const part *p, const incidence *a) {
+    const mesh *m = a->m;
+    sl_int rim = 0;
+    for (sl_int f = 0; f < p->m.n_faces; f++) {
+        const sl_int *there = m->faces + 3 * (size_t)p->mesh_faces[f];
+        sl_int here[3];
+        for (int c = 0; c < 3; c++) {
+            here[c] = p->vertices[p->m.faces[3 * f + c]];
+        }
+        for (int c = 0; c < 3; c++) {
+            assert_true(there[c] == here[0] || there[c] == here[1] || there[c] == here[2]);
+        }
+    }
+    for (sl_int v = 0; v < p->m.n_vertices; v++) {
+        sl_int faces = 0;
+        SAME_VALUES(p->m.xyz + 3 * v, m->xyz + 3 * (size_t)p->vertices[v], 3);
+        for (size_t c = 0; c < 3 * (size_t)p->m.n_faces; c++) {
+            faces += p->m.faces[c] == v;
+        }
+        if (faces < a->begin[p->vertices[v] + 1] - a->begin[p->vertices[v]]) {
+            assert_true(rim < p->n_rim && p->rim[rim] == v);
+            rim++;
+        }
+    }
+    assert_int_equal(rim, p->n_rim);
+}
+
+static void grown_disks(void **state) {
+    (void)state;
+    whole_t w;
+    for (int which = 0; which < 3; which++) {
+        whole_make(&w, which == 0   ? flat_grid(14, 0.2)
+                       : which == 1 ? torus_grid(12, 9)
+                                    : sphere_grid(14, 1));
+        for (sl_int start = 0; start < w.m.n_vertices; start += 13) {
+            for (sl_int count = 3; count <= w.m.n_vertices; count = 2 * count + 1) {
+                disk d = grown_disk(&w, start, count);
+                bool has_start = false;
+                assert_true(d.p.m.n_vertices <= count);
+                assert_true(which == 1 || d.p.m.n_vertices == count);
+                for (sl_int k = 0; k < d.p.m.n_vertices; k++) {
+                    has_start = has_start || d.p.vertices[k] == start;
+                }
+                assert_true(has_start);
+                is_disk(&d);
+                is_part_of(&d.p, &w.around);
+                scratch_is_clean(&w.around);
+                disk_free(&d);
+            }
+        }
+        whole_free(&w);
+    }
+}
+
+/* A disk of the whole grid has no rim: the mesh's boundary is its own. On the torus a seam remains. */
+static void rims_and_seams(void **state) {
+    (void)state;
+    whole_t w;
+    disk d;
+    sl_int seam = -1;
+    whole_make(&w, flat_grid(9, 0.1));
+    assert_true(disk_grow(&d, &w.around, 40, 1000, &seam, NULL, 0));
+    assert_int_equal(d.p.m.n_faces, w.m.n_faces);
+    assert_int_equal(d.p.n_rim, 0);
+    assert_int_equal(d.n_boundary, 32);
+    assert_int_equal(seam, 0);
+    disk_free(&d);
+    whole_free(&w);
+    whole_make(&w, torus_grid(8, 7));
+    assert_true(disk_grow(&d, &w.around, 0, 1000, &seam, NULL, 0));
+    is_disk(&d);
+    sl_int between = 0; /* faces with all corners in the disk */
+    for (sl_int f = 0; f < w.m.n_faces; f++) {
+        int in = 0;
+        for (sl_int k = 0; k < d.p.m.n_vertices; k++) {
+            for (int c = 0; c < 3; c++) {
+                in += w.m.faces[3 * f + c] == d.p.vertices[k];
+            }
+        }
+        between += in == 3;
+    }
+    assert_true(seam > 0);
+    assert_int_equal(seam, between - d.p.m.n_faces);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+static void refused(whole_t *w, const sl_int *list, sl_int count, const char *reason) {
+    disk d;
+    char message[200] = "";
+    assert_false(disk_of_list(&d, &w->around, list, count, message, sizeof message));
+    if (strstr(message, reason) == NULL) {
+        print_error("\"%s\" instead of \"%s\"\n", message, reason);
+        fail();
+    }
+    assert_null(d.boundary);
+    assert_null(d.p.vertices);
+    scratch_is_clean(&w->around);
+    assert_false(disk_of_list(&d, &w->around, list, count, NULL, 0));
+}
+
+static sl_int *first_vertices(sl_int n) {
+    sl_int *list = test_ints((size_t)n);
+    for (sl_int k = 0; k < n; k++) {
+        list[k] = k;
+    }
+    return list;
+}
+
+/* Lists on a grid of 6 x 6: vertex (x, y) is x + 6 y. */
+static void lists_on_a_grid(void **state) {
+    (void)state;
+    whole_t w;
+    disk d;
+    whole_make(&w, flat_grid(6, 0));
+    const sl_int square[4] = {8, 7, 14, 13}, range[3] = {0, 1, 36}, low[2] = {-1, 3};
+    const sl_int twice[5] = {7, 8, 13, 14, 7}, lone[5] = {7, 8, 13, 14, 33};
+    const sl_int few[2] = {0, 1}, pieces[8] = {0, 1, 6, 7, 22, 23, 28, 29};
+    const sl_int touching[7] = {1, 2, 7, 8, 6, 12, 13}; /* squares 1 2 7 8 and 6 7 12 13 */
+    assert_true(disk_of_list(&d, &w.around, square, 4, NULL, 0));
+    is_disk(&d);
+    is_part_of(&d.p, &w.around);
+    assert_int_equal(d.p.vertices[2], 14);
+    assert_int_equal(d.p.m.n_faces, 2);
+    disk_free(&d);
+    refused(&w, range, 3, "vertex 36 of a mesh of 36");
+    refused(&w, low, 2, "vertex -1");
+    refused(&w, twice, 5, "vertex 7 is listed twice");
+    refused(&w, lone, 5, "no face of it is at vertex 33");
+    refused(&w, few, 2, "no face has all its corners");
+    refused(&w, few, 0, "no face has all its corners");
+    refused(&w, pieces, 8, "several pieces");
+    refused(&w, touching, 7, "several pieces");
+    whole_free(&w);
+}
+
+static void lists_that_are_no_disks(void **state) {
+    (void)state;
+    whole_t w;
+    whole_make(&w, flat_grid(12, 0)); /* without its middle: a ring */
+    sl_int *list = first_vertices(144), count = 0;
+    for (sl_int v = 0; v < 144; v++) {
+        sl_int x = v % 12, y = v / 12;
+        if (x < 4 || x > 7 || y < 4 || y > 7) {
+            list[count++] = v;
+        }
+    }
+    refused(&w, list, count, "more than one boundary");
+    free(list);
+    whole_free(&w);
+    whole_make(&w, torus_grid(9, 8));
+    list = first_vertices(72);
+    refused(&w, list, 72, "closed");
+    refused(&w, list, 71, "handle");            /* a torus less a fan */
+    refused(&w, list + 8, 56, "more than one"); /* a tube */
+    free(list);
+    whole_free(&w);
+}
+
+/* Meshes in memory that no surface is: three faces at an edge, a Moebius strip, a pinch, faces turned at random. */
+static void no_surfaces(void **state) {
+    (void)state;
+    whole_t w;
+    disk d;
+    mesh m = flat_grid(6, 0);
+    m.faces[3 * 7] = m.faces[0]; /* some face now hangs on another edge */
+    m.faces[3 * 7 + 1] = m.faces[2];
+    whole_make(&w, m);
+    sl_int *list = first_vertices(36);
+    refused(&w, list, 36, "three faces at the edge of vertices 0 and 7");
+    for (sl_int start = 0; start < 36; start++) { /* growing goes around it */
+        if (w.around.begin[start] < w.around.begin[start + 1]) {
+            d = grown_disk(&w, start, 36);
+            is_disk(&d);
+            disk_free(&d);
+        }
+    }
+    whole_free(&w);
+
+    m = flat_grid(6, 0); /* turned faces are turned back */
+    for (sl_int f = 1; f < m.n_faces; f += 3) {
+        sl_int v = m.faces[3 * f];
+        m.faces[3 * f] = m.faces[3 * f + 1];
+        m.faces[3 * f + 1] = v;
+    }
+    whole_make(&w, m);
+    assert_true(disk_of_list(&d, &w.around, list, 36, NULL, 0));
+    is_disk(&d);
+    disk_free(&d);
+    d = grown_disk(&w, 17, 20);
+    is_disk(&d);
+    disk_free(&d);
+    whole_free(&w);
+
+    sl_int strip
+        [30]; /* a band of 5 squares whose end is glued on turned over: vertices 2k and 2k + 1 */
+    m = flat_grid(4, 0);
+    for (sl_int k = 0; k < 5; k++) {
+        sl_int a = 2 * k, b = 2 * k + 1, c = k < 4 ? 2 * k + 2 : 1, e = k < 4 ? 2 * k + 3 : 0;
+        const sl_int corners[6] = {a, b, c, b, e, c};
+        memcpy(strip + 6 * k, corners, sizeof corners);
+    }
+    memcpy(m.faces, strip, sizeof strip);
+    m.n_faces = 10;
+    whole_make(&w, m);
+    refused(&w, list, 10, "one side only");
+    whole_free(&w);
+
+    const sl_int pinched[15] = {0, 1, 2, 0, 3, 4, 2, 1, 5, 2, 5, 3, 3, 5, 4};
+    m = flat_grid(4, 0); /* two fans around 0 that hang together elsewhere */
+    memcpy(m.faces, pinched, sizeof pinched);
+    m.n_faces = 5;
+    whole_make(&w, m);
+    refused(&w, list, 6, "touches itself at vertex 0");
+    whole_free(&w);
+    free(list);
+}
+
+static void what_cannot_grow(void **state) {
+    (void)state;
+    whole_t w;
+    disk d;
+    char message[200];
+    mesh m = flat_grid(5, 0);
+    for (sl_int k = 0; k < 3 * m.n_faces; k++) {
+        m.faces[k] = m.faces[k] == 24 ? 23 : m.faces[k]; /* 24 has no face; one face has 23 twice */
+    }
+    whole_make(&w, m);
+    assert_false(disk_grow(&d, &w.around, 25, 5, NULL, message, sizeof message));
+    assert_non_null(strstr(message, "no vertex 25"));
+    assert_false(disk_grow(&d, &w.around, -1, 5, NULL, message, sizeof message));
+    assert_false(disk_grow(&d, &w.around, 24, 5, NULL, message, sizeof message));
+    assert_non_null(strstr(message, "no face is at vertex 24"));
+    assert_false(disk_grow(&d, &w.around, 3, 2, NULL, message, sizeof message));
+    assert_non_null(strstr(message, "3 or more"));
+    assert_true(disk_grow(&d, &w.around, 3, 3, NULL, message, sizeof message));
+    is_disk(&d);
+    disk_free(&d);
+    whole_free(&w);
+    m = flat_grid(1, 0);
+    incidence a;
+    assert_true(incidence_create(&a, &m));
+    assert_false(disk_grow(&d, &a, 0, 3, NULL, NULL, 0));
+    incidence_free(&a);
+    mesh_free(&m);
+}
+
+/* Every development mesh: disks from many vertices, also where the mesh is no surface. */
+static void real_meshes(void **state) {
+    (void)state;
+    dataset data;
+    if (!dataset_list(&data, NULL, "meshes")) {
+        print_message("SL_DATA names no folder with meshes: none is tried here\n");
+        skip();
+    }
+    for (size_t k = 0; k < data.count; k++) {
+        mesh m;
+        incidence a;
+        assert_true(mesh_read(&m, data.paths[k], NULL, 0));
+        assert_true(incidence_create(&a, &m));
+        for (sl_int s = 0; s < 7; s++) {
+            sl_int start = (sl_int)((int64_t)m.n_vertices * s / 7);
+            disk d;
+            bool grows = a.begin[start] < a.begin[start + 1];
+            assert_int_equal(disk_grow(&d, &a, start, 400, NULL, NULL, 0), grows);
+            if (grows) {
+                is_disk(&d);
+                disk_free(&d);
+            }
+        }
+        scratch_is_clean(&a);
+        incidence_free(&a);
+        mesh_free(&m);
+    }
+    dataset_free(&data);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grown_disks),     cmocka_unit_test(rims_and_seams),
+        cmocka_unit_test(lists_on_a_grid), cmocka_unit_test(lists_that_are_no_disks),
+        cmocka_unit_test(no_surfaces),     cmocka_unit_test(what_cannot_grow),
+        cmocka_unit_test(real_meshes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
