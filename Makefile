@@ -39,7 +39,8 @@ TEST_LIBS = -lcmocka
 PARTS := $(wildcard src/public/*.h src/impl/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
 PROGRAMS := $(shell grep -l '^int main\b' tools/*.c)
-TOOLS := $(filter-out $(PROGRAMS),$(wildcard tools/*.c))
+NEED_PNG := tools/png_write.c
+TOOLS := $(filter-out $(PROGRAMS) $(NEED_PNG),$(wildcard tools/*.c))
 TESTS := $(wildcard tests/test_*.c)
 FUZZERS := $(wildcard tests/fuzz_*.c)
 HELPERS := $(filter-out $(TESTS) $(FUZZERS) tests/replay.c,$(wildcard tests/*.c))
@@ -56,7 +57,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
-	deps-aarch64 deps-cov test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
+	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
 	format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
@@ -103,12 +104,19 @@ check-promises: sparse_local.h build/deps.ok ## does the header hold each of its
 
 # ---- what others must give; Debian packages, installed where missing ----
 
+DEPS = metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
 deps: build/deps.ok ## METIS, cmocka, zlib
-	@tools/deps.sh metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
+	@tools/deps.sh $(DEPS)
 
 build/deps.ok: tools/deps.sh
 	@mkdir -p $(@D)
-	@tools/deps.sh metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
+	@tools/deps.sh $(DEPS)
+	@touch $@
+
+deps-png: build/deps-png.ok ## libpng: the pictures of sparse-local
+build/deps-png.ok: tools/deps.sh
+	@mkdir -p $(@D)
+	@tools/deps.sh png.h=libpng-dev
 	@touch $@
 
 deps-cxx: ## g++
@@ -166,7 +174,13 @@ $(B)/%: $(B)/obj/tools/%.o $(LIBRARY) $(IMPL)
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
-programs: $(patsubst tools/%.c,$(B)/%,$(filter-out tools/amalgamate.c,$(PROGRAMS))) ## the programs of tools/
+# The program over the header; main.c finds the commands, which stand in the library.
+$(call object,$(NEED_PNG:.c=)): | build/deps-png.ok
+$(B)/sparse-local: $(call object,tools/main $(NEED_PNG:.c=)) $(LIBRARY) $(IMPL)
+	$(call say,LINK)
+	$(Q)$(LINK) -o $@ $^ $(LIBS) -lpng
+
+programs: $(patsubst tools/%.c,$(B)/%,$(filter-out tools/amalgamate.c tools/main.c,$(PROGRAMS))) $(B)/sparse-local ## build/sparse-local: the paper's experiments on meshes
 
 -include $(shell find $(B)/obj -name '*.d' 2>/dev/null)
 

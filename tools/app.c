@@ -1,0 +1,94 @@
+/* app.c: errors, memory, time, progress and random numbers of the commands of sparse-local */
+#define _POSIX_C_SOURCE 200809L
+#include "app.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static double work_began = -1;  /* of the work at hand; -1: none */
+static bool line_shown = false; /* a progress line stands on the terminal */
+
+static void say(const char *format, va_list list) {
+    app_progress_end();
+    (void)fprintf(stderr, "sparse-local: ");
+    (void)vfprintf(stderr, format, list);
+    (void)fprintf(stderr, "\n");
+}
+
+void app_die(const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    say(format, list);
+    va_end(list);
+    exit(1);
+}
+
+void app_die_usage(const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    say(format, list);
+    va_end(list);
+    exit(2);
+}
+
+void app_must(sl_status status, const char *what, const sl_stats *stats) {
+    if (status == SL_OK) {
+        return;
+    }
+    if (stats != NULL && stats->error_row >= 0) {
+        app_die("%s: %s (vertex %d)", what, sl_status_string(status), (int)stats->error_row);
+    }
+    app_die("%s: %s", what, sl_status_string(status));
+}
+
+void *app_alloc(size_t count, size_t size) {
+    void *block = calloc(count > 0 ? count : 1, size > 0 ? size : 1);
+    if (block == NULL) {
+        app_die("out of memory: %zu elements of %zu bytes", count, size);
+    }
+    return block;
+}
+
+double app_now(void) {
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void app_progress(const char *what, double fraction) {
+    static double shown_at;
+    double now = app_now();
+    if (work_began < 0) {
+        work_began = now;
+        shown_at = now;
+    }
+    if (now - work_began >= 1 && now - shown_at >= 0.1 && isatty(2)) {
+        (void)fprintf(stderr, "\r%s: %3.0f%%", what, 100 * fraction);
+        shown_at = now;
+        line_shown = true;
+    }
+}
+
+void app_progress_end(void) {
+    if (line_shown) {
+        (void)fprintf(stderr, "\r%60s\r", "");
+    }
+    line_shown = false;
+    work_began = -1;
+}
+
+/* SplitMix64 [Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014] */
+uint64_t app_random(uint64_t *state) {
+    *state += 0x9e3779b97f4a7c15u;
+    uint64_t z = *state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+sl_int app_random_below(uint64_t *state, sl_int below) {
+    return below > 0 ? (sl_int)(app_random(state) % (uint64_t)below) : 0;
+}

@@ -1,0 +1,186 @@
+/* app_files.c: what the commands of sparse-local read and write: the mesh, lists of vertices, tables, pictures */
+#include "app.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "surface.h"
+
+const char app_mesh_help[] =
+    "a file (.obj .off .ply .stl, plain or .gz) or a made-up surface: grid:100x100, hills:100x100, "
+    "sphere:5, blob:5, torus:120x40, knot:400x24.";
+
+void app_mesh(mesh *out, const char *operand, bool faces_needed) {
+    char message[512];
+    bool made = surface_is_named(operand);
+    if (made ? !surface_make(out, operand, message, sizeof message)
+             : !mesh_read(out, operand, message, sizeof message)) {
+        app_die("%s", message);
+    }
+    if (faces_needed && out->n_faces == 0) {
+        app_die("%s: has no faces, only %d vertices: there is no surface to compute on", operand,
+                (int)out->n_vertices);
+    }
+}
+
+/* A vertex number at *text, which moves behind it. */
+static sl_int read_vertex(const char *option_name, const char **text, sl_int n) {
+    char *after = NULL;
+    errno = 0;
+    long v = strtol(*text, &after, 10);
+    if (after == *text || **text == '+' || **text == '-') {
+        app_die_usage("--%s: \"%s\" is no list of vertices (3,17,100-200 or all or random:5)",
+                      option_name, *text);
+    }
+    if (errno != 0 || v >= n) {
+        app_die("--%s: there is no vertex %.*s, the last is %d", option_name, (int)(after - *text),
+                *text, (int)n - 1);
+    }
+    *text = after;
+    return (sl_int)v;
+}
+
+static sl_int *random_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
+                               sl_int *count) {
+    char *after = NULL;
+    long wanted = strtol(text, &after, 10);
+    if (after == text || *after != '\0' || wanted < 1 || wanted > n) {
+        app_die_usage("--%s random:%s: a number from 1 to %d is needed", option_name, text, (int)n);
+    }
+    sl_int *all = app_alloc((size_t)n, sizeof *all);
+    for (sl_int v = 0; v < n; v++) {
+        all[v] = v;
+    }
+    for (sl_int k = 0; k < wanted; k++) {
+        sl_int from = k + app_random_below(&seed, n - k);
+        sl_int v = all[from];
+        all[from] = all[k];
+        all[k] = v;
+    }
+    *count = (sl_int)wanted;
+    return all;
+}
+
+sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
+                     sl_int *count) {
+    if (strncmp(text, "random:", 7) == 0) {
+        return random_vertices(option_name, text + 7, n, seed, count);
+    }
+    bool all = strcmp(text, "all") == 0;
+    size_t room = all ? (size_t)n : 0;
+    sl_int *list = app_alloc(room, sizeof *list);
+    sl_int used = 0;
+    for (; all && used < n; used++) {
+        list[used] = used;
+    }
+    while (!all) {
+        sl_int first = read_vertex(option_name, &text, n);
+        sl_int last = first;
+        if (*text == '-') {
+            text++;
+            last = read_vertex(option_name, &text, n);
+        }
+        if (last < first || last - first >= INT32_MAX - used) {
+            app_die_usage("--%s: %d-%d is an empty range, or the list is too long", option_name,
+                          (int)first, (int)last);
+        }
+        size_t more = (size_t)used + (size_t)(last - first) + 1;
+        if (more > room) {
+            room = 2 * more;
+            sl_int *larger = realloc(list, room * sizeof *list);
+            if (larger == NULL) {
+                app_die("out of memory");
+            }
+            list = larger;
+        }
+        for (sl_int v = first; v <= last; v++) {
+            list[used++] = v;
+        }
+        if (*text == '\0') {
+            break;
+        }
+        if (*text++ != ',') {
+            app_die_usage("--%s: \"%s\": a comma is needed between vertices", option_name,
+                          text - 1);
+        }
+    }
+    *count = used;
+    return list;
+}
+
+sl_int app_distinct(sl_int *vertices, sl_int count, sl_int n) {
+    unsigned char *seen = app_alloc((size_t)n, 1);
+    sl_int kept = 0;
+    for (sl_int k = 0; k < count; k++) {
+        if (!seen[vertices[k]]) {
+            seen[vertices[k]] = 1;
+            vertices[kept++] = vertices[k];
+        }
+    }
+    free(seen);
+    return kept;
+}
+
+FILE *app_create(const char *path) {
+    FILE *file = fopen(path, "w");
+    if (file == NULL) {
+        app_die("%s: cannot be written: %s", path, strerror(errno));
+    }
+    return file;
+}
+
+void app_close(FILE *file, const char *path) {
+    bool failed = ferror(file) != 0;
+    if (fclose(file) != 0 || failed) {
+        app_die("%s: was not written whole: %s", path, strerror(errno));
+    }
+}
+
+void app_view(render_view *view, const app_output *o) {
+    *view = render_view_default();
+    char rest = 0;
+    if (o->size != NULL &&
+        (sscanf(o->size, "%dx%d%c", &view->width, &view->height, &rest) != 2 || view->width < 1 ||
+         view->height < 1 || view->width > 8000 || view->height > 8000)) {
+        app_die_usage("--size %s: not like 800x600, sides from 1 to 8000", o->size);
+    }
+    if (o->view != NULL) {
+        if (sscanf(o->view, "%lf,%lf%c", &view->azimuth, &view->elevation, &rest) != 2) {
+            app_die_usage("--view %s: not like 30,20", o->view);
+        }
+        view->automatic = false;
+    }
+    if (o->up != NULL) {
+        const char *axis = strchr("yxz", o->up[0]); /* in the order of render_up */
+        if (axis == NULL || o->up[0] == '\0' || o->up[1] != '\0') {
+            app_die_usage("--up %s: not x, y or z", o->up);
+        }
+        view->up = (render_up)(axis - "yxz");
+    }
+}
+
+void app_write_png(const picture *p, const char *path) {
+    char message[512];
+    if (!picture_write_png(p, path, message, sizeof message)) {
+        app_die("%s", message);
+    }
+}
+
+void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
+               const render_style *style) {
+    char message[512];
+    if (o->out != NULL && !mesh_write(o->out, m, extra, message, sizeof message)) {
+        app_die("%s", message);
+    }
+    if (o->png != NULL) {
+        render_view view;
+        picture p;
+        app_view(&view, o);
+        if (!render_mesh(&p, m, &view, style)) {
+            app_die("%s: no memory for a picture of %d x %d", o->png, view.width, view.height);
+        }
+        app_write_png(&p, o->png);
+        picture_free(&p);
+    }
+}

@@ -1,0 +1,158 @@
+/* command_heat.c: heat that flows from some vertices for a time, wanted at some others, in a radius, or everywhere */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h"
+#include "command.h"
+#include "heat_system.h"
+
+static const options_usage usage = {"heat", "MESH", 1, 1,
+                                    "Lets one unit of heat at each source diffuse by (M + t L) x = "
+                                    "b and gives x at the wanted vertices alone, exactly: "
+                                    "what lies between is never computed. The forward sweep visits "
+                                    "the paths of the elimination tree from the sources, "
+                                    "the backward sweep those from the wanted vertices."};
+
+/* The vertices no farther from a source than radius, by straight distance. */
+static sl_int *within(const mesh *m, const sl_int *sources, sl_int n_sources, double radius,
+                      sl_int *count) {
+    sl_int *list = app_alloc((size_t)m->n_vertices, sizeof *list);
+    *count = 0;
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        for (sl_int k = 0; k < n_sources; k++) {
+            const double *a = m->xyz + 3 * (size_t)v, *b = m->xyz + 3 * (size_t)sources[k];
+            if (hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]) <= radius) {
+                list[(*count)++] = v;
+                break;
+            }
+        }
+    }
+    return list;
+}
+
+/* Solves for x on the wanted vertices: a plan, then as many solves as one likes; here it is timed. */
+static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int n_sources,
+                  const sl_int *wanted, sl_int n_wanted) {
+    double *heat = app_alloc((size_t)n_sources, sizeof *heat);
+    for (sl_int k = 0; k < n_sources; k++) {
+        heat[k] = 1;
+    }
+    sl_plan *P = NULL;
+    sl_work *W = NULL;
+    sl_stats stats = h->stats;
+    stats.error_row = -1;
+    double begin = app_now();
+    app_must(sl_plan_create(&P, h->S, sources, n_sources, wanted, n_wanted, NULL, &stats), "plan",
+             &stats);
+    double planned = app_now();
+    app_must(sl_work_create(&W, NULL), "workspace", NULL);
+    app_must(sl_plan_solve(P, h->F, x, (size_t)n_wanted, heat, (size_t)n_sources, 1, W),
+             "local solve", NULL);
+    double first = app_now();
+    app_must(sl_plan_solve(P, h->F, x, (size_t)n_wanted, heat, (size_t)n_sources, 1, W),
+             "local solve", NULL);
+    double second = app_now();
+    printf("sources %d, wanted %d of %d vertices, t = %.6g\n", (int)n_sources, (int)n_wanted,
+           (int)h->A.n_cols, h->t);
+    printf("columns visited: forward %d, backward %d of %d; entries of L read %lld of %lld\n",
+           (int)stats.b_columns, (int)stats.x_columns, (int)stats.n,
+           (long long)(stats.b_entries + stats.x_entries), (long long)(2 * stats.nnz_panels));
+    printf("microseconds: plan %.1f, first solve %.1f, each further solve %.1f\n",
+           1e6 * (planned - begin), 1e6 * (first - planned), 1e6 * (second - first));
+    sl_work_free(W);
+    sl_plan_free(P);
+    free(heat);
+}
+
+static void write_csv(const char *path, const double *x, const sl_int *wanted, sl_int n_wanted) {
+    FILE *csv = app_create(path);
+    fprintf(csv, "vertex,heat\n");
+    for (sl_int k = 0; k < n_wanted; k++) {
+        fprintf(csv, "%d,%.17g\n", (int)wanted[k], x[k]);
+    }
+    app_close(csv, path);
+}
+
+/* Pictures show the logarithm: heat falls off exponentially. */
+static void write_mesh(const app_output *output, const mesh *m, const double *x,
+                       const sl_int *wanted, sl_int n_wanted, const sl_int *sources,
+                       sl_int n_sources) {
+    size_t n = (size_t)m->n_vertices;
+    double *field = app_alloc(n, sizeof *field), *decades = app_alloc(n, sizeof *decades);
+    render_mark *marks = app_alloc((size_t)n_sources, sizeof *marks);
+    double largest = 0;
+    for (size_t v = 0; v < n; v++) {
+        field[v] = decades[v] = NAN;
+    }
+    for (sl_int k = 0; k < n_wanted; k++) {
+        field[wanted[k]] = x[k];
+        decades[wanted[k]] = x[k] > 0 ? log10(x[k]) : NAN;
+        largest = x[k] > largest ? x[k] : largest;
+    }
+    for (sl_int k = 0; k < n_sources; k++) {
+        const rgb red = {0xd5, 0x2b, 0x1e};
+        marks[k].vertex = sources[k];
+        marks[k].radius = 5;
+        marks[k].color = red;
+    }
+    const mesh_field fields[] = {{"heat", field}, {"log10_heat", decades}};
+    const mesh_extra extra = {.fields = fields, .n_fields = 2};
+    const render_style style = {.scalar = decades,
+                                .low = largest > 0 ? log10(largest) - 12 : 0,
+                                .high = largest > 0 ? log10(largest) : 1,
+                                .isolines = 11,
+                                .marks = marks,
+                                .n_marks = n_sources};
+    app_write(output, m, &extra, &style);
+    free(marks);
+    free(decades);
+    free(field);
+}
+
+int command_heat(int argc, char **argv) {
+    const char *operand = NULL, *from = "0", *at = NULL;
+    double radius = 0;
+    heat_time time = {0, 0};
+    app_output output;
+    memset(&output, 0, sizeof output);
+    const option options[] = {
+        {OPTION_TEXT, "from", &from, "VERTICES", "the sources: 3,17,100-200 or random:5 (0)"},
+        {OPTION_TEXT, "at", &at, "VERTICES", "where heat is wanted: a list, or all (all)"},
+        {OPTION_REAL, "radius", &radius, "R",
+         "where heat is wanted: no farther than R from a source"},
+        HEAT_TIME_OPTIONS(&time),
+        APP_OUTPUT_OPTIONS(&output),
+        {OPTION_END, NULL, NULL, NULL, NULL}};
+    options_read(&usage, options, argc, argv, &operand);
+    if (at != NULL && radius > 0) {
+        app_die_usage("--at and --radius: one of them");
+    }
+    mesh m;
+    heat_system h;
+    app_mesh(&m, operand, true);
+    heat_system_create(&h, &m, heat_time_value(&time, &m));
+    sl_int n_sources = 0, n_wanted = 0;
+    sl_int *sources = app_vertices("from", from, m.n_vertices, 1, &n_sources);
+    n_sources = app_distinct(sources, n_sources, m.n_vertices);
+    sl_int *wanted = radius > 0
+                         ? within(&m, sources, n_sources, radius, &n_wanted)
+                         : app_vertices("at", at != NULL ? at : "all", m.n_vertices, 2, &n_wanted);
+    n_wanted = app_distinct(wanted, n_wanted, m.n_vertices);
+    double *x = app_alloc((size_t)n_wanted, sizeof *x);
+    solve(x, &h, sources, n_sources, wanted, n_wanted);
+    if (output.csv != NULL) {
+        write_csv(output.csv, x, wanted, n_wanted);
+    } else if (n_wanted <= 20) {
+        for (sl_int k = 0; k < n_wanted; k++) {
+            printf("%d %.17g\n", (int)wanted[k], x[k]);
+        }
+    }
+    write_mesh(&output, &m, x, wanted, n_wanted, sources, n_sources);
+    free(x);
+    free(wanted);
+    free(sources);
+    heat_system_free(&h);
+    mesh_free(&m);
+    return 0;
+}

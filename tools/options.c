@@ -1,0 +1,167 @@
+/* options.c: the options of a command: one table gives the parser and the --help */
+#include "options.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINE_WIDTH = 78, HELP_COLUMN = 24 };
+
+static const option *option_named(const option *options, const char *name, size_t length) {
+    for (const option *o = options; o->kind != OPTION_END; o++) {
+        if (strlen(o->name) == length && strncmp(o->name, name, length) == 0) {
+            return o;
+        }
+    }
+    return NULL;
+}
+
+static bool store(const option *o, const char *text) {
+    char *after = NULL;
+    if (o->kind == OPTION_TEXT) {
+        *(const char **)o->value = text;
+        return true;
+    }
+    errno = 0;
+    if (o->kind == OPTION_COUNT) {
+        long count = strtol(text, &after, 10);
+        if (after == text || *after != '\0' || errno != 0 || count < 0 || count > INT32_MAX) {
+            return false;
+        }
+        *(sl_int *)o->value = (sl_int)count;
+        return true;
+    }
+    double real = strtod(text, &after);
+    if (after == text || *after != '\0' || !isfinite(real)) {
+        return false;
+    }
+    *(double *)o->value = real;
+    return true;
+}
+
+/* Reads the option at argv[*at] and moves *at to its last word. */
+static bool read_option(const option *options, int argc, char **argv, int *at, char *message,
+                        size_t message_size) {
+    const char *word = argv[*at];
+    const char *name = word + 2;
+    const char *equals = strchr(name, '=');
+    size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
+    const option *o = word[1] == '-' ? option_named(options, name, length) : NULL;
+    if (o == NULL) {
+        (void)snprintf(message, message_size, "there is no option %s", word);
+        return false;
+    }
+    if (o->kind == OPTION_FLAG) {
+        if (equals != NULL) {
+            (void)snprintf(message, message_size, "--%s takes no argument", o->name);
+            return false;
+        }
+        *(bool *)o->value = true;
+        return true;
+    }
+    const char *text = equals != NULL ? equals + 1 : *at + 1 < argc ? argv[++*at] : NULL;
+    if (text == NULL) {
+        (void)snprintf(message, message_size, "--%s needs %s", o->name, o->argument);
+        return false;
+    }
+    if (!store(o, text)) {
+        (void)snprintf(message, message_size, "--%s %s: %s", o->name, text,
+                       o->kind == OPTION_COUNT ? "not a whole number from 0 to 2^31-1"
+                                               : "not a finite number");
+        return false;
+    }
+    return true;
+}
+
+options_result options_parse(const options_usage *usage, const option *options, int argc,
+                             char **argv, const char **operands, char *message,
+                             size_t message_size) {
+    int count = 0;
+    bool only_operands = false;
+    for (int k = 0; k < usage->most; k++) {
+        operands[k] = NULL;
+    }
+    for (int a = 1; a < argc; a++) {
+        if (strcmp(argv[a], "--help") == 0 || strcmp(argv[a], "-h") == 0) {
+            return OPTIONS_HELP;
+        }
+    }
+    for (int a = 1; a < argc; a++) {
+        if (!only_operands && strcmp(argv[a], "--") == 0) {
+            only_operands = true;
+        } else if (!only_operands && argv[a][0] == '-' && argv[a][1] != '\0') {
+            if (!read_option(options, argc, argv, &a, message, message_size)) {
+                return OPTIONS_BAD;
+            }
+        } else if (count == usage->most) {
+            (void)snprintf(message, message_size, "%s is one word too many", argv[a]);
+            return OPTIONS_BAD;
+        } else {
+            operands[count++] = argv[a];
+        }
+    }
+    if (count < usage->fewest) {
+        (void)snprintf(message, message_size, "needs %s", usage->operands);
+        return OPTIONS_BAD;
+    }
+    return OPTIONS_READ;
+}
+
+void options_print_wrapped(const char *text, int indent, int at) {
+    int column = at;
+    if (column < indent) {
+        (void)printf("%*s", indent - column, "");
+        column = indent;
+    }
+    while (*text != '\0') {
+        int length = (int)strcspn(text, " \n");
+        if (column > indent && column + 1 + length > LINE_WIDTH) {
+            (void)printf("\n%*s", indent, "");
+            column = indent;
+        }
+        column += printf(column > indent ? " %.*s" : "%.*s", length, text);
+        text += length;
+        if (*text == '\n') {
+            (void)printf("\n%*s", indent, "");
+            column = indent;
+        }
+        text += *text != '\0';
+    }
+    (void)printf("\n");
+}
+
+void options_help(const options_usage *usage, const option *options) {
+    (void)printf("usage: sparse-local %s [options] %s\n\n", usage->command, usage->operands);
+    options_print_wrapped(usage->text, 0, 0);
+    (void)printf("\noptions:\n");
+    for (const option *o = options; o->kind != OPTION_END; o++) {
+        int column = printf("  --%s%s%s", o->name, o->argument != NULL ? " " : "",
+                            o->argument != NULL ? o->argument : "");
+        if (column + 2 > HELP_COLUMN) {
+            (void)printf("\n");
+            column = 0;
+        }
+        options_print_wrapped(o->help, HELP_COLUMN, column);
+    }
+    int column = printf("  --help");
+    options_print_wrapped("this text", HELP_COLUMN, column);
+}
+
+void options_read(const options_usage *usage, const option *options, int argc, char **argv,
+                  const char **operands) {
+    char message[512];
+    switch (options_parse(usage, options, argc, argv, operands, message, sizeof message)) {
+    case OPTIONS_HELP:
+        options_help(usage, options);
+        exit(0);
+    case OPTIONS_BAD:
+        (void)fprintf(stderr, "sparse-local %s: %s\nsparse-local %s --help tells more\n",
+                      usage->command, message, usage->command);
+        exit(2);
+    case OPTIONS_READ:
+        break;
+    }
+}

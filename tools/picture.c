@@ -1,0 +1,110 @@
+/* picture.c: pictures in memory, lines and disks in them */
+#include "picture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool picture_create(picture *p, int width, int height, rgb background) {
+    memset(p, 0, sizeof *p);
+    if (width < 1 || height < 1 || width > 16384 || height > 16384) {
+        return false;
+    }
+    size_t count = (size_t)width * (size_t)height;
+    p->at = (rgb *)malloc(count * sizeof *p->at);
+    if (p->at == NULL) {
+        return false;
+    }
+    p->width = width;
+    p->height = height;
+    for (size_t k = 0; k < count; k++) {
+        p->at[k] = background;
+    }
+    return true;
+}
+
+void picture_free(picture *p) {
+    if (p != NULL) {
+        free(p->at);
+        memset(p, 0, sizeof *p);
+    }
+}
+
+/* The first pixel whose middle is at x or right of it, kept in 0..size. */
+static int first_pixel(double x, int size) {
+    double k = ceil(x - 0.5);
+    return !(k > 0) ? 0 : k >= size ? size : (int)k;
+}
+
+void picture_line(picture *p, double x0, double y0, double x1, double y1, double width, rgb color) {
+    double r = 0.5 * width;
+    double dx = x1 - x0, dy = y1 - y0;
+    double length2 = dx * dx + dy * dy;
+    if (!(length2 <= 1e20)) {
+        return;
+    }
+    int left = first_pixel(fmin(x0, x1) - r, p->width);
+    int right = first_pixel(fmax(x0, x1) + r, p->width);
+    int top = first_pixel(fmin(y0, y1) - r, p->height);
+    int bottom = first_pixel(fmax(y0, y1) + r, p->height);
+    for (int y = top; y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            double px = x + 0.5 - x0, py = y + 0.5 - y0;
+            double t = length2 > 0 ? (px * dx + py * dy) / length2 : 0;
+            t = t < 0 ? 0 : t > 1 ? 1 : t;
+            px -= t * dx;
+            py -= t * dy;
+            if (px * px + py * py <= r * r) {
+                p->at[(size_t)y * (size_t)p->width + (size_t)x] = color;
+            }
+        }
+    }
+}
+
+void picture_disk(picture *p, double x, double y, double radius, rgb color) {
+    picture_line(p, x, y, x, y, 2 * radius, color);
+}
+
+void picture_box(picture *p, double x0, double y0, double x1, double y1, rgb color) {
+    int left = first_pixel(x0, p->width), right = first_pixel(x1, p->width);
+    int bottom = first_pixel(y1, p->height);
+    for (int y = first_pixel(y0, p->height); y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            p->at[(size_t)y * (size_t)p->width + (size_t)x] = color;
+        }
+    }
+}
+
+void picture_shrink(picture *p, int factor) {
+    int width = p->width / factor, height = p->height / factor, area = factor * factor;
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            int r = area / 2, g = area / 2, b = area / 2;
+            for (int v = 0; v < factor; v++) {
+                const rgb *row = p->at + (size_t)(y * factor + v) * (size_t)p->width + x * factor;
+                for (int u = 0; u < factor; u++) {
+                    r += row[u].r;
+                    g += row[u].g;
+                    b += row[u].b;
+                }
+            }
+            rgb mean = {(unsigned char)(r / area), (unsigned char)(g / area),
+                        (unsigned char)(b / area)};
+            /* in place: what is written lies before what is still to be read */
+            p->at[(size_t)y * (size_t)width + (size_t)x] = mean;
+        }
+    }
+    p->width = width;
+    p->height = height;
+}
+
+void picture_paste(picture *p, const picture *from, int x, int y) {
+    for (int v = 0; v < from->height; v++) {
+        for (int u = 0; u < from->width; u++) {
+            if (x + u >= 0 && x + u < p->width && y + v >= 0 && y + v < p->height) {
+                p->at[(size_t)(y + v) * (size_t)p->width + (size_t)(x + u)] =
+                    from->at[(size_t)v * (size_t)from->width + (size_t)u];
+            }
+        }
+    }
+}

@@ -1,0 +1,295 @@
+/* render.c: draws a mesh: projects the vertices, fills the triangles by depth, then marks and lines over them */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render_shade.h"
+
+enum { SUPERSAMPLE = 2 };
+
+static const double margin = 0.04; /* of the picture, on each side */
+static const double largest_coordinate = 1e150;
+
+static const rgb background = {255, 255, 255};
+
+render_view render_view_default(void) {
+    render_view view = {800, 600, 30, 20, 0, 1, RENDER_UP_Y, true};
+    return view;
+}
+
+/* What drawing needs; at twice the size of the picture that comes out. */
+typedef struct scene {
+    const mesh *m;
+    const render_style *style;
+    render_shade shade;
+    picture pixels;
+    double *depth;  /* width x height: the larger is the nearer */
+    double *screen; /* 3 n_vertices: x, y in pixels, depth; NaN: cannot be drawn */
+    double *eye;    /* 3 n_vertices: to the right, upwards, towards the camera */
+} scene;
+
+static bool is_drawn(const scene *s, sl_int face) {
+    if (s->style->hidden != NULL && s->style->hidden[face]) {
+        return false;
+    }
+    for (int c = 0; c < 3; c++) {
+        if (!isfinite(s->screen[3 * (size_t)s->m->faces[3 * (size_t)face + (size_t)c]])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The three directions of the eye, from the view's angles. */
+static void eye_axes(double axes[3][3], const render_view *view, const mesh *m) {
+    static const int upward[3] = {1, 0, 2};
+    int up = upward[view->up];
+    int side = up == 1 ? 0 : up == 0 ? 1 : 0; /* to the right at azimuth 0 */
+    int front = 3 - up - side;
+    double sign = (up == 1 || up == 0) ? 1 : -1; /* keeps side x up = towards the camera */
+    double azimuth = view->azimuth * 3.14159265358979323846 / 180;
+    double elevation = view->elevation * 3.14159265358979323846 / 180;
+    if (view->automatic) {
+        double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+            for (int d = 0; d < 3; d++) {
+                double x = m->xyz[3 * (size_t)m->faces[k] + (size_t)d];
+                low[d] = fmin(low[d], x);
+                high[d] = fmax(high[d], x);
+            }
+        }
+        for (int d = 0; d < 3; d++) {
+            double other =
+                fmax(high[(d + 1) % 3] - low[(d + 1) % 3], high[(d + 2) % 3] - low[(d + 2) % 3]);
+            if (m->n_faces > 0 && high[d] - low[d] <= 1e-6 * other) { /* flat: from above */
+                memset(axes, 0, 9 * sizeof(double));
+                axes[0][d == 0 ? 1 : 0] = 1;
+                axes[1][d == 2 ? 1 : 2] = d == 1 ? -1 : 1;
+                axes[2][d] = 1;
+                return;
+            }
+        }
+    }
+    memset(axes, 0, 9 * sizeof(double));
+    axes[0][side] = cos(azimuth);
+    axes[0][front] = -sign * sin(azimuth);
+    axes[1][up] = cos(elevation);
+    axes[1][side] = -sin(elevation) * sin(azimuth);
+    axes[1][front] = -sign * sin(elevation) * cos(azimuth);
+    axes[2][up] = sin(elevation);
+    axes[2][side] = cos(elevation) * sin(azimuth);
+    axes[2][front] = sign * cos(elevation) * cos(azimuth);
+}
+
+/* Middle and radius of what is drawn, in eye directions. */
+static double centre_eye(scene *s, double axes[3][3]) {
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    size_t n = (size_t)s->m->n_vertices;
+    for (size_t v = 0; v < n; v++) {
+        const double *x = s->m->xyz + 3 * v;
+        bool fine = fabs(x[0]) < largest_coordinate && fabs(x[1]) < largest_coordinate &&
+                    fabs(x[2]) < largest_coordinate;
+        for (int d = 0; d < 3; d++) {
+            s->eye[3 * v + (size_t)d] =
+                fine ? axes[d][0] * x[0] + axes[d][1] * x[1] + axes[d][2] * x[2] : NAN;
+        }
+        s->screen[3 * v] = s->eye[3 * v]; /* is_drawn looks at it */
+    }
+    for (sl_int f = 0; f < s->m->n_faces; f++) {
+        for (size_t c = 0; c < 3 && is_drawn(s, f); c++) {
+            const double *e = s->eye + 3 * (size_t)s->m->faces[3 * (size_t)f + c];
+            for (int d = 0; d < 3; d++) {
+                low[d] = fmin(low[d], e[d]);
+                high[d] = fmax(high[d], e[d]);
+            }
+        }
+    }
+    double radius2 = 0;
+    for (int d = 0; d < 3; d++) {
+        double middle = low[d] <= high[d] ? 0.5 * low[d] + 0.5 * high[d] : 0;
+        double half = low[d] <= high[d] ? 0.5 * high[d] - 0.5 * low[d] : 0;
+        radius2 += half * half;
+        for (size_t v = 0; v < n; v++) {
+            s->eye[3 * v + (size_t)d] -= middle;
+        }
+    }
+    return sqrt(radius2);
+}
+
+/* Fills in the screen positions: parallel, or from a distance of perspective radii; then fits them to the picture. */
+static void project(scene *s, const render_view *view) {
+    double axes[3][3];
+    eye_axes(axes, view, s->m);
+    double radius = centre_eye(s, axes);
+    double distance = view->perspective > 1 ? view->perspective * radius : 0;
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (sl_int v = 0; v < s->m->n_vertices; v++) {
+        double *e = s->eye + 3 * (size_t)v, *p = s->screen + 3 * (size_t)v;
+        double shrink = distance > 0 && distance > e[2] ? distance / (distance - e[2]) : 1;
+        p[0] = e[0] * shrink;
+        p[1] = -e[1] * shrink;
+        p[2] = distance > 0 ? shrink : e[2]; /* 1 / distance: linear on the screen */
+    }
+    for (sl_int f = 0; f < s->m->n_faces; f++) {
+        for (size_t c = 0; c < 3 && is_drawn(s, f); c++) {
+            const double *p = s->screen + 3 * (size_t)s->m->faces[3 * (size_t)f + c];
+            for (int d = 0; d < 2; d++) {
+                low[d] = fmin(low[d], p[d]);
+                high[d] = fmax(high[d], p[d]);
+            }
+        }
+    }
+    double width = s->pixels.width, height = s->pixels.height;
+    double room = 1 - 2 * margin;
+    double scale = fmin(high[0] > low[0] ? room * width / (high[0] - low[0]) : HUGE_VAL,
+                        high[1] > low[1] ? room * height / (high[1] - low[1]) : HUGE_VAL);
+    scale = isfinite(scale) ? scale * view->zoom : 1;
+    for (sl_int v = 0; v < s->m->n_vertices; v++) {
+        double *p = s->screen + 3 * (size_t)v;
+        p[0] = 0.5 * width + scale * (p[0] - 0.5 * (low[0] + high[0]));
+        p[1] = 0.5 * height + scale * (p[1] - 0.5 * (low[1] + high[1]));
+    }
+}
+
+static int clamp_pixel(double x, int size) {
+    return !(x > 0) ? 0 : x >= size ? size : (int)x;
+}
+
+/* Pixels whose middles lie in the triangle, nearer than what was there. */
+static void fill_face(scene *s, sl_int face) {
+    const sl_int *f = s->m->faces + 3 * (size_t)face;
+    const double *a = s->screen + 3 * (size_t)f[0], *b = s->screen + 3 * (size_t)f[1],
+                 *c = s->screen + 3 * (size_t)f[2];
+    double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    if (!(fabs(area) > 1e-12)) {
+        return;
+    }
+    render_corner corner;
+    render_shade_face(&corner, &s->shade, face, a, b, c);
+    int left = clamp_pixel(fmin(fmin(a[0], b[0]), c[0]) - 0.5, s->pixels.width);
+    int right = clamp_pixel(fmax(fmax(a[0], b[0]), c[0]) + 1.5, s->pixels.width);
+    int top = clamp_pixel(fmin(fmin(a[1], b[1]), c[1]) - 0.5, s->pixels.height);
+    int bottom = clamp_pixel(fmax(fmax(a[1], b[1]), c[1]) + 1.5, s->pixels.height);
+    for (int y = top; y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            double px = x + 0.5, py = y + 0.5;
+            double w[3];
+            w[0] = ((b[0] - px) * (c[1] - py) - (b[1] - py) * (c[0] - px)) / area;
+            w[1] = ((c[0] - px) * (a[1] - py) - (c[1] - py) * (a[0] - px)) / area;
+            w[2] = 1 - w[0] - w[1];
+            if (w[0] < -1e-9 || w[1] < -1e-9 || w[2] < -1e-9) {
+                continue;
+            }
+            double z = w[0] * a[2] + w[1] * b[2] + w[2] * c[2];
+            size_t at = (size_t)y * (size_t)s->pixels.width + (size_t)x;
+            if (z > s->depth[at]) {
+                s->depth[at] = z;
+                s->pixels.at[at] = render_shade_point(&s->shade, &corner, w);
+            }
+        }
+    }
+}
+
+/* A disk where the surface does not hide the point: nearer than what was drawn, but for a hair. */
+static void draw_dot(scene *s, const double at[3], double radius, double hair, rgb color) {
+    int x = clamp_pixel(at[0], s->pixels.width - 1), y = clamp_pixel(at[1], s->pixels.height - 1);
+    if (isfinite(at[0]) &&
+        at[2] + hair >= s->depth[(size_t)y * (size_t)s->pixels.width + (size_t)x]) {
+        picture_disk(&s->pixels, at[0], at[1], radius, color);
+    }
+}
+
+static void draw_overlay(scene *s) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (sl_int v = 0; v < s->m->n_vertices; v++) {
+        low = fmin(low, s->screen[3 * (size_t)v + 2]);
+        high = fmax(high, s->screen[3 * (size_t)v + 2]);
+    }
+    double hair = high > low ? 0.01 * (high - low) : 1e-9;
+    for (int k = 0; k < s->style->n_segments; k++) {
+        const render_segment *line = &s->style->segments[k];
+        const double *a = s->screen + 3 * (size_t)line->from, *b = s->screen + 3 * (size_t)line->to;
+        double length = hypot(b[0] - a[0], b[1] - a[1]);
+        int steps = length < 1e5 ? (int)(length / fmax(0.5, 0.5 * line->width)) + 1 : 0;
+        for (int i = 0; steps > 0 && i <= steps; i++) {
+            double t = (double)i / steps, point[3];
+            for (int d = 0; d < 3; d++) {
+                point[d] = a[d] + t * (b[d] - a[d]);
+            }
+            draw_dot(s, point, 0.5 * SUPERSAMPLE * line->width, hair, line->color);
+        }
+    }
+    for (int k = 0; k < s->style->n_marks; k++) {
+        const render_mark *mark = &s->style->marks[k];
+        draw_dot(s, s->screen + 3 * (size_t)mark->vertex, SUPERSAMPLE * mark->radius, hair,
+                 mark->color);
+    }
+}
+
+bool render_mesh(picture *out, const mesh *m, const render_view *view, const render_style *style) {
+    scene s;
+    memset(out, 0, sizeof *out);
+    memset(&s, 0, sizeof s);
+    s.m = m;
+    s.style = style;
+    if (view->width < 1 || view->height < 1 || view->width > 8192 || view->height > 8192 ||
+        !picture_create(&s.pixels, SUPERSAMPLE * view->width, SUPERSAMPLE * view->height,
+                        background)) {
+        return false;
+    }
+    size_t pixels = (size_t)s.pixels.width * (size_t)s.pixels.height;
+    size_t n = (size_t)m->n_vertices;
+    s.depth = (double *)malloc(pixels * sizeof *s.depth);
+    s.screen = (double *)malloc((3 * n + 1) * sizeof *s.screen);
+    s.eye = (double *)malloc((3 * n + 1) * sizeof *s.eye);
+    bool ok = s.depth != NULL && s.screen != NULL && s.eye != NULL;
+    if (ok) {
+        for (size_t k = 0; k < pixels; k++) {
+            s.depth[k] = -HUGE_VAL;
+        }
+        project(&s, view);
+        ok = render_shade_begin(&s.shade, m, style, s.eye, SUPERSAMPLE);
+    }
+    for (sl_int f = 0; ok && f < m->n_faces; f++) {
+        if (is_drawn(&s, f)) {
+            fill_face(&s, f);
+        }
+    }
+    if (ok) {
+        draw_overlay(&s);
+        picture_shrink(&s.pixels, SUPERSAMPLE);
+        *out = s.pixels;
+    } else {
+        picture_free(&s.pixels);
+    }
+    render_shade_end(&s.shade);
+    free(s.eye);
+    free(s.screen);
+    free(s.depth);
+    return ok;
+}
+
+bool render_layout(picture *out, const mesh *m, const double *uv, const render_view *view,
+                   const render_style *style) {
+    mesh flat = *m;
+    render_view above = *view;
+    render_style unlit = *style;
+    memset(out, 0, sizeof *out);
+    flat.xyz = (double *)calloc(3 * (size_t)m->n_vertices + 1, sizeof *flat.xyz);
+    if (flat.xyz == NULL) {
+        return false;
+    }
+    for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
+        flat.xyz[3 * v] = uv[2 * v];
+        flat.xyz[3 * v + 1] = uv[2 * v + 1];
+    }
+    above.automatic = false;
+    above.up = RENDER_UP_Y;
+    above.azimuth = above.elevation = above.perspective = 0;
+    unlit.unlit = true;
+    bool ok = render_mesh(out, &flat, &above, &unlit);
+    free(flat.xyz);
+    return ok;
+}

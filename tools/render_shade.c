@@ -1,0 +1,232 @@
+/* render_shade.c: the colour of a point of a surface: map or palette, checks, isolines, edges, light */
+#include "render_shade.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double isoline_width = 1.0; /* pixels */
+
+static void face_normal(double normal[3], const double *a, const double *b, const double *c) {
+    double u[3], v[3];
+    for (int d = 0; d < 3; d++) {
+        u[d] = b[d] - a[d];
+        v[d] = c[d] - a[d];
+    }
+    for (int d = 0; d < 3; d++) {
+        normal[d] = u[(d + 1) % 3] * v[(d + 2) % 3] - u[(d + 2) % 3] * v[(d + 1) % 3];
+    }
+}
+
+static void normalize(double x[3]) {
+    double length = hypot(hypot(x[0], x[1]), x[2]);
+    for (int d = 0; d < 3; d++) {
+        x[d] = length > 0 && isfinite(length) ? x[d] / length : 0;
+    }
+}
+
+/* Means of the faces around, each counted by its area. */
+static bool vertex_normals(render_shade *s) {
+    size_t n = (size_t)s->m->n_vertices;
+    s->normal = (double *)calloc(3 * n + 1, sizeof *s->normal);
+    if (s->normal == NULL) {
+        return false;
+    }
+    for (size_t k = 0; k < (size_t)s->m->n_faces; k++) {
+        const sl_int *f = s->m->faces + 3 * k;
+        double normal[3];
+        face_normal(normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
+                    s->eye + 3 * (size_t)f[2]);
+        for (int c = 0; c < 3; c++) {
+            for (int d = 0; d < 3; d++) {
+                s->normal[3 * (size_t)f[c] + (size_t)d] += normal[d];
+            }
+        }
+    }
+    for (size_t v = 0; v < n; v++) {
+        normalize(s->normal + 3 * v);
+    }
+    return true;
+}
+
+static void find_range(render_shade *s) {
+    const render_style *style = s->style;
+    s->low = style->low;
+    s->high = style->high;
+    if (style->scalar != NULL && s->low == 0 && s->high == 0) {
+        s->low = HUGE_VAL;
+        s->high = -HUGE_VAL;
+        for (size_t k = 0; k < 3 * (size_t)s->m->n_faces; k++) {
+            double x = style->scalar[s->m->faces[k]];
+            if (isfinite(x)) {
+                s->low = fmin(s->low, x);
+                s->high = fmax(s->high, x);
+            }
+        }
+    }
+}
+
+/* Corner c of a face: its u and v, or false. */
+static bool corner_uv(double out[2], const render_shade *s, size_t face, size_t c) {
+    const render_style *style = s->style;
+    size_t v = (size_t)s->m->faces[3 * face + c];
+    if (style->corner_uv == NULL && style->uv != NULL && style->has_uv != NULL &&
+        !style->has_uv[v]) {
+        return false;
+    }
+    const double *uv = style->corner_uv != NULL ? style->corner_uv + 6 * face + 2 * c
+                       : style->uv != NULL      ? style->uv + 2 * v
+                                                : NULL;
+    if (uv == NULL || !isfinite(uv[0]) || !isfinite(uv[1])) {
+        return false;
+    }
+    out[0] = uv[0];
+    out[1] = uv[1];
+    return true;
+}
+
+static void find_checks(render_shade *s) {
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, uv[2];
+    s->checks = s->style->checks;
+    if (s->checks > 0 || (s->style->uv == NULL && s->style->corner_uv == NULL)) {
+        return;
+    }
+    for (size_t k = 0; k < 3 * (size_t)s->m->n_faces; k++) {
+        for (int d = 0; corner_uv(uv, s, k / 3, k % 3) && d < 2; d++) {
+            low[d] = fmin(low[d], uv[d]);
+            high[d] = fmax(high[d], uv[d]);
+        }
+    }
+    double side = fmax(high[0] - low[0], high[1] - low[1]);
+    s->checks = side > 0 ? 20 / side : 1;
+}
+
+bool render_shade_begin(render_shade *s, const mesh *m, const render_style *style,
+                        const double *eye, double pixel) {
+    memset(s, 0, sizeof *s);
+    s->m = m;
+    s->style = style;
+    s->eye = eye;
+    s->pixel = pixel;
+    find_range(s);
+    find_checks(s);
+    return style->unlit || style->flat || vertex_normals(s);
+}
+
+void render_shade_end(render_shade *s) {
+    free(s->normal);
+    s->normal = NULL;
+}
+
+void render_shade_face(render_corner *corner, const render_shade *s, sl_int face, const double *a,
+                       const double *b, const double *c) {
+    const sl_int *f = s->m->faces + 3 * (size_t)face;
+    double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    memset(corner, 0, sizeof *corner);
+    corner->face = face;
+    corner->height[0] = fabs(area) / hypot(c[0] - b[0], c[1] - b[1]);
+    corner->height[1] = fabs(area) / hypot(a[0] - c[0], a[1] - c[1]);
+    corner->height[2] = fabs(area) / hypot(b[0] - a[0], b[1] - a[1]);
+    face_normal(corner->normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
+                s->eye + 3 * (size_t)f[2]);
+    normalize(corner->normal);
+    if (s->style->scalar != NULL) {
+        const double *x = s->style->scalar;
+        double du = x[f[1]] - x[f[0]], dv = x[f[2]] - x[f[0]];
+        corner->slope = hypot(du * (c[1] - a[1]) - dv * (b[1] - a[1]),
+                              dv * (b[0] - a[0]) - du * (c[0] - a[0])) /
+                        fabs(area);
+    }
+    corner->has_uv = true;
+    for (size_t k = 0; k < 3; k++) {
+        corner->has_uv = corner_uv(corner->uv[k], s, (size_t)face, k) && corner->has_uv;
+    }
+}
+
+static rgb checked(const render_shade *s, const render_corner *corner, const double w[3]) {
+    static const rgb light = {0xf4, 0xee, 0xe0}, dark = {0x3d, 0x6f, 0x9e};
+    double u = 0, v = 0;
+    for (int k = 0; k < 3; k++) {
+        u += w[k] * corner->uv[k][0];
+        v += w[k] * corner->uv[k][1];
+    }
+    double odd = fmod(floor(u * s->checks) + floor(v * s->checks), 2);
+    return odd != 0 ? dark : light;
+}
+
+/* Is the value on one of the levels low + k (high - low) / (isolines + 1)? */
+static bool on_isoline(const render_shade *s, const render_corner *corner, double value) {
+    int count = s->style->isolines;
+    double step = (s->high - s->low) / (count + 1);
+    if (count < 1 || !(step > 0)) {
+        return false;
+    }
+    double level = floor((value - s->low) / step + 0.5);
+    return level >= 1 && level <= count &&
+           fabs(value - s->low - level * step) <= 0.5 * isoline_width * s->pixel * corner->slope;
+}
+
+static rgb base_color(const render_shade *s, const render_corner *corner, const double w[3]) {
+    static const rgb plain = {0xd9, 0xd4, 0xcc}, line = {0x20, 0x20, 0x20};
+    const render_style *style = s->style;
+    const sl_int *f = s->m->faces + 3 * (size_t)corner->face;
+    int most = w[0] >= w[1] && w[0] >= w[2] ? 0 : w[1] >= w[2] ? 1 : 2;
+    if (corner->has_uv) {
+        return checked(s, corner, w);
+    }
+    if (style->scalar != NULL) {
+        double x =
+            w[0] * style->scalar[f[0]] + w[1] * style->scalar[f[1]] + w[2] * style->scalar[f[2]];
+        if (on_isoline(s, corner, x)) {
+            return line;
+        }
+        return color_map(!isfinite(x)       ? NAN
+                         : s->high > s->low ? (x - s->low) / (s->high - s->low)
+                                            : 0.5);
+    }
+    if (style->vertex_color != NULL) {
+        if (style->nearest) {
+            return style->vertex_color[f[most]];
+        }
+        double sum = w[0] + w[1];
+        rgb pair = color_mix(style->vertex_color[f[0]], style->vertex_color[f[1]],
+                             sum > 0 ? fmin(1, fmax(0, w[1] / sum)) : 0);
+        return color_mix(pair, style->vertex_color[f[2]], fmin(1, fmax(0, w[2])));
+    }
+    return style->face_color != NULL ? style->face_color[corner->face] : plain;
+}
+
+/* Light from the upper left behind the camera; both sides of the surface are lit. */
+static rgb lit(const render_shade *s, const render_corner *corner, const double w[3], rgb color) {
+    static const double light[3] = {-0.36, 0.48, 0.8};
+    double normal[3] = {corner->normal[0], corner->normal[1], corner->normal[2]};
+    if (s->normal != NULL) {
+        const sl_int *f = s->m->faces + 3 * (size_t)corner->face;
+        for (int d = 0; d < 3; d++) {
+            normal[d] = 0;
+            for (int c = 0; c < 3; c++) {
+                normal[d] += w[c] * s->normal[3 * (size_t)f[c] + (size_t)d];
+            }
+        }
+        normalize(normal);
+    }
+    double towards = normal[2] < 0 ? -1 : 1;
+    double cosine = towards * (normal[0] * light[0] + normal[1] * light[1] + normal[2] * light[2]);
+    double glow = 0.45 + 0.55 * fmax(0, cosine);
+    rgb black = {0, 0, 0};
+    return color_mix(black, color, glow);
+}
+
+rgb render_shade_point(const render_shade *s, const render_corner *corner, const double w[3]) {
+    rgb color = base_color(s, corner, w);
+    if (!s->style->unlit) {
+        color = lit(s, corner, w, color);
+    }
+    double near = 0.5 * s->style->edges * s->pixel;
+    for (int c = 0; near > 0 && c < 3; c++) {
+        if (w[c] * corner->height[c] <= near) {
+            return s->style->edge_color;
+        }
+    }
+    return color;
+}
