@@ -6,5 +6,9 @@
  * by themselves (app.h). */
 int command_heat(int argc, char **argv);
 int command_info(int argc, char **argv);
+int command_param(int argc, char **argv);
+int command_geodesic(int argc, char **argv);
+int command_arap(int argc, char **argv);
+int command_scp(int argc, char **argv);
 
 #endif

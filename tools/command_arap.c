@@ -8,15 +8,22 @@
 #include "command.h"
 #include "layout_job.h"
 
-static const char text[] =
-    "Lays a patch out in the plane with its lengths kept as well as can be: from the harmonic layout, turns of the "
-    "faces and a Poisson problem for the vertices, in turn (Liu et al. 2008), the same matrix each time. That matrix "
-    "is the Laplacian N of the patch by itself, its boundary free. The whole mesh's L is another: solved with L the "
-    "energy would also ask the mesh beyond the patch not to stretch at all, and hold the patch back. So the factor of "
-    "L serves for corrections: --solves local solves of it in each iteration, after which the rows of N hold but for "
-    "a rest on the boundary; with 1 the energy never rises, with 2 an iteration is worth nearly as much as an exact "
-    "one, and it comes to rest at the same layouts. --own-factor factors the patch itself and makes exact steps.\n"
-    "The energy printed is the mean over the patch of (a - 1)^2 + (b - 1)^2, a and b the stretches of a face.";
+static const char text[] = "Lays a patch out in the plane with its lengths kept as well as can be: "
+                           "from the harmonic layout, turns of the "
+                           "faces and a Poisson problem for the vertices, in turn (Liu et al. "
+                           "2008), the same matrix each time. That matrix "
+                           "is the Laplacian N of the patch by itself, its boundary free. The "
+                           "whole mesh's L is another: solved with L the "
+                           "energy would also ask the mesh beyond the patch not to stretch at all, "
+                           "and hold the patch back. So the factor of "
+                           "L serves for corrections: --solves local solves of it in each "
+                           "iteration, after which the rows of N hold but for "
+                           "a rest on the boundary; with 1 the energy never rises, with 2 an "
+                           "iteration is worth nearly as much as an exact "
+                           "one, and it comes to rest at the same layouts. --own-factor factors "
+                           "the patch itself and makes exact steps.\n"
+                           "The energy printed is the mean over the patch of (a - 1)^2 + (b - "
+                           "1)^2, a and b the stretches of a face.";
 
 typedef struct job {
     layout_job j;
@@ -74,13 +81,13 @@ int command_arap(int argc, char **argv) {
     q.iterations = 10;
     q.solves = 2;
     layout_job_defaults(&q.j);
-    const option options[] = {LAYOUT_JOB_OPTIONS(&q.j),
-                              {OPTION_COUNT, "iterations", &q.iterations, "N", "at most so many (10)"},
-                              {OPTION_COUNT, "solves", &q.solves, "N",
-                               "local solves on the mesh's factor in each iteration (2)"},
-                              {OPTION_FLAG, "own-factor", &q.own_factor, NULL,
-                               "factor the patch itself; exact steps"},
-                              {OPTION_END, NULL, NULL, NULL, NULL}};
+    const option options[] = {
+        LAYOUT_JOB_OPTIONS(&q.j),
+        {OPTION_COUNT, "iterations", &q.iterations, "N", "at most so many (10)"},
+        {OPTION_COUNT, "solves", &q.solves, "N",
+         "local solves on the mesh's factor in each iteration (2)"},
+        {OPTION_FLAG, "own-factor", &q.own_factor, NULL, "factor the patch itself; exact steps"},
+        {OPTION_END, NULL, NULL, NULL, NULL}};
     const options_usage usage = {"arap", "MESH", 1, 1, text};
     options_read(&usage, options, argc, argv, &operand);
     if (q.solves < 1 || q.solves > 1000) {

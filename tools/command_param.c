@@ -11,15 +11,24 @@
 #include "product.h"
 
 static const char text[] =
-    "Lays a patch of the mesh out in the plane by harmonic coordinates [HDA17, section 4]. The boundary is laid "
-    "out first; the flux that this layout has there (Neumann data, equation 3) is the right-hand side, nonzero "
-    "on the boundary alone, and the Laplacian of the WHOLE mesh is solved for the patch alone, on a factor made "
-    "once: exactly the patch's rows of a full solve. In this problem the mesh beyond the patch goes on, harmonic, "
-    "and takes about half of the flux; --system patch asks for the patch by itself instead, its boundary free: "
-    "another problem, whose solution some ten local solves on the same factor give to 10 digits. --dirichlet "
-    "keeps the boundary where it was laid, the classic harmonic map: that needs a factor of the patch's inside.\n"
-    "Printed figures, of the layout scaled to the area of the patch: conformal energy over area (0: all angles "
-    "kept), mean ratio of the two stretches of a face (1: angles kept), mean squared error of lengths (0: lengths "
+    "Lays a patch of the mesh out in the plane by harmonic coordinates [HDA17, section 4]. The "
+    "boundary is laid "
+    "out first; the flux that this layout has there (Neumann data, equation 3) is the right-hand "
+    "side, nonzero "
+    "on the boundary alone, and the Laplacian of the WHOLE mesh is solved for the patch alone, on "
+    "a factor made "
+    "once: exactly the patch's rows of a full solve. In this problem the mesh beyond the patch "
+    "goes on, harmonic, "
+    "and takes about half of the flux; --system patch asks for the patch by itself instead, its "
+    "boundary free: "
+    "another problem, whose solution some ten local solves on the same factor give to 10 digits. "
+    "--dirichlet "
+    "keeps the boundary where it was laid, the classic harmonic map: that needs a factor of the "
+    "patch's inside.\n"
+    "Printed figures, of the layout scaled to the area of the patch: conformal energy over area "
+    "(0: all angles "
+    "kept), mean ratio of the two stretches of a face (1: angles kept), mean squared error of "
+    "lengths (0: lengths "
     "kept), spread of the logarithm of areas (0: areas in proportion), faces turned over.";
 
 /* The best of a few repetitions, in seconds. */
@@ -132,7 +141,7 @@ static void compare(job *q) {
     memcpy(reference, q->X, bytes);
     printf("%-52s %10.3f\n", "  refactorize the patch and solve", 1e3 * q->seconds);
     timed(q, solve_cg);
-    printf("  conjugate gradients, Jacobi: %6d iterations%*s %10.3f  %.2g from refactorizing\n",
+    printf("  conjugate gradients, Jacobi: %6d iterations in all%*s %9.3f  %.2g from refactorizing\n",
            q->solves, 7, "", 1e3 * q->seconds, difference(q->X, reference, q->n));
     timed(q, solve_patch);
     printf("  the mesh's factor: %4d local solves%*s %10.3f  %.2g from refactorizing\n", q->solves,

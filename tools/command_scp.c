@@ -8,15 +8,21 @@
 #include "conformal.h"
 #include "layout_job.h"
 
-static const char text[] =
-    "Lays a patch out in the plane with its angles kept as well as can be, without a boundary laid first: the "
-    "eigenvector of the conformal energy behind the constants (Mullen et al. 2008), by inverse iteration from the "
-    "harmonic layout; 2 to 5 iterations are enough. The harmonic layout comes from the whole mesh's factor. The inverse "
-    "iteration needs the patch's own: the conformal energy is the Dirichlet energy less the area, whose terms at the "
-    "patch's boundary tie the two coordinates together and cancel the Laplacian on everything that keeps angles; no "
-    "few solves with L make up for that. --descend N makes N steps down the same energy on the whole mesh's factor "
-    "instead, one local solve each: a conformal layout near the harmonic one, not the eigenvector.\n"
-    "lambda is the energy against the sum of squares at the boundary.";
+static const char text[] = "Lays a patch out in the plane with its angles kept as well as can be, "
+                           "without a boundary laid first: the "
+                           "eigenvector of the conformal energy behind the constants (Mullen et "
+                           "al. 2008), by inverse iteration from the "
+                           "harmonic layout; 2 to 5 iterations are enough. The harmonic layout "
+                           "comes from the whole mesh's factor. The inverse "
+                           "iteration needs the patch's own: the conformal energy is the Dirichlet "
+                           "energy less the area, whose terms at the "
+                           "patch's boundary tie the two coordinates together and cancel the "
+                           "Laplacian on everything that keeps angles; no "
+                           "few solves with L make up for that. --descend N makes N steps down the "
+                           "same energy on the whole mesh's factor "
+                           "instead, one local solve each: a conformal layout near the harmonic "
+                           "one, not the eigenvector.\n"
+                           "lambda is the energy against the sum of squares at the boundary.";
 
 typedef struct job {
     layout_job j;
@@ -26,7 +32,8 @@ typedef struct job {
 static void spectral(job *q, double *X) {
     conformal c;
     double began = app_now(), lambda = 0, before = INFINITY;
-    app_must(conformal_create(&c, &q->j.d, q->j.s.N), "factor of the patch's conformal energy", NULL);
+    app_must(conformal_create(&c, &q->j.d, q->j.s.N), "factor of the patch's conformal energy",
+             NULL);
     printf("own factor of the patch's conformal energy: %.2f ms\n", 1e3 * (app_now() - began));
     for (sl_int k = 1; k <= q->iterations; k++) {
         began = app_now();
@@ -76,7 +83,8 @@ int command_scp(int argc, char **argv) {
         spectral(&q, X);
     }
     layout_job_report_head();
-    (void)layout_job_report(&q.j, q.descend > 0 ? "conformal, by descent" : "spectral conformal", X);
+    (void)layout_job_report(&q.j, q.descend > 0 ? "conformal, by descent" : "spectral conformal",
+                            X);
     layout_job_write(&q.j, X);
     free(X);
     layout_job_close(&q.j);

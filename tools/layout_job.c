@@ -63,7 +63,8 @@ static void find_patch(layout_job *j) {
         free(list);
     } else {
         sl_int start = j->vertex >= 0 ? j->vertex : 0, size = j->size;
-        while (j->vertex < 0 && start + 1 < n && j->around.begin[start] == j->around.begin[start + 1]) {
+        while (j->vertex < 0 && start + 1 < n &&
+               j->around.begin[start] == j->around.begin[start + 1]) {
             start++;
         }
         if (size == 0) {
@@ -110,14 +111,15 @@ void layout_job_open(layout_job *j, const char *operand) {
         app_die("out of memory");
     }
     find_patch(j);
+    look_at_faces(j->view, &j->picture, &j->d.p.m, NULL, 0);
     factor_mesh(j);
     double began = app_now();
     app_must(patch_solver_create(&j->s, j->S, j->F, &j->d.p), "plan of the patch", NULL);
     j->seconds_plan = app_now() - began;
     sl_stats all;
     sl_symbolic_stats(j->S, &all);
-    printf("mesh       %d vertices, %d faces; Laplacian factored in %.1f ms\n", (int)j->m.n_vertices,
-           (int)j->m.n_faces, 1e3 * j->seconds_factor);
+    printf("mesh       %d vertices, %d faces; Laplacian factored in %.1f ms\n",
+           (int)j->m.n_vertices, (int)j->m.n_faces, 1e3 * j->seconds_factor);
     printf("patch      %d vertices, %d faces, %d on its boundary, %d of them joined to the rest\n",
            (int)j->d.p.m.n_vertices, (int)j->d.p.m.n_faces, (int)j->d.n_boundary,
            (int)j->d.p.n_rim);
@@ -194,35 +196,6 @@ static double *unit_square(const layout_job *j, const double *X) {
     return uv;
 }
 
-/* Looks at the patch from in front of it: against the mean normal of its faces, unless --view says from where. */
-static void look_at_patch(const layout_job *j, render_view *view) {
-    const mesh *m = &j->d.p.m;
-    double normal[3] = {0, 0, 0};
-    app_view(view, &j->picture);
-    if (j->picture.view != NULL) {
-        return;
-    }
-    for (sl_int f = 0; f < m->n_faces; f++) {
-        const sl_int *face = m->faces + 3 * (size_t)f;
-        const double *a = m->xyz + 3 * (size_t)face[0], *b = m->xyz + 3 * (size_t)face[1];
-        const double *c = m->xyz + 3 * (size_t)face[2];
-        for (int k = 0; k < 3; k++) {
-            int p = (k + 1) % 3, q = (k + 2) % 3;
-            normal[k] += (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
-        }
-    }
-    /* azimuth and elevation as render_view has them */
-    static const int axes[3][3] = {{1, 0, 2}, {0, 1, 2}, {2, 0, 1}}; /* upwards, to the right, to the front */
-    const int *axis = axes[view->up];
-    double front = view->up == RENDER_UP_Z ? -normal[axis[2]] : normal[axis[2]];
-    double across = hypot(normal[axis[1]], front);
-    if (across > 0 || normal[axis[0]] != 0) {
-        view->azimuth = atan2(normal[axis[1]], front) * 180 / 3.14159265358979323846;
-        view->elevation = atan2(normal[axis[0]], across) * 180 / 3.14159265358979323846;
-        view->automatic = false;
-    }
-}
-
 static void write_png(const picture *p, bool made, const char *path) {
     if (!made) {
         app_die("%s: no memory for the picture", path);
@@ -253,7 +226,7 @@ static void draw_mesh(const layout_job *j, const double *uv, const render_style 
     }
     style.uv = NULL;
     style.corner_uv = corner_uv;
-    look_at_patch(j, &view);
+    app_view(&view, &j->picture);
     bool made = render_mesh(&p, &j->m, &view, &style);
     write_png(&p, made, j->picture.png);
     picture_free(&p);
@@ -261,6 +234,7 @@ static void draw_mesh(const layout_job *j, const double *uv, const render_style 
 }
 
 void layout_job_write(const layout_job *j, const double *X) {
+    static const rgb grey = {0x28, 0x28, 0x28};
     char message[512];
     double *uv = unit_square(j, X);
     render_style style;
@@ -279,14 +253,15 @@ void layout_job_write(const layout_job *j, const double *X) {
     }
     if (j->layout != NULL) {
         app_view(&view, &j->picture);
-        style.edges = j->d.p.m.n_faces <= 20000 ? 0.5 : 0;
+        style.edges = j->d.p.m.n_faces <= 20000 ? 0.4 : 0;
+        style.edge_color = grey;
         bool made = render_layout(&p, &j->d.p.m, uv, &view, &style);
         write_png(&p, made, j->layout);
         picture_free(&p);
         style.edges = 0;
     }
     if (j->patch != NULL) {
-        look_at_patch(j, &view);
+        app_view(&view, &j->picture);
         bool made = render_mesh(&p, &j->d.p.m, &view, &style);
         write_png(&p, made, j->patch);
         picture_free(&p);

@@ -5,6 +5,7 @@
 #include "app.h"
 #include "disk.h"
 #include "distortion.h"
+#include "look.h"
 #include "patch_solver.h"
 
 /** A command's options and, once opened, the mesh, its factor, the patch and the solver on it. All zero before
@@ -14,13 +15,14 @@ typedef struct layout_job {
     const char *list;      /* --list */
     const char *list_file; /* --list-file */
     sl_int vertex;         /* --vertex */
-    sl_int size;           /* --size */
+    sl_int size;           /* --count */
     const char *boundary;  /* --boundary */
     const char *out;       /* --out */
     const char *layout;    /* --layout */
     const char *patch;     /* --patch */
     sl_int checks;         /* --checks */
     app_output picture;    /* --png and how */
+    char view[LOOK_TEXT];  /* where the patch is seen from the front */
     /* what is made of them */
     mesh m;
     incidence around;
@@ -33,14 +35,14 @@ typedef struct layout_job {
     double seconds_plan;   /* the patch, once its vertices are known: plans, its own Laplacian */
 } layout_job;
 
-/** How many vertices a patch has where --size does not say. */
+/** How many vertices a patch has where --count does not say. */
 enum { LAYOUT_JOB_SIZE = 2000 };
 
 #define LAYOUT_JOB_OPTIONS(j)                                                                      \
     {OPTION_COUNT, "vertex", &(j)->vertex, "V",                                                    \
      "grow the patch from this vertex in breadth-first order, a disk at every step (the first "    \
      "that has a face)"},                                                                          \
-        {OPTION_COUNT, "size", &(j)->size, "N",                                                    \
+        {OPTION_COUNT, "count", &(j)->size, "N",                                                   \
          "vertices of the grown patch (2000, or a fourth of the mesh where that is less)"},        \
         {OPTION_TEXT, "list", &(j)->list, "LIST",                                                  \
          "instead: the patch of these vertices, 3,17,100-200; refused with the reason if it is "   \
