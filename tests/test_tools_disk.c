@@ -128,6 +128,69 @@ static void rims_and_seams(void **state) {
     whole_free(&w);
 }
 
+/* A closed tube of `rings` rings of 8 vertices, the last two vertices its ends. */
+static mesh closed_tube(sl_int rings) {
+    mesh m = {8 * rings + 2, 16 * rings, NULL, NULL};
+    m.xyz = test_reals(3 * (size_t)m.n_vertices);
+    m.faces = test_ints(3 * (size_t)m.n_faces);
+    sl_int *f = m.faces;
+    for (sl_int r = 0; r < rings; r++) {
+        for (sl_int k = 0; k < 8; k++) {
+            sl_int here = 8 * r + k, next = 8 * r + (k + 1) % 8;
+            double *x = m.xyz + 3 * (size_t)here;
+            x[0] = cos(k * 3.14159265358979 / 4);
+            x[1] = sin(k * 3.14159265358979 / 4);
+            x[2] = r;
+            if (r == 0) {
+                const sl_int low[3] = {next, here, 8 * rings};
+                memcpy(f, low, sizeof low);
+                f += 3;
+            }
+            const sl_int side[3] = {here, next, r + 1 < rings ? here + 8 : 8 * rings + 1};
+            const sl_int other[3] = {next, next + 8, here + 8};
+            memcpy(f, side, sizeof side);
+            f += 3;
+            if (r + 1 < rings) {
+                memcpy(f, other, sizeof other);
+                f += 3;
+            }
+        }
+    }
+    m.xyz[24 * rings + 2] = -1;
+    m.xyz[24 * rings + 5] = rings;
+    return m;
+}
+
+/* A patch that meets itself around a finger takes the tip too, if it is smaller than the patch. */
+static void enclosed_tips(void **state) {
+    (void)state;
+    whole_t w;
+    disk d;
+    sl_int seam;
+    whole_make(&w, closed_tube(60));
+    for (sl_int ring = 0; ring < 60; ring += 4) {
+        for (sl_int count = 20; count <= 200; count += 30) {
+            assert_true(disk_grow(&d, &w.around, 8 * ring + 3, count, &seam, NULL, 0));
+            is_disk(&d);
+            is_part_of(&d.p, &w.around);
+            assert_true(d.p.m.n_vertices < 2 * count);
+            if (ring == 0 || (ring == 4 && count >= 80)) { /* the tip, vertex 480, is in */
+                bool tip = false;
+                for (sl_int k = 0; k < d.p.m.n_vertices; k++) {
+                    tip = tip || d.p.vertices[k] == 480;
+                }
+                assert_true(tip && seam == 0);
+            }
+            if (ring == 28 &&
+                count >= 80) { /* both ends are larger than the patch: it keeps a seam */
+                assert_true(seam > 0 && d.p.m.n_vertices <= count);
+            }
+            disk_free(&d);
+        }
+    }
+    whole_free(&w);
+}
+
 static void refused(whole_t *w, const sl_int *list, sl_int count, const char *reason) {
     disk d;
     char message[200] = "";
@@ -320,9 +383,13 @@ static void real_meshes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grown_disks),     cmocka_unit_test(rims_and_seams),
-        cmocka_unit_test(lists_on_a_grid), cmocka_unit_test(lists_that_are_no_disks),
-        cmocka_unit_test(no_surfaces),     cmocka_unit_test(what_cannot_grow),
+        cmocka_unit_test(grown_disks),
+        cmocka_unit_test(rims_and_seams),
+        cmocka_unit_test(enclosed_tips),
+        cmocka_unit_test(lists_on_a_grid),
+        cmocka_unit_test(lists_that_are_no_disks),
+        cmocka_unit_test(no_surfaces),
+        cmocka_unit_test(what_cannot_grow),
         cmocka_unit_test(real_meshes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

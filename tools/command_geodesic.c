@@ -231,16 +231,32 @@ static void cells(job *q) {
     free(cell);
 }
 
+/* Those that --from names, each once; else the first corner of a face with a shape. */
+static sl_int *sources_of(const char *from, const mesh *m, sl_int *count) {
+    if (from != NULL) {
+        sl_int *list = app_vertices("from", from, m->n_vertices, 1, count);
+        *count = app_distinct(list, *count, m->n_vertices);
+        return list;
+    }
+    sl_int *first = app_alloc(1, sizeof *first), f = 0;
+    while (f + 1 < m->n_faces && !(laplacian_of_face(m, m->faces + 3 * (size_t)f).area > 0)) {
+        f++;
+    }
+    first[0] = m->faces[3 * (size_t)f];
+    *count = 1;
+    return first;
+}
+
 int command_geodesic(int argc, char **argv) {
     job q;
-    const char *operand = NULL, *from = "0";
+    const char *operand = NULL, *from = NULL;
     double radius = 0, margin = HEAT_MARGIN, scaled = 0, time = 0;
     sl_int solves = HEAT_SOLVES;
     bool voronoi = false, cut = false;
     memset(&q, 0, sizeof q);
     const option options[] = {
         {OPTION_TEXT, "from", &from, "VERTICES",
-         "the sources or sites: 3,17,100-200 or random:5 (0)"},
+         "the sources or sites: 3,17,100-200 or random:5 (the first that has a face)"},
         {OPTION_REAL, "radius", &radius, "R", "only so far; without it the whole mesh"},
         {OPTION_REAL, "margin", &margin, "F", "the ball is F times as wide, along edges (1.5)"},
         {OPTION_COUNT, "solves", &solves, "N", "local solves for the distance in a ball (4)"},
@@ -268,12 +284,14 @@ int command_geodesic(int argc, char **argv) {
     q.reach.radius = radius;
     q.reach.margin = margin;
     q.reach.solves = cut ? 1 : (int)solves;
-    q.sources = app_vertices("from", from, q.m.n_vertices, 1, &q.n_sources);
-    q.n_sources = app_distinct(q.sources, q.n_sources, q.m.n_vertices);
+    q.sources = sources_of(from, &q.m, &q.n_sources);
     double edge = mesh_mean_edge_length(&q.m);
     double t = time > 0 ? time : (scaled > 0 ? scaled : 4) * edge * edge;
     if (!(t > 0)) {
         app_die("%s: its edges have no length", operand);
+    }
+    if (t < 0.1 * edge * edge) {
+        printf("warning    in this time heat does not get over an edge: distances will be wrong\n");
     }
     double began = app_now();
     app_progress("factoring the mesh twice", 0);

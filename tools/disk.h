@@ -17,13 +17,15 @@ typedef struct disk {
 
 /** Grows a disk of up to count vertices around start, face by face in breadth-first order.
  *
- *  A face is taken only if what is there stays a disk: so a patch that meets itself around a handle or behind a peak
- *  keeps a seam, a row of faces that are left out although their vertices are in. Faces with a repeated vertex are
- *  passed over, and so is what would make an edge of three faces.
+ *  A face is taken only if what is there stays a disk. A patch that meets itself behind a peak first keeps a seam, a row
+ *  of faces left out although their vertices are in; then what it encloses (less than it has itself) is taken too, if
+ *  that makes a disk without a seam. Around a handle the seam stays. Faces with a repeated vertex are passed over, and
+ *  so is what would make an edge of three faces.
  *
  *  out       [out]  release with disk_free; all zero on error.
  *  around    [in,out]  its scratch is used and given back as it was.
- *  count     [in]   3 or more; the disk has fewer if the component has, or if no face can be taken any more.
+ *  count     [in]   3 or more; the disk has fewer if the component has, or if no face can be taken any more; what it
+ *                   encloses comes on top.
  *  seam      [out]  how many faces between the disk's vertices are left out; may be NULL.
  *  message   [out]  on error what is wrong; may be NULL with message_size 0.
  *  Returns  true; false: start out of range or at no face, count below 3, out of memory.

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "disk_holes.h"
+
 typedef struct growth {
     incidence *around;
     sl_int *vertices, n_vertices, vertex_room;
@@ -123,6 +125,20 @@ static sl_int count_seam(const growth *g) {
     return corners / 3;
 }
 
+/* The disk without its seam: with what it encloses, and all faces between. False: that is none. */
+static bool close_up(disk *out, const growth *g) {
+    sl_int count = g->n_vertices;
+    sl_int *list = (sl_int *)malloc(((size_t)count + 1) * sizeof *list);
+    if (list == NULL) {
+        return false;
+    }
+    memcpy(list, g->vertices, (size_t)count * sizeof *list);
+    bool ok = disk_enclosed(&list, &count, g->around, count) &&
+              disk_of_list(out, g->around, list, count, NULL, 0);
+    free(list);
+    return ok;
+}
+
 static bool fail(char *message, size_t message_size, const char *reason, sl_int v) {
     (void)snprintf(message, message_size, reason, (int)v);
     return false;
@@ -142,6 +158,7 @@ bool disk_grow(disk *out, incidence *around, sl_int start, sl_int count, sl_int 
         return fail(message, message_size, "a patch of %d vertices: 3 or more are needed", count);
     }
     growth g;
+    sl_int left_out = 0;
     memset(&g, 0, sizeof g);
     g.around = around;
     g.vertex_room = count < around->m->n_vertices ? count : around->m->n_vertices;
@@ -151,9 +168,7 @@ bool disk_grow(disk *out, incidence *around, sl_int start, sl_int count, sl_int 
         take_vertex(&g, start);
         take_face(&g, around->face[around->begin[start]]);
         grow(&g);
-        if (seam != NULL) {
-            *seam = count_seam(&g);
-        }
+        left_out = count_seam(&g);
     }
     for (sl_int k = 0; k < g.n_vertices; k++) {
         around->place[g.vertices[k]] = -1;
@@ -163,10 +178,18 @@ bool disk_grow(disk *out, incidence *around, sl_int start, sl_int count, sl_int 
     }
     bool ok = !g.no_memory;
     if (ok) {
-        ok = disk_of_faces(out, around, g.vertices, g.n_vertices, g.faces, g.n_faces, message,
-                           message_size);
+        ok = left_out > 0 && close_up(out, &g);
+        if (!ok) {
+            ok = disk_of_faces(out, around, g.vertices, g.n_vertices, g.faces, g.n_faces, message,
+                               message_size);
+        } else {
+            left_out = 0;
+        }
     } else {
         (void)snprintf(message, message_size, "out of memory");
+    }
+    if (seam != NULL) {
+        *seam = left_out;
     }
     free(g.queue);
     free(g.faces);
