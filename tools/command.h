@@ -4,7 +4,9 @@
 
 /* argv[0] is the name of the command. Each returns the exit status: 0, or 1 where a check failed; errors end the program
  * by themselves (app.h). */
+int command_adf(int argc, char **argv);
 int command_heat(int argc, char **argv);
+int command_hks(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_param(int argc, char **argv);
 int command_geodesic(int argc, char **argv);

@@ -113,7 +113,7 @@ static void write_mesh(const app_output *output, const mesh *m, const double *x,
 int command_heat(int argc, char **argv) {
     const char *operand = NULL, *from = "0", *at = NULL;
     double radius = 0;
-    heat_time time = {0, 0};
+    heat_time time = {0, 0, 0};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
@@ -121,7 +121,7 @@ int command_heat(int argc, char **argv) {
         {OPTION_TEXT, "at", &at, "VERTICES", "where heat is wanted: a list, or all (all)"},
         {OPTION_REAL, "radius", &radius, "R",
          "where heat is wanted: no farther than R from a source"},
-        HEAT_TIME_OPTIONS(&time),
+        HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, options, argc, argv, &operand);
@@ -131,7 +131,7 @@ int command_heat(int argc, char **argv) {
     mesh m;
     heat_system h;
     app_mesh(&m, operand, true);
-    heat_system_create(&h, &m, heat_time_value(&time, &m));
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
     sl_int n_sources = 0, n_wanted = 0;
     sl_int *sources = app_vertices("from", from, m.n_vertices, 1, &n_sources);
     n_sources = app_distinct(sources, n_sources, m.n_vertices);

@@ -4,7 +4,6 @@
 #include "app.h"
 #include "command.h"
 #include "heat_system.h"
-#include "laplacian.h"
 #include "mesh_facts.h"
 
 static const options_usage usage = {"info", "MESH", 1, 1,
@@ -54,8 +53,7 @@ static void print_paths(const sl_symbolic *S) {
     free(weight);
 }
 
-static void print_costs(const heat_system *h, double seconds_read, double seconds_matrix,
-                        double seconds_solve) {
+static void print_costs(const heat_system *h, double seconds_read, double seconds_solve) {
     const sl_stats *s = &h->stats;
     printf("M + t L              %12d   rows, %lld entries of the lower triangle, t = %.6g\n",
            (int)s->n, (long long)s->nnz_a, h->t);
@@ -67,7 +65,7 @@ static void print_costs(const heat_system *h, double seconds_read, double second
     print_paths(h->S);
     printf("seconds              read %.4g, assemble %.4g, order %.4g, analyse %.4g, factor %.4g, "
            "full solve %.4g\n",
-           seconds_read, seconds_matrix, s->seconds_order, s->seconds_analyse,
+           seconds_read, h->seconds_assemble, s->seconds_order, s->seconds_analyse,
            s->seconds_setup + s->seconds_factor, seconds_solve);
     printf("megabytes            analysis %.2f, factor %.2f\n", 1e-6 * (double)s->bytes_symbolic,
            1e-6 * (double)s->bytes_factor);
@@ -94,9 +92,9 @@ static double time_solve(const heat_system *h) {
 
 int command_info(int argc, char **argv) {
     const char *operand = NULL;
-    heat_time time = {0, 0};
+    heat_time time = {0, 0, 0};
     bool mesh_only = false;
-    const option options[] = {HEAT_TIME_OPTIONS(&time),
+    const option options[] = {HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
                               {OPTION_FLAG, "mesh-only", &mesh_only, NULL, "do not factor"},
                               {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, options, argc, argv, &operand);
@@ -114,15 +112,8 @@ int command_info(int argc, char **argv) {
         printf("no faces: there is nothing to factor\n");
     } else if (!mesh_only) {
         heat_system h;
-        sl_matrix *matrix = NULL;
-        double t = heat_time_value(&time, &m);
-        begin = app_now();
-        bool made = laplacian_system(&matrix, &m, t);
-        double seconds_matrix = app_now() - begin;
-        sl_matrix_free(matrix);
-        (void)made; /* heat_system_create says what is wrong */
-        heat_system_create(&h, &m, t);
-        print_costs(&h, seconds_read, seconds_matrix, time_solve(&h));
+        heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+        print_costs(&h, seconds_read, time_solve(&h));
         heat_system_free(&h);
     }
     mesh_free(&m);

@@ -4,37 +4,52 @@
 
 #include "app.h"
 
-/** (M + t L) x = b moves heat b for a time t by one implicit step: M the lumped mass, L the cotangent Laplacian. */
+/** (M + t L) x = b moves heat b for a time t by one implicit step: M the lumped mass, L the cotangent Laplacian.
+ *
+ *  With L phi = lambda M phi and phi' M phi = 1, the entries of the inverse are sums over all eigenvectors,
+ *  x_ij = sum phi_i phi_j / (1 + t lambda): heat that one unit at j leaves at i, a unit of area.
+ */
 typedef struct heat_system {
     double t;
-    sl_matrix *matrix; /* lower triangle of M + t L */
-    sl_csc A;          /* a view of it */
+    sl_matrix *laplacian; /* lower triangle of L: its pattern serves every t */
+    double *mass;         /* n */
+    double *values;       /* of M + t L */
+    sl_csc A;             /* lower triangle of M + t L: pattern of L, those values */
     sl_symbolic *S;
     sl_factor *F;
-    sl_stats stats; /* of analysis and factorization */
+    sl_stats stats;          /* of analysis and factorization */
+    double seconds_assemble; /* for L, M, and the first sum */
 } heat_system;
 
 /** Assembles, analyses and factors; dies with a reason where that fails. Release with heat_system_free. */
 void heat_system_create(heat_system *h, const mesh *m, double t);
 
-/** Other values of t: assembled and factored again over the same analysis. */
-void heat_system_set_time(heat_system *h, const mesh *m, double t);
+/** Another t: new values, factored again over the same analysis. Nothing is allocated. */
+void heat_system_set_time(heat_system *h, double t);
 
 void heat_system_free(heat_system *h);
 
-/** The options --time and --scaled-time and what they come to; both start as 0. */
+/** The options --time, --scaled-time and --area-time, and what they come to; all start as 0. */
 typedef struct heat_time {
     double time;
     double scaled;
+    double area;
 } heat_time;
 
-#define HEAT_TIME_OPTIONS(h)                                                                       \
-    {OPTION_REAL, "time", &(h)->time, "T", "diffuse for the time T"}, {                            \
-        OPTION_REAL, "scaled-time", &(h)->scaled, "S",                                             \
-            "diffuse for S times the squared mean length of an edge (1)"                           \
+#define HEAT_TIME_OPTIONS(h, default_text)                                                         \
+    {OPTION_REAL, "time", &(h)->time, "T", "diffuse for the time T"},                              \
+        {OPTION_REAL, "scaled-time", &(h)->scaled, "S",                                            \
+         "diffuse for S times the squared mean length of an edge"},                                \
+    {                                                                                              \
+        OPTION_REAL, "area-time", &(h)->area, "A",                                                 \
+            "diffuse for A times the area of the surface; " default_text                           \
     }
 
-/** The time asked for; dies on one that is not positive. */
-double heat_time_value(const heat_time *h, const mesh *m);
+/** The time asked for; where none is, default_area times the area if that is above 0, else the squared mean length of an
+ *  edge. Dies on a time that is not positive. */
+double heat_time_value(const heat_time *h, const mesh *m, double default_area);
+
+/** Area of all faces. */
+double heat_area(const mesh *m);
 
 #endif

@@ -14,6 +14,8 @@ typedef struct command {
 static const command commands[] = {
     {"info", "what a mesh is, and what its factorization costs", command_info},
     {"heat", "heat that flows from some vertices, wanted at some others", command_heat},
+    {"adf", "auto-diffusion: the heat that stays, for some vertices or all", command_adf},
+    {"hks", "heat-kernel signatures: auto-diffusion over a range of times", command_hks},
     {"param", "a patch laid out in the plane by harmonic coordinates", command_param},
     {"arap", "a patch laid out with its lengths kept: as rigid as possible", command_arap},
     {"scp", "a patch laid out with its angles kept: spectral conformal", command_scp},

@@ -1,0 +1,110 @@
+/* command_adf.c: the auto-diffusion function: heat that stays where it was, for some vertices or all */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h"
+#include "command.h"
+#include "heat_system.h"
+
+static const options_usage usage = {
+    "adf", "MESH", 1, 1,
+    "The auto-diffusion function: of one unit of heat at a vertex, what is left there after a time "
+    "t. It is the diagonal "
+    "of (M + t L)^-1, by one implicit step as in the paper; no eigenvectors. For all vertices the "
+    "whole diagonal comes "
+    "at once, for a list each vertex costs its path in the elimination tree."};
+
+/* What a full solve for each vertex would take, from some of them; they also check the values. */
+static double compare_full(const double *values, const heat_system *h, const sl_int *vertices,
+                           sl_int count, double *worst) {
+    enum { SAMPLE = 5 };
+    size_t n = (size_t)h->A.n_cols;
+    double *b = app_alloc(n, sizeof *b), *x = app_alloc(n, sizeof *x);
+    double seconds = HUGE_VAL;
+    sl_work *W = NULL;
+    app_must(sl_work_create(&W, NULL), "workspace", NULL);
+    *worst = 0;
+    for (sl_int k = 0; k < SAMPLE && k < count; k++) {
+        sl_int place = (sl_int)((int64_t)k * (count - 1) / (SAMPLE - 1)), v = vertices[place];
+        b[v] = 1;
+        double begin = app_now();
+        app_must(sl_factor_solve(h->F, x, n, b, n, 1, W), "full solve", NULL);
+        double end = app_now();
+        seconds = end - begin < seconds ? end - begin : seconds;
+        *worst = fmax(*worst, fabs(values[place] - x[v]) / fabs(x[v]));
+        b[v] = 0;
+    }
+    sl_work_free(W);
+    free(x);
+    free(b);
+    return count > 0 ? seconds : 0;
+}
+
+static void write_results(const app_output *output, const mesh *m, const double *values,
+                          const sl_int *vertices, sl_int count) {
+    size_t n = (size_t)m->n_vertices;
+    double *field = app_alloc(n, sizeof *field), *shown = app_alloc(n, sizeof *shown);
+    FILE *csv = output->csv != NULL ? app_create(output->csv) : NULL;
+    if (csv != NULL) {
+        fprintf(csv, "vertex,adf\n");
+    }
+    for (size_t v = 0; v < n; v++) {
+        field[v] = shown[v] = NAN;
+    }
+    for (sl_int k = 0; k < count; k++) {
+        field[vertices[k]] = values[k];
+        shown[vertices[k]] = values[k] > 0 ? log(values[k]) : NAN;
+        if (csv != NULL) {
+            fprintf(csv, "%d,%.17g\n", (int)vertices[k], values[k]);
+        } else if (count <= 20) {
+            printf("%d %.17g\n", (int)vertices[k], values[k]);
+        }
+    }
+    if (csv != NULL) {
+        app_close(csv, output->csv);
+    }
+    const mesh_field fields[] = {{"adf", field}};
+    const mesh_extra extra = {.fields = fields, .n_fields = 1};
+    const render_style style = {.scalar = shown, .isolines = 14};
+    app_write(output, m, &extra, &style);
+    free(shown);
+    free(field);
+}
+
+int command_adf(int argc, char **argv) {
+    const char *operand = NULL, *at = "all";
+    heat_time time = {0, 0, 0};
+    app_output output;
+    memset(&output, 0, sizeof output);
+    const option options[] = {
+        {OPTION_TEXT, "at", &at, "VERTICES", "a list 3,17,100-200, or random:5, or all (all)"},
+        HEAT_TIME_OPTIONS(&time, "otherwise A = 0.01"),
+        APP_OUTPUT_OPTIONS(&output),
+        {OPTION_END, NULL, NULL, NULL, NULL}};
+    options_read(&usage, options, argc, argv, &operand);
+    mesh m;
+    heat_system h;
+    sl_int count = 0;
+    app_mesh(&m, operand, true);
+    sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
+    double *values = app_alloc((size_t)count, sizeof *values);
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0.01));
+    bool all = strcmp(at, "all") == 0;
+    double begin = app_now(), worst = 0;
+    app_must(sl_inverse_diagonal(h.F, values, all ? NULL : vertices, count, NULL, NULL),
+             "auto-diffusion", NULL);
+    double seconds = app_now() - begin;
+    double full = compare_full(values, &h, vertices, count, &worst);
+    printf("auto-diffusion of %d of %d vertices, t = %.6g\n", (int)count, (int)m.n_vertices, h.t);
+    printf("seconds: order and analyse %.4g, factor %.4g, auto-diffusion %.4g\n",
+           h.stats.seconds_order + h.stats.seconds_analyse, h.stats.seconds_factor, seconds);
+    printf("a full solve for each vertex: %.4g s, %.0f times as long; they differ by %.2g\n",
+           full * count, seconds > 0 ? full * count / seconds : 0, worst);
+    write_results(&output, &m, values, vertices, count);
+    free(values);
+    free(vertices);
+    heat_system_free(&h);
+    mesh_free(&m);
+    return worst > 1e-8;
+}

@@ -1,0 +1,170 @@
+/* command_hks.c: heat-kernel signatures: auto-diffusion of vertices over a range of times */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h"
+#include "command.h"
+#include "heat_system.h"
+
+static const options_usage usage = {"hks", "MESH", 1, 1,
+                                    "The heat-kernel signature of a vertex: its auto-diffusion "
+                                    "(see adf) at several times, spaced evenly on a logarithmic "
+                                    "scale. The pattern is analysed once; every further time "
+                                    "refactors in place. The times span those of the first 300 "
+                                    "eigenvalues, whose sizes Weyl's law tells from the area."};
+
+static const double pi = 3.14159265358979323846;
+
+/* Signatures as usual [Sun, Ovsjanikov, Guibas 2009]: from 4 ln 10 / lambda_300 to 4 ln 10 / lambda_2, with
+ * lambda_k = 4 pi k / area. */
+static void find_times(double *times, sl_int count, double first, double last, const mesh *m) {
+    double area = heat_area(m);
+    first = first > 0 ? first : 4 * log(10) * area / (4 * pi * 300);
+    last = last > 0 ? last : 4 * log(10) * area / (4 * pi * 2);
+    if (!(first > 0 && last >= first) || !isfinite(last)) {
+        app_die("no times from %g to %g: the area is %g; give --first and --last", first, last,
+                area);
+    }
+    for (sl_int k = 0; k < count; k++) {
+        times[k] = first * pow(last / first, count > 1 ? (double)k / (count - 1) : 0);
+    }
+}
+
+/* values[k count + i]: vertex i of the list at time k. */
+static void compute(double *values, heat_system *h, const double *times, sl_int n_times,
+                    const sl_int *vertices, sl_int count, bool all) {
+    sl_work *W = NULL;
+    app_must(sl_work_create(&W, NULL), "workspace", NULL);
+    for (sl_int k = 0; k < n_times; k++) {
+        app_progress("signatures", (double)k / n_times);
+        if (h->t != times[k]) {
+            heat_system_set_time(h, times[k]);
+        }
+        app_must(sl_inverse_diagonal(h->F, values + (size_t)k * (size_t)count,
+                                     all ? NULL : vertices, count, W, NULL),
+                 "auto-diffusion", NULL);
+    }
+    app_progress_end();
+    sl_work_free(W);
+}
+
+static void write_csv(const char *path, const double *values, const double *times, sl_int n_times,
+                      const sl_int *vertices, sl_int count) {
+    FILE *csv = app_create(path);
+    fprintf(csv, "vertex");
+    for (sl_int k = 0; k < n_times; k++) {
+        fprintf(csv, ",%.17g", times[k]);
+    }
+    for (sl_int i = 0; i < count; i++) {
+        fprintf(csv, "\n%d", (int)vertices[i]);
+        for (sl_int k = 0; k < n_times; k++) {
+            fprintf(csv, ",%.17g", values[(size_t)k * (size_t)count + (size_t)i]);
+        }
+    }
+    fprintf(csv, "\n");
+    app_close(csv, path);
+}
+
+/* How far the signature of vertex i of the list is from that of place `like`: the root mean square of the differences
+ * of logarithms, or, without `like`, the logarithm at the middle time. */
+static double shown_value(const double *values, sl_int n_times, sl_int count, sl_int i,
+                          sl_int like) {
+    if (like < 0) {
+        double x = values[(size_t)(n_times / 2) * (size_t)count + (size_t)i];
+        return x > 0 ? log(x) : NAN;
+    }
+    double sum = 0;
+    for (sl_int k = 0; k < n_times; k++) {
+        double a = values[(size_t)k * (size_t)count + (size_t)i];
+        double b = values[(size_t)k * (size_t)count + (size_t)like];
+        sum += a > 0 && b > 0 ? log(a / b) * log(a / b) : NAN;
+    }
+    return sqrt(sum / n_times);
+}
+
+static void write_mesh(const app_output *output, const mesh *m, const double *values,
+                       sl_int n_times, const sl_int *vertices, sl_int count, sl_int like) {
+    size_t n = (size_t)m->n_vertices, fields_room = (size_t)n_times + 1;
+    double *columns = app_alloc(fields_room * n, sizeof *columns);
+    mesh_field *fields = app_alloc(fields_room, sizeof *fields);
+    char(*names)[24] = app_alloc(fields_room, sizeof *names);
+    for (size_t k = 0; k < fields_room * n; k++) {
+        columns[k] = NAN;
+    }
+    for (size_t k = 0; k < fields_room; k++) {
+        (void)snprintf(names[k], sizeof names[k], k == 0 ? "shown" : "hks_%d", (int)k - 1);
+        fields[k].name = names[k];
+        fields[k].value = columns + k * n;
+        for (sl_int i = 0; i < count; i++) {
+            columns[k * n + (size_t)vertices[i]] =
+                k == 0 ? shown_value(values, n_times, count, i, like)
+                       : values[(k - 1) * (size_t)count + (size_t)i];
+        }
+    }
+    const rgb red = {0xd5, 0x2b, 0x1e};
+    const render_mark mark = {like >= 0 ? vertices[like] : 0, 6, red};
+    const mesh_extra extra = {.fields = fields, .n_fields = (int)fields_room};
+    const render_style style = {
+        .scalar = columns, .isolines = 10, .marks = &mark, .n_marks = like >= 0};
+    app_write(output, m, &extra, &style);
+    free(names);
+    free(fields);
+    free(columns);
+}
+
+int command_hks(int argc, char **argv) {
+    const char *operand = NULL, *at = "all", *like = NULL;
+    double first = 0, last = 0;
+    sl_int n_times = 16, count = 0, likes = 0, like_place = -1;
+    app_output output;
+    memset(&output, 0, sizeof output);
+    const option options[] = {
+        {OPTION_TEXT, "at", &at, "VERTICES", "a list 3,17,100-200, or random:5, or all (all)"},
+        {OPTION_COUNT, "times", &n_times, "K", "how many times (16)"},
+        {OPTION_REAL, "first", &first, "T", "the first time (by the area)"},
+        {OPTION_REAL, "last", &last, "T", "the last time (by the area)"},
+        {OPTION_TEXT, "like", &like, "VERTEX",
+         "the picture shows how far each signature is from that of this vertex (otherwise the "
+         "middle time)"},
+        APP_OUTPUT_OPTIONS(&output),
+        {OPTION_END, NULL, NULL, NULL, NULL}};
+    options_read(&usage, options, argc, argv, &operand);
+    if (n_times < 1 || n_times > 1000 || first < 0 || last < 0) {
+        app_die_usage("--times from 1 to 1000, --first and --last above 0");
+    }
+    mesh m;
+    heat_system h;
+    app_mesh(&m, operand, true);
+    sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
+    if (like != NULL) {
+        sl_int *wanted = app_vertices("like", like, m.n_vertices, 1, &likes);
+        for (sl_int i = 0; i < count && like_place < 0; i++) {
+            like_place = vertices[i] == wanted[0] ? i : -1;
+        }
+        free(wanted);
+        if (likes != 1 || like_place < 0) {
+            app_die_usage("--like %s: one vertex, and one of those of --at", like);
+        }
+    }
+    double *times = app_alloc((size_t)n_times, sizeof *times);
+    double *values = app_alloc((size_t)n_times * (size_t)count, sizeof *values);
+    find_times(times, n_times, first, last, &m);
+    heat_system_create(&h, &m, times[0]);
+    double begin = app_now();
+    compute(values, &h, times, n_times, vertices, count, strcmp(at, "all") == 0);
+    printf("signatures of %d of %d vertices at %d times from %.6g to %.6g\n", (int)count,
+           (int)m.n_vertices, (int)n_times, times[0], times[n_times - 1]);
+    printf("seconds: order and analyse %.4g, all times together %.4g\n",
+           h.stats.seconds_order + h.stats.seconds_analyse, app_now() - begin);
+    if (output.csv != NULL) {
+        write_csv(output.csv, values, times, n_times, vertices, count);
+    }
+    write_mesh(&output, &m, values, n_times, vertices, count, like_place);
+    free(values);
+    free(times);
+    free(vertices);
+    heat_system_free(&h);
+    mesh_free(&m);
+    return 0;
+}
