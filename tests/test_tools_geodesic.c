@@ -309,7 +309,7 @@ static void cells(void **state) {
         sites[k] = 300 * k + gen_below(&chance, 290);
     }
     sl_off touched;
-    SL_CHECK(heat_cells(cell, most, &y.s, sites, 21, 0, &touched));
+    SL_CHECK(heat_cells(cell, most, &y.s, sites, 21, 0, &touched, NULL));
     assert_true(touched == 21 * (sl_off)n);
     for (sl_int v = 0; v < n; v++) {
         double best = INFINITY, next = INFINITY;
@@ -334,11 +334,11 @@ static void cells(void **state) {
     for (int k = 0; k < 21; k++) {
         assert_int_equal(cell[sites[k]], k);
     }
-    SL_CHECK(heat_cells(near, most, &y.s, sites, 21, 2, NULL));
+    SL_CHECK(heat_cells(near, most, &y.s, sites, 21, 2, NULL, NULL));
     for (sl_int v = 0; v < n; v++) {
         assert_int_equal(near[v], cell[v]);
     }
-    SL_CHECK(heat_cells(near, most, &y.s, sites, 21, 0.1, &touched));
+    SL_CHECK(heat_cells(near, most, &y.s, sites, 21, 0.1, &touched, NULL));
     assert_true(touched < 21 * (sl_off)n / 20);
     for (sl_int v = 0; v < n; v++) {
         double d = INFINITY;
@@ -348,7 +348,7 @@ static void cells(void **state) {
         assert_true(d <= 0.1 || near[v] == -1);
         assert_true(d > 0.06 || near[v] == cell[v]);
     }
-    SL_CHECK(heat_cells(near, most, &y.s, sites, 0, 0, NULL));
+    SL_CHECK(heat_cells(near, most, &y.s, sites, 0, 0, NULL, NULL));
     assert_int_equal(near[0], -1);
     free(most);
     free(near);
@@ -373,8 +373,8 @@ static void refusals(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, heat_distance(&f, &y.s, fine, 1, &negative));
     SL_EXPECT(SL_ERR_ARGUMENT, heat_distance(&f, &y.s, fine, 1, &no_number));
     SL_EXPECT(SL_ERR_ARGUMENT, heat_distance(&f, &y.s, fine, 1, &bad_margin));
-    SL_EXPECT(SL_ERR_ARGUMENT, heat_cells(cell, most, &y.s, twice, 2, 0, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, heat_cells(cell, most, &y.s, fine, 1, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, heat_cells(cell, most, &y.s, twice, 2, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, heat_cells(cell, most, &y.s, fine, 1, -1, NULL, NULL));
     assert_null(f.vertices);
     SL_EXPECT(SL_ERR_ARGUMENT, heat_solver_create(&s, &y.m, 0));
     SL_EXPECT(SL_ERR_ARGUMENT, heat_solver_create(&s, &y.m, NAN));

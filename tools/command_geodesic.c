@@ -202,14 +202,20 @@ static void write_cells(const job *q, const sl_int *cell) {
     free(site);
 }
 
+static void tell(double share) {
+    app_progress("cells", share);
+}
+
 static void cells(job *q) {
     size_t n = (size_t)q->m.n_vertices;
     sl_int *cell = app_alloc(n, sizeof *cell),
            *sizes = app_alloc((size_t)q->n_sources + 1, sizeof *sizes);
     double *most = app_alloc(n, sizeof *most), began = app_now();
     sl_off touched;
-    app_must(heat_cells(cell, most, &q->s, q->sources, q->n_sources, q->reach.radius, &touched),
-             "cells", NULL);
+    app_must(
+        heat_cells(cell, most, &q->s, q->sources, q->n_sources, q->reach.radius, &touched, tell),
+        "cells", NULL);
+    app_progress_end();
     double seconds = app_now() - began;
     for (size_t v = 0; v < n; v++) {
         sizes[cell[v] < 0 ? q->n_sources : cell[v]]++;

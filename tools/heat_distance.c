@@ -256,7 +256,7 @@ static void keep_most(sl_int *site, double *most, const sl_int *vertices, sl_int
 
 /* Up to 8 sites at once, x everywhere. */
 static sl_status cells_everywhere(sl_int *site, double *most, heat_solver *s, const sl_int *sites,
-                                  sl_int count) {
+                                  sl_int count, void (*tell)(double share)) {
     enum { BLOCK = 8 };
     size_t n = (size_t)s->m->n_vertices;
     double *U = (double *)malloc((BLOCK * n + 1) * sizeof *U), B[BLOCK * BLOCK];
@@ -270,6 +270,9 @@ static sl_status cells_everywhere(sl_int *site, double *most, heat_solver *s, co
                                 width, s->work, NULL);
         for (sl_int k = 0; k < width && status == SL_OK; k++) {
             keep_most(site, most, NULL, (sl_int)n, U + n * (size_t)k, first + k);
+        }
+        if (tell != NULL) {
+            tell((double)(first + width) / (double)count);
         }
     }
     free(U);
@@ -299,7 +302,7 @@ static sl_status cell_within(sl_int *site, double *most, heat_solver *s, const s
 }
 
 sl_status heat_cells(sl_int *site, double *most, heat_solver *s, const sl_int *sites, sl_int count,
-                     double radius, sl_off *touched) {
+                     double radius, sl_off *touched, void (*tell)(double share)) {
     sl_off sum = 0;
     if (!(radius >= 0) || !are_distinct(s, sites, count)) {
         return SL_ERR_ARGUMENT;
@@ -310,11 +313,14 @@ sl_status heat_cells(sl_int *site, double *most, heat_solver *s, const sl_int *s
     }
     sl_status status = SL_OK;
     if (radius == 0) {
-        status = cells_everywhere(site, most, s, sites, count);
+        status = cells_everywhere(site, most, s, sites, count, tell);
         sum = (sl_off)count * s->m->n_vertices;
     }
     for (sl_int k = 0; k < count && radius > 0 && status == SL_OK; k++) {
         status = cell_within(site, most, s, sites, k, radius, &sum);
+        if (tell != NULL) {
+            tell((double)(k + 1) / (double)count);
+        }
     }
     if (touched != NULL) {
         *touched = sum;

@@ -89,9 +89,10 @@ void heat_field_free(heat_field *f);
  *  sites   [in]      count vertices in 0..n-1, none twice.
  *  radius  [in]      0: the whole mesh. Along edges.
  *  touched [out]     how many rows of x were asked for in all; may be NULL.
+ *  tell    [in]      is told, now and then, which share of the sites is done; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: out of range, twice; SL_ERR_MEMORY.
  */
 sl_status heat_cells(sl_int *site, double *most, heat_solver *s, const sl_int *sites, sl_int count,
-                     double radius, sl_off *touched);
+                     double radius, sl_off *touched, void (*tell)(double share));
 
 #endif
