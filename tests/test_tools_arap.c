@@ -2,9 +2,9 @@
 #include "gen.h"
 
 #include "bent_grids.h"
+#include "each_mesh.h"
 
 #include "../tools/arap.h"
-#include "../tools/dataset.h"
 #include "../tools/distortion.h"
 #include "../tools/harmonic_map.h"
 
@@ -177,33 +177,22 @@ static void distortion_of_linear_maps(void **state) {
     mesh_free(&m);
 }
 
+static void try_mesh(const char *name, mesh m) {
+    whole_t w;
+    whole_make(&w, m);
+    disk d = grown_disk(&w, w.m.n_vertices / 3, 500);
+    double own = energy_from_start(&w, &d, OWN, 10), two = energy_from_start(&w, &d, 2, 10);
+    print_message("%s: %.5f, by the patch's own factor %.5f\n", name, two, own);
+    assert_true(two <= 1.2 * own + 1e-4);
+    disk_free(&d);
+    whole_free(&w);
+}
+
 static void real_meshes(void **state) {
     (void)state;
     static const char *const names[] = {"bunny.off.gz", "spot.ply.gz", "mountain.obj.gz",
                                         "hammer.obj.gz"};
-    dataset data;
-    if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: none is tried here\n");
-        skip();
-    }
-    for (size_t k = 0; k < data.count; k++) {
-        for (size_t j = 0; j < sizeof names / sizeof *names; j++) {
-            if (strcmp(dataset_basename(data.paths[k]), names[j]) == 0) {
-                whole_t w;
-                mesh m;
-                assert_true(mesh_read(&m, data.paths[k], NULL, 0));
-                whole_make(&w, m);
-                disk d = grown_disk(&w, w.m.n_vertices / 3, 500);
-                double own = energy_from_start(&w, &d, OWN, 10);
-                double two = energy_from_start(&w, &d, 2, 10);
-                print_message("%s: %.5f, by the patch's own factor %.5f\n", names[j], two, own);
-                assert_true(two <= 1.2 * own + 1e-4);
-                disk_free(&d);
-                whole_free(&w);
-            }
-        }
-    }
-    dataset_free(&data);
+    each_mesh(names, 4, INT32_MAX, try_mesh);
 }
 
 int main(void) {

@@ -1,7 +1,6 @@
 /* test_tools_disk.c: patches as disks: grown from a vertex, refused as lists with the reason, numbered locally */
 #include "bent_grids.h"
-
-#include "../tools/dataset.h"
+#include "each_mesh.h"
 
 /* Independent of disk.c: every edge of one or two faces that run it in opposite directions, the boundary a loop. */
 static void is_disk(const disk *d) {
@@ -351,33 +350,28 @@ static void what_cannot_grow(void **state) {
 }
 
 /* Every development mesh: disks from many vertices, also where the mesh is no surface. */
+static void try_mesh(const char *name, mesh m) {
+    incidence a;
+    (void)name;
+    assert_true(incidence_create(&a, &m));
+    for (sl_int s = 0; s < 7; s++) {
+        sl_int start = (sl_int)((int64_t)m.n_vertices * s / 7);
+        disk d;
+        bool grows = a.begin[start] < a.begin[start + 1];
+        assert_int_equal(disk_grow(&d, &a, start, 400, NULL, NULL, 0), grows);
+        if (grows) {
+            is_disk(&d);
+            disk_free(&d);
+        }
+    }
+    scratch_is_clean(&a);
+    incidence_free(&a);
+    mesh_free(&m);
+}
+
 static void real_meshes(void **state) {
     (void)state;
-    dataset data;
-    if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: none is tried here\n");
-        skip();
-    }
-    for (size_t k = 0; k < data.count; k++) {
-        mesh m;
-        incidence a;
-        assert_true(mesh_read(&m, data.paths[k], NULL, 0));
-        assert_true(incidence_create(&a, &m));
-        for (sl_int s = 0; s < 7; s++) {
-            sl_int start = (sl_int)((int64_t)m.n_vertices * s / 7);
-            disk d;
-            bool grows = a.begin[start] < a.begin[start + 1];
-            assert_int_equal(disk_grow(&d, &a, start, 400, NULL, NULL, 0), grows);
-            if (grows) {
-                is_disk(&d);
-                disk_free(&d);
-            }
-        }
-        scratch_is_clean(&a);
-        incidence_free(&a);
-        mesh_free(&m);
-    }
-    dataset_free(&data);
+    each_mesh(NULL, 0, INT32_MAX, try_mesh);
 }
 
 int main(void) {

@@ -2,9 +2,9 @@
 #include "gen.h"
 
 #include "bent_grids.h"
+#include "each_mesh.h"
 
 #include "../tools/ball.h"
-#include "../tools/dataset.h"
 #include "../tools/heat_distance.h"
 
 typedef double (*exact_distance)(const double *a, const double *b);
@@ -386,40 +386,31 @@ static void refusals(void **state) {
 }
 
 /* The development meshes, non-manifold ones too: finite, 0 at the source, within what edges and straight lines allow. */
+static void try_mesh(const char *name, mesh m) {
+    subject_t y;
+    heat_field f;
+    (void)name;
+    subject_make(&y, m, 4);
+    double h = mesh_mean_edge_length(&y.m);
+    sl_int source = y.m.faces[0];
+    const heat_reach near = {10 * h, 0, 0};
+    SL_CHECK(heat_distance(&f, &y.s, &source, 1, &near));
+    assert_true(f.n >= 1 && f.vertices[0] == source && f.distance[0] == 0);
+    for (sl_int j = 0; j < f.n; j++) {
+        assert_true(f.distance[j] >= 0 && f.distance[j] <= 10 * h);
+    }
+    heat_field_free(&f);
+    SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
+    for (sl_int j = 0; j < f.n; j++) {
+        assert_true(isfinite(f.distance[j]));
+    }
+    heat_field_free(&f);
+    subject_free(&y);
+}
+
 static void real_meshes(void **state) {
     (void)state;
-    dataset data;
-    if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: none is tried here\n");
-        skip();
-    }
-    for (size_t k = 0; k < data.count; k++) {
-        subject_t y;
-        mesh m;
-        assert_true(mesh_read(&m, data.paths[k], NULL, 0));
-        if (m.n_vertices > 60000) {
-            mesh_free(&m);
-            continue;
-        }
-        subject_make(&y, m, 4);
-        double h = mesh_mean_edge_length(&y.m);
-        sl_int source = y.m.faces[0];
-        const heat_reach near = {10 * h, 0, 0};
-        heat_field f;
-        SL_CHECK(heat_distance(&f, &y.s, &source, 1, &near));
-        assert_true(f.n >= 1 && f.vertices[0] == source && f.distance[0] == 0);
-        for (sl_int j = 0; j < f.n; j++) {
-            assert_true(f.distance[j] >= 0 && f.distance[j] <= 10 * h);
-        }
-        heat_field_free(&f);
-        SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
-        for (sl_int j = 0; j < f.n; j++) {
-            assert_true(isfinite(f.distance[j]));
-        }
-        heat_field_free(&f);
-        subject_free(&y);
-    }
-    dataset_free(&data);
+    each_mesh(NULL, 0, 60000, try_mesh);
 }
 
 int main(void) {

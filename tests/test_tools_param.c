@@ -2,9 +2,9 @@
 #include "gen.h"
 
 #include "bent_grids.h"
+#include "each_mesh.h"
 
 #include "../tools/cg.h"
-#include "../tools/dataset.h"
 #include "../tools/distortion.h"
 #include "../tools/harmonic_map.h"
 #include "../tools/patch_solver.h"
@@ -380,46 +380,36 @@ static void cost_of_a_patch(void **state) {
 }
 
 /* Patches of the development meshes: the mesh's problem is finite, the part's by two ways the same. */
+static void try_mesh(const char *name, mesh m) {
+    whole_t w;
+    whole_make(&w, m);
+    disk d = grown_disk(&w, w.m.faces[0], 800);
+    sl_int n = d.p.m.n_vertices;
+    patch_solver s = solver_of(&w, &d.p);
+    double *B = random_flux(n, 2, 5), *X = test_reals(2 * (size_t)n);
+    double *R = test_reals(2 * (size_t)n);
+    int solves = 200;
+    SL_CHECK(patch_solver_mesh(&s, X, B, 2));
+    assert_true(isfinite(largest(X, 2 * (size_t)n)));
+    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-8, &solves));
+    SL_CHECK(patch_solver_apply(&s, R, X, 2));
+    for (sl_int i = 0; i < 2 * n; i++) {
+        R[i] -= B[i];
+    }
+    double rest = largest(R, 2 * (size_t)n) / largest(B, 2 * (size_t)n);
+    print_message("%s: %d solves, residual %.1e\n", name, solves, rest);
+    assert_true(solves < 200 && rest <= 1e-6);
+    free(R);
+    free(X);
+    free(B);
+    patch_solver_free(&s);
+    disk_free(&d);
+    whole_free(&w);
+}
+
 static void real_meshes(void **state) {
     (void)state;
-    dataset data;
-    if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: none is tried here\n");
-        skip();
-    }
-    for (size_t k = 0; k < data.count; k++) {
-        mesh m;
-        whole_t w;
-        assert_true(mesh_read(&m, data.paths[k], NULL, 0));
-        if (m.n_vertices > 60000) {
-            mesh_free(&m);
-            continue;
-        }
-        whole_make(&w, m);
-        sl_int start = w.m.faces[0];
-        disk d = grown_disk(&w, start, 800);
-        sl_int n = d.p.m.n_vertices;
-        patch_solver s = solver_of(&w, &d.p);
-        double *B = random_flux(n, 2, 5), *X = test_reals(2 * (size_t)n);
-        SL_CHECK(patch_solver_mesh(&s, X, B, 2));
-        assert_true(isfinite(largest(X, 2 * (size_t)n)));
-        int solves = 200;
-        double *R = test_reals(2 * (size_t)n);
-        SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-8, &solves));
-        SL_CHECK(patch_solver_apply(&s, R, X, 2));
-        for (sl_int i = 0; i < 2 * n; i++) {
-            R[i] -= B[i];
-        }
-        print_message("%s: %d solves, residual %.1e\n", dataset_basename(data.paths[k]), solves,
-                      largest(R, 2 * (size_t)n) / largest(B, 2 * (size_t)n));
-        free(R);
-        free(X);
-        free(B);
-        patch_solver_free(&s);
-        disk_free(&d);
-        whole_free(&w);
-    }
-    dataset_free(&data);
+    each_mesh(NULL, 0, 60000, try_mesh);
 }
 
 int main(void) {

@@ -2,9 +2,9 @@
 #include "gen.h"
 
 #include "bent_grids.h"
+#include "each_mesh.h"
 
 #include "../tools/conformal.h"
-#include "../tools/dataset.h"
 #include "../tools/distortion.h"
 #include "../tools/harmonic_map.h"
 
@@ -182,31 +182,21 @@ static void refusals(void **state) {
     layout_free(&y);
 }
 
+static void try_mesh(const char *name, mesh m) {
+    layout_t y;
+    layout_make(&y, m, m.n_vertices / 3, 500);
+    double start = measured(&y).conformal, lambda = iterate(&y, 5);
+    distortion q = measured(&y);
+    print_message("%s: lambda %.2e, conformal error %.2e, of the start %.2e\n", name, lambda,
+                  q.conformal, start);
+    assert_true(q.conformal < start && q.area_flat > 0);
+    layout_free(&y);
+}
+
 static void real_meshes(void **state) {
     (void)state;
     static const char *const names[] = {"bunny.off.gz", "kitten.obj.gz", "mountain.obj.gz"};
-    dataset data;
-    if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: none is tried here\n");
-        skip();
-    }
-    for (size_t k = 0; k < data.count; k++) {
-        for (size_t j = 0; j < sizeof names / sizeof *names; j++) {
-            if (strcmp(dataset_basename(data.paths[k]), names[j]) == 0) {
-                layout_t y;
-                mesh m;
-                assert_true(mesh_read(&m, data.paths[k], NULL, 0));
-                layout_make(&y, m, m.n_vertices / 3, 500);
-                double start = measured(&y).conformal, lambda = iterate(&y, 5);
-                distortion q = measured(&y);
-                print_message("%s: lambda %.2e, conformal error %.2e, of the start %.2e\n",
-                              names[j], lambda, q.conformal, start);
-                assert_true(q.conformal < start && q.area_flat > 0);
-                layout_free(&y);
-            }
-        }
-    }
-    dataset_free(&data);
+    each_mesh(names, 3, INT32_MAX, try_mesh);
 }
 
 int main(void) {

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "int_list.h"
+
 /* A binary heap of (distance, vertex), the nearest on top; a vertex whose distance falls is put in again. */
 typedef struct entry {
     double distance;
@@ -15,9 +17,9 @@ typedef struct search {
     incidence *around; /* place[v]: v's position in reached, -1: not reached */
     entry *heap;
     size_t n_heap, heap_room;
-    sl_int *reached;
+    int_list reached;
     double *distance; /* the shortest so far, by position */
-    size_t n_reached, room;
+    size_t room;      /* at distance */
 } search;
 
 static bool push(search *s, double distance, sl_int vertex) {
@@ -68,23 +70,21 @@ static bool reach(search *s, sl_int v, double distance) {
         s->distance[place] = distance;
         return push(s, distance, v);
     }
-    if (s->n_reached == s->room) {
+    size_t count = s->reached.count;
+    if (count == s->room) {
         size_t wanted = s->room < 64 ? 64 : 2 * s->room;
-        sl_int *reached = (sl_int *)realloc(s->reached, wanted * sizeof *reached);
-        if (reached == NULL) {
+        double *larger = (double *)realloc(s->distance, wanted * sizeof *larger);
+        if (larger == NULL) {
             return false;
         }
-        s->reached = reached;
-        double *distances = (double *)realloc(s->distance, wanted * sizeof *distances);
-        if (distances == NULL) {
-            return false;
-        }
-        s->distance = distances;
+        s->distance = larger;
         s->room = wanted;
     }
-    s->around->place[v] = (sl_int)s->n_reached;
-    s->reached[s->n_reached] = v;
-    s->distance[s->n_reached++] = distance;
+    if (!int_list_add(&s->reached, v)) {
+        return false;
+    }
+    s->around->place[v] = (sl_int)count;
+    s->distance[count] = distance;
     return push(s, distance, v);
 }
 
@@ -113,7 +113,9 @@ void ball_free(ball *b) {
 }
 
 bool ball_find(ball *out, incidence *around, const sl_int *sources, sl_int count, double radius) {
-    search s = {around, NULL, 0, 0, NULL, NULL, 0, 0};
+    search s;
+    memset(&s, 0, sizeof s);
+    s.around = around;
     memset(out, 0, sizeof *out);
     bool ok = true;
     for (sl_int k = 0; k < count && ok && radius >= 0; k++) {
@@ -143,11 +145,11 @@ bool ball_find(ball *out, incidence *around, const sl_int *sources, sl_int count
         out->along_edges[out->n++] = e.distance;
         ok = go_on(&s, e.vertex, e.distance, radius);
     }
-    for (size_t k = 0; k < s.n_reached; k++) {
-        around->place[s.reached[k]] = -1;
+    for (size_t k = 0; k < s.reached.count; k++) {
+        around->place[s.reached.at[k]] = -1;
     }
     free(s.heap);
-    free(s.reached);
+    free(s.reached.at);
     free(s.distance);
     if (!ok) {
         ball_free(out);

@@ -88,6 +88,22 @@ static render_mark *marks_of(const job *q) {
     return marks;
 }
 
+/* Writes the mesh with the field, and draws it with the sources marked. */
+static void write_field(const job *q, const mesh_field *field, const rgb *colors,
+                        const render_style *how) {
+    mesh_extra extra;
+    render_style style = *how;
+    render_mark *marks = marks_of(q);
+    memset(&extra, 0, sizeof extra);
+    extra.fields = field;
+    extra.n_fields = 1;
+    extra.color = colors;
+    style.marks = marks;
+    style.n_marks = q->n_sources;
+    app_write(&q->output, &q->m, &extra, &style);
+    free(marks);
+}
+
 static void write_distances(const job *q, const heat_field *f) {
     size_t n = (size_t)q->m.n_vertices;
     if (q->output.csv != NULL) {
@@ -102,7 +118,6 @@ static void write_distances(const job *q, const heat_field *f) {
         return;
     }
     double *distance = app_alloc(n, sizeof *distance);
-    render_mark *marks = marks_of(q);
     for (size_t v = 0; v < n; v++) {
         distance[v] = NAN;
     }
@@ -110,18 +125,8 @@ static void write_distances(const job *q, const heat_field *f) {
         distance[f->vertices[k]] = f->distance[k];
     }
     const mesh_field field = {"distance", distance};
-    mesh_extra extra;
-    render_style style;
-    memset(&extra, 0, sizeof extra);
-    memset(&style, 0, sizeof style);
-    extra.fields = &field;
-    extra.n_fields = 1;
-    style.scalar = distance;
-    style.isolines = 20;
-    style.marks = marks;
-    style.n_marks = q->n_sources;
-    app_write(&q->output, &q->m, &extra, &style);
-    free(marks);
+    const render_style style = {.scalar = distance, .isolines = 20};
+    write_field(q, &field, NULL, &style);
     free(distance);
 }
 
@@ -178,26 +183,14 @@ static void write_cells(const job *q, const sl_int *cell) {
     }
     double *site = app_alloc(n, sizeof *site);
     rgb *colors = app_alloc(n, sizeof *colors);
-    render_mark *marks = marks_of(q);
     const rgb none = {0xd8, 0xd8, 0xd8};
     for (size_t v = 0; v < n; v++) {
         site[v] = cell[v] < 0 ? -1 : (double)q->sources[cell[v]];
         colors[v] = cell[v] < 0 ? none : cell_color(cell[v]);
     }
     const mesh_field field = {"site", site};
-    mesh_extra extra;
-    render_style style;
-    memset(&extra, 0, sizeof extra);
-    memset(&style, 0, sizeof style);
-    extra.fields = &field;
-    extra.n_fields = 1;
-    extra.color = colors;
-    style.vertex_color = colors;
-    style.nearest = true;
-    style.marks = marks;
-    style.n_marks = q->n_sources;
-    app_write(&q->output, &q->m, &extra, &style);
-    free(marks);
+    const render_style style = {.vertex_color = colors, .nearest = true};
+    write_field(q, &field, colors, &style);
     free(colors);
     free(site);
 }
@@ -306,7 +299,7 @@ int command_geodesic(int argc, char **argv) {
     printf(
         "mesh       %d vertices, %d faces, edges of %.4g; time %.4g; factored twice in %.1f ms\n",
         (int)q.m.n_vertices, (int)q.m.n_faces, edge, t, 1e3 * (app_now() - began));
-    if (q.n_sources == 1) {
+    if (q.n_sources == 1 && radius > 0) {
         const incidence *a = &q.s.around;
         sl_int v = q.sources[0];
         look_at_faces(q.view, &q.output, &q.m, a->face + a->begin[v],

@@ -6,39 +6,17 @@
 #include <string.h>
 
 #include "disk_holes.h"
+#include "int_list.h"
 
 typedef struct growth {
     incidence *around;
     sl_int *vertices, n_vertices, vertex_room;
-    sl_int *faces, n_faces;
-    sl_int *
-        queue; /* faces that may be taken, in order; a face comes again when one beside it is taken */
-    size_t head, tail, queue_room, face_room;
+    int_list faces;
+    int_list
+        queue; /* faces that may be taken, in order; one comes again when one beside it is taken */
+    size_t head; /* of the queue */
     bool no_memory;
 } growth;
-
-/* Appends to a list that doubles when full. */
-static bool append(sl_int **list, size_t count, size_t *room, sl_int value) {
-    if (count == *room) {
-        size_t wanted = *room < 64 ? 64 : 2 * *room;
-        sl_int *larger = (sl_int *)realloc(*list, wanted * sizeof *larger);
-        if (larger == NULL) {
-            return false;
-        }
-        *list = larger;
-        *room = wanted;
-    }
-    (*list)[count] = value;
-    return true;
-}
-
-static void enqueue(growth *g, sl_int face) {
-    if (append(&g->queue, g->tail, &g->queue_room, face)) {
-        g->tail++;
-    } else {
-        g->no_memory = true;
-    }
-}
 
 static void take_vertex(growth *g, sl_int v) {
     if (g->around->place[v] < 0 && g->n_vertices < g->vertex_room) {
@@ -50,11 +28,10 @@ static void take_vertex(growth *g, sl_int v) {
 /* Takes the face, and puts those beside it into the queue. */
 static void take_face(growth *g, sl_int face) {
     const sl_int *f = g->around->m->faces + 3 * (size_t)face;
-    if (!append(&g->faces, (size_t)g->n_faces, &g->face_room, face)) {
+    if (!int_list_add(&g->faces, face)) {
         g->no_memory = true;
         return;
     }
-    g->n_faces++;
     g->around->taken[face] = 1;
     for (int c = 0; c < 3; c++) {
         take_vertex(g, f[c]);
@@ -64,7 +41,7 @@ static void take_face(growth *g, sl_int face) {
         sl_int count = incidence_edge(g->around, f[c], f[(c + 1) % 3], beside, 8);
         for (sl_int k = 0; k < count && k < 8; k++) {
             if (!g->around->taken[beside[k]]) {
-                enqueue(g, beside[k]);
+                g->no_memory = g->no_memory || !int_list_add(&g->queue, beside[k]);
             }
         }
     }
@@ -103,8 +80,8 @@ static bool stays_disk(const growth *g, sl_int face) {
 }
 
 static void grow(growth *g) {
-    while (g->head < g->tail && !g->no_memory) {
-        sl_int face = g->queue[g->head++];
+    while (g->head < g->queue.count && !g->no_memory) {
+        sl_int face = g->queue.at[g->head++];
         if (!g->around->taken[face] && stays_disk(g, face)) {
             take_face(g, face);
         }
@@ -173,15 +150,15 @@ bool disk_grow(disk *out, incidence *around, sl_int start, sl_int count, sl_int 
     for (sl_int k = 0; k < g.n_vertices; k++) {
         around->place[g.vertices[k]] = -1;
     }
-    for (sl_int k = 0; k < g.n_faces; k++) {
-        around->taken[g.faces[k]] = 0;
+    for (size_t k = 0; k < g.faces.count; k++) {
+        around->taken[g.faces.at[k]] = 0;
     }
     bool ok = !g.no_memory;
     if (ok) {
         ok = left_out > 0 && close_up(out, &g);
         if (!ok) {
-            ok = disk_of_faces(out, around, g.vertices, g.n_vertices, g.faces, g.n_faces, message,
-                               message_size);
+            ok = disk_of_faces(out, around, g.vertices, g.n_vertices, g.faces.at,
+                               (sl_int)g.faces.count, message, message_size);
         } else {
             left_out = 0;
         }
@@ -191,8 +168,8 @@ bool disk_grow(disk *out, incidence *around, sl_int start, sl_int count, sl_int 
     if (seam != NULL) {
         *seam = left_out;
     }
-    free(g.queue);
-    free(g.faces);
+    free(g.queue.at);
+    free(g.faces.at);
     free(g.vertices);
     return ok;
 }

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "int_list.h"
+
 enum {
     OUTSIDE = -1,
     SMALL = -2,
@@ -12,36 +14,28 @@ enum {
 
 typedef struct flood {
     incidence *around;
-    sl_int *found; /* all vertices marked SMALL or LARGE, piece after piece */
-    size_t n_found, room;
+    int_list found; /* all vertices marked SMALL or LARGE, piece after piece */
     size_t largest_at,
         largest; /* where the largest of the small pieces stands, and how many it has */
     bool some_large, no_memory;
 } flood;
 
 static void mark(flood *s, sl_int v, sl_int as) {
-    if (s->n_found == s->room) {
-        size_t wanted = s->room < 64 ? 64 : 2 * s->room;
-        sl_int *larger = (sl_int *)realloc(s->found, wanted * sizeof *larger);
-        if (larger == NULL) {
-            s->no_memory = true;
-            return;
-        }
-        s->found = larger;
-        s->room = wanted;
+    if (int_list_add(&s->found, v)) {
+        s->around->place[v] = as;
+    } else {
+        s->no_memory = true;
     }
-    s->around->place[v] = as;
-    s->found[s->n_found++] = v;
 }
 
 /* The piece that v is in, until it ends, has more than `most` vertices, or meets one that is known to be large. */
 static void flood_from(flood *s, sl_int v, size_t most) {
     const incidence *a = s->around;
-    size_t first = s->n_found;
+    size_t first = s->found.count;
     bool is_large = false;
     mark(s, v, SMALL);
-    for (size_t head = first; head < s->n_found && !is_large && !s->no_memory; head++) {
-        sl_int u = s->found[head];
+    for (size_t head = first; head < s->found.count && !is_large && !s->no_memory; head++) {
+        sl_int u = s->found.at[head];
         for (sl_off p = a->begin[u]; p < a->begin[u + 1]; p++) {
             for (size_t c = 0; c < 3; c++) {
                 sl_int w = a->m->faces[3 * (size_t)a->face[p] + c];
@@ -51,16 +45,16 @@ static void flood_from(flood *s, sl_int v, size_t most) {
                 }
             }
         }
-        is_large = is_large || s->n_found - first > most;
+        is_large = is_large || s->found.count - first > most;
     }
     if (is_large) {
-        for (size_t k = first; k < s->n_found; k++) {
-            s->around->place[s->found[k]] = LARGE;
+        for (size_t k = first; k < s->found.count; k++) {
+            s->around->place[s->found.at[k]] = LARGE;
         }
         s->some_large = true;
-    } else if (s->n_found - first > s->largest) {
+    } else if (s->found.count - first > s->largest) {
         s->largest_at = first;
-        s->largest = s->n_found - first;
+        s->largest = s->found.count - first;
     }
 }
 
@@ -84,25 +78,26 @@ bool disk_enclosed(sl_int **vertices, sl_int *count, incidence *around, sl_int m
     }
     if (!s.some_large) { /* something must be left: the largest of all */
         for (size_t k = 0; k < s.largest; k++) {
-            around->place[s.found[s.largest_at + k]] = LARGE;
+            around->place[s.found.at[s.largest_at + k]] = LARGE;
         }
     }
     sl_int *larger =
-        s.no_memory ? NULL : (sl_int *)realloc(list, ((size_t)n + s.n_found + 1) * sizeof *larger);
+        s.no_memory ? NULL
+                    : (sl_int *)realloc(list, ((size_t)n + s.found.count + 1) * sizeof *larger);
     if (larger != NULL) {
         *vertices = larger;
-        for (size_t k = 0; k < s.n_found; k++) {
-            if (around->place[s.found[k]] == SMALL) {
-                larger[(*count)++] = s.found[k];
+        for (size_t k = 0; k < s.found.count; k++) {
+            if (around->place[s.found.at[k]] == SMALL) {
+                larger[(*count)++] = s.found.at[k];
             }
         }
     }
     for (sl_int k = 0; k < n; k++) {
         around->place[(*vertices)[k]] = OUTSIDE;
     }
-    for (size_t k = 0; k < s.n_found; k++) {
-        around->place[s.found[k]] = OUTSIDE;
+    for (size_t k = 0; k < s.found.count; k++) {
+        around->place[s.found.at[k]] = OUTSIDE;
     }
-    free(s.found);
+    free(s.found.at);
     return larger != NULL;
 }

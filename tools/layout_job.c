@@ -7,6 +7,7 @@
 
 #include "harmonic_map.h"
 #include "input.h"
+#include "int_list.h"
 #include "laplacian.h"
 
 void layout_job_defaults(layout_job *j) {
@@ -24,27 +25,20 @@ static sl_int *read_list(const char *path, sl_int *count) {
     }
     in.line = 1;
     in.comment = '#';
-    size_t room = 64, used = 0;
-    sl_int *list = app_alloc(room, sizeof *list);
+    int_list list = {NULL, 0, 0};
     while (input_more(&in)) {
         int64_t v;
         if (!input_integer(&in, &v) || !input_at_word_end(&in) || v < 0 || v > INT32_MAX) {
             (void)input_refuse(&in, "not the number of a vertex");
             app_die("%s", message);
         }
-        if (used == room) {
-            room *= 2;
-            sl_int *larger = realloc(list, room * sizeof *list);
-            if (larger == NULL || used >= INT32_MAX / 2) {
-                app_die("out of memory");
-            }
-            list = larger;
+        if (list.count == INT32_MAX || !int_list_add(&list, (sl_int)v)) {
+            app_die("out of memory");
         }
-        list[used++] = (sl_int)v;
     }
     input_close(&in);
-    *count = (sl_int)used;
-    return list;
+    *count = (sl_int)list.count;
+    return list.at;
 }
 
 /* The patch: listed, or grown. */
