@@ -258,7 +258,7 @@ int command_geodesic(int argc, char **argv) {
          "the sources or sites: 3,17,100-200 or random:5 (the first that has a face)"},
         {OPTION_REAL, "radius", &radius, "R", "only so far; without it the whole mesh"},
         {OPTION_REAL, "margin", &margin, "F", "the ball is F times as wide, along edges (1.5)"},
-        {OPTION_COUNT, "solves", &solves, "N", "local solves for the distance in a ball (4)"},
+        {OPTION_COUNT, "solves", &solves, "N", "local solves for the distance in a ball (3)"},
         {OPTION_FLAG, "cut", &cut, NULL, "one solve of the right-hand side cut at the ball"},
         {OPTION_REAL, "time", &time, "T", "heat flows for the time T"},
         {OPTION_REAL, "scaled-time", &scaled, "S",

@@ -53,7 +53,7 @@ typedef struct heat_reach {
 
 /* Paths of edges are longer than distances by up to 1.4 on a regular grid, less elsewhere. */
 #define HEAT_MARGIN 1.5
-enum { HEAT_SOLVES = 4 };
+enum { HEAT_SOLVES = 3 };
 
 /** Distances at some vertices. */
 typedef struct heat_field {
