@@ -9,7 +9,7 @@
 
 const char app_mesh_help[] =
     "a file (.obj .off .ply .stl, plain or .gz) or a made-up surface: grid:100x100, hills:100x100, "
-    "sphere:5, blob:5, torus:120x40, knot:400x24.";
+    "sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
 
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     char message[512];

@@ -8,6 +8,8 @@ int command_adf(int argc, char **argv);
 int command_heat(int argc, char **argv);
 int command_hks(int argc, char **argv);
 int command_info(int argc, char **argv);
+int command_pairs(int argc, char **argv);
+int command_reach(int argc, char **argv);
 int command_param(int argc, char **argv);
 int command_geodesic(int argc, char **argv);
 int command_arap(int argc, char **argv);

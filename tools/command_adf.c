@@ -66,7 +66,7 @@ static void write_results(const app_output *output, const mesh *m, const double 
     }
     const mesh_field fields[] = {{"adf", field}};
     const mesh_extra extra = {.fields = fields, .n_fields = 1};
-    const render_style style = {.scalar = shown, .isolines = 14};
+    const render_style style = {.scalar = shown};
     app_write(output, m, &extra, &style);
     free(shown);
     free(field);
@@ -79,7 +79,7 @@ int command_adf(int argc, char **argv) {
     memset(&output, 0, sizeof output);
     const option options[] = {
         {OPTION_TEXT, "at", &at, "VERTICES", "a list 3,17,100-200, or random:5, or all (all)"},
-        HEAT_TIME_OPTIONS(&time, "otherwise A = 0.01"),
+        HEAT_TIME_OPTIONS(&time, "otherwise A = 0.05"),
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, options, argc, argv, &operand);
@@ -89,7 +89,7 @@ int command_adf(int argc, char **argv) {
     app_mesh(&m, operand, true);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     double *values = app_alloc((size_t)count, sizeof *values);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0.01));
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0.05));
     bool all = strcmp(at, "all") == 0;
     double begin = app_now(), worst = 0;
     app_must(sl_inverse_diagonal(h.F, values, all ? NULL : vertices, count, NULL, NULL),

@@ -105,8 +105,7 @@ static void write_mesh(const app_output *output, const mesh *m, const double *va
     const rgb red = {0xd5, 0x2b, 0x1e};
     const render_mark mark = {like >= 0 ? vertices[like] : 0, 6, red};
     const mesh_extra extra = {.fields = fields, .n_fields = (int)fields_room};
-    const render_style style = {
-        .scalar = columns, .isolines = 10, .marks = &mark, .n_marks = like >= 0};
+    const render_style style = {.scalar = columns, .marks = &mark, .n_marks = like >= 0};
     app_write(output, m, &extra, &style);
     free(names);
     free(fields);

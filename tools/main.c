@@ -16,6 +16,8 @@ static const command commands[] = {
     {"heat", "heat that flows from some vertices, wanted at some others", command_heat},
     {"adf", "auto-diffusion: the heat that stays, for some vertices or all", command_adf},
     {"hks", "heat-kernel signatures: auto-diffusion over a range of times", command_hks},
+    {"pairs", "heat that pairs of vertices exchange; one tree against two", command_pairs},
+    {"reach", "pictures of what a local solve touches", command_reach},
     {"param", "a patch laid out in the plane by harmonic coordinates", command_param},
     {"arap", "a patch laid out with its lengths kept: as rigid as possible", command_arap},
     {"scp", "a patch laid out with its angles kept: spectral conformal", command_scp},

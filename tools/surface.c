@@ -1,4 +1,4 @@
-/* surface.c: made-up surfaces of any size, by a short name: grids, spheres, tori, bumpy ones */
+/* surface.c: made-up surfaces of any size, by a short name: grids, spheres, tori, knots, bumpy ones */
 #include "surface.h"
 
 #include <math.h>
@@ -143,6 +143,28 @@ static void bump(mesh *m) {
     }
 }
 
+/* Five arms of different lengths. */
+static void grow_arms(mesh *m) {
+    static const double arms[5][5] = {/* direction, length, sharpness */
+                                      {0.1, 1, 0.1, 1.5, 14},
+                                      {0.95, 0.25, 0.1, 1.1, 16},
+                                      {-0.9, 0.35, 0.2, 1.3, 18},
+                                      {0.5, -0.8, 0.4, 1.0, 14},
+                                      {-0.5, -0.75, -0.1, 0.8, 12}};
+    for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
+        double *x = m->xyz + 3 * v;
+        double r = 0.6;
+        for (int k = 0; k < 5; k++) {
+            double d[3] = {arms[k][0], arms[k][1], arms[k][2]};
+            to_sphere(d);
+            r += arms[k][3] * exp(arms[k][4] * (d[0] * x[0] + d[1] * x[1] + d[2] * x[2] - 1));
+        }
+        for (int d = 0; d < 3; d++) {
+            x[d] *= r;
+        }
+    }
+}
+
 /* ---- tubes ---- */
 
 static void point_of_knot(double out[3], double s) {
@@ -223,10 +245,10 @@ static bool make_hills(mesh *m, sl_int w, sl_int h) {
     return true;
 }
 
-typedef enum kind { GRID, HILLS, SPHERE, BLOB, TORUS, KNOT, N_KINDS } kind;
+typedef enum kind { GRID, HILLS, SPHERE, BLOB, STAR, TORUS, KNOT, N_KINDS } kind;
 
 static const char *const names[N_KINDS] = {
-    "grid:", "hills:", "sphere:", "blob:", "torus:", "knot:"};
+    "grid:", "hills:", "sphere:", "blob:", "star:", "torus:", "knot:"};
 
 static kind kind_of(const char *text) {
     int k = 0;
@@ -255,11 +277,14 @@ static bool make(mesh *out, kind k, sl_int w, sl_int h) {
         return make_hills(out, w, h);
     case SPHERE:
     case BLOB:
+    case STAR:
         if (!make_sphere(out, w)) {
             return false;
         }
         if (k == BLOB) {
             bump(out);
+        } else if (k == STAR) {
+            grow_arms(out);
         }
         return true;
     case TORUS:
@@ -279,7 +304,7 @@ bool surface_make(mesh *out, const char *text, char *message, size_t message_siz
         return refuse(message, message_size, text, "no surface of this name");
     }
     const char *sizes = text + strlen(names[k]);
-    bool one = k == SPHERE || k == BLOB;
+    bool one = k == SPHERE || k == BLOB || k == STAR;
     int w = 0, h = 0;
     char rest = 0;
     if (one ? sscanf(sizes, "%9d%c", &w, &rest) != 1

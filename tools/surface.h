@@ -1,4 +1,4 @@
-/* surface.h: made-up surfaces of any size, by a short name: grids, spheres, tori, bumpy ones */
+/* surface.h: made-up surfaces of any size, by a short name: grids, spheres, tori, knots, bumpy ones */
 #ifndef TOOLS_SURFACE_H
 #define TOOLS_SURFACE_H
 
@@ -12,7 +12,8 @@
  *  grid:WxH     flat, W x H vertices, the inner ones jittered (mesh_grid in grid.h, jitter 0.2)
  *  hills:WxH    the same grid with hills: a graph over the plane
  *  sphere:K     the unit sphere: an icosahedron cut K times (0 to 10): 10 4^K + 2 vertices
- *  blob:K       the same with bumps, without any symmetry
+ *  blob:K       a sphere with bumps, without any symmetry
+ *  star:K       a sphere with five arms
  *  torus:WxH    a torus of W vertices around its axis and H around its tube (each 3 or more)
  *  knot:WxH     a tube around a trefoil knot, W vertices along and H around
  *

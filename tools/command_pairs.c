@@ -1,0 +1,201 @@
+/* command_pairs.c: heat that pairs of vertices exchange: one tree for both sweeps, or one each? */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h"
+#include "command.h"
+#include "heat_system.h"
+#include "plot.h"
+
+static const options_usage usage = {
+    "pairs", "MESH", 1, 1,
+    "The heat that vertex i receives from vertex j is one entry of (M + t L)^-1. For each pair it "
+    "is computed in three "
+    "ways: by a local solve over one tree (the paths of i and j together, for both sweeps), by one "
+    "over two trees "
+    "(forward along the path of j, backward along that of i), and by sl_inverse_pairs, all pairs "
+    "in one call. The values "
+    "must agree; the histogram shows how many times faster two trees are."};
+
+enum { BINS = 40, ROUNDS = 3 };
+
+static const double bin_width = 0.1;
+
+typedef struct pair_times {
+    double *one_tree, *two_trees; /* seconds of each pair, the best of some rounds */
+    double together;              /* all pairs by one call */
+} pair_times;
+
+/* x_one: the heat at i over one tree; x_two: over two trees. */
+static void solve_pairs(double *x_one, double *x_two, pair_times *times, const sl_factor *F,
+                        const sl_int *i, const sl_int *j, sl_int count) {
+    sl_work *W = NULL;
+    app_must(sl_work_create(&W, NULL), "workspace", NULL);
+    for (sl_int k = 0; k < count; k++) {
+        const double b[2] = {1, 0};
+        const sl_int both[2] = {j[k], i[k]};
+        sl_int n_both = i[k] == j[k] ? 1 : 2;
+        double x[2];
+        app_progress("pairs", (double)k / count);
+        times->one_tree[k] = times->two_trees[k] = HUGE_VAL;
+        for (int round = 0; round < ROUNDS; round++) {
+            double begin = app_now();
+            app_must(sl_local_solve(F, x, 2, both, n_both, b, 2, both, n_both, 1, W, NULL),
+                     "one tree", NULL);
+            double middle = app_now();
+            app_must(sl_local_solve(F, &x_two[k], 1, &i[k], 1, b, 1, &j[k], 1, 1, W, NULL),
+                     "two trees", NULL);
+            double end = app_now();
+            times->one_tree[k] = fmin(times->one_tree[k], middle - begin);
+            times->two_trees[k] = fmin(times->two_trees[k], end - middle);
+        }
+        x_one[k] = x[n_both - 1];
+    }
+    app_progress_end();
+    sl_work_free(W);
+}
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+static double median(const double *values, sl_int count) {
+    double *sorted = app_alloc((size_t)count, sizeof *sorted);
+    memcpy(sorted, values, (size_t)count * sizeof *sorted);
+    qsort(sorted, (size_t)count, sizeof *sorted, by_size);
+    double middle = count > 0 ? sorted[count / 2] : 0;
+    free(sorted);
+    return middle;
+}
+
+static void draw_histogram(const char *path, const pair_times *times, sl_int count) {
+    int bins[BINS] = {0}, first = BINS, last = -1;
+    char message[512];
+    plot *p = plot_create("Pairs: how many times faster two trees are than one",
+                          "time of one tree / time of two trees", "pairs", false, false);
+    for (sl_int k = 0; k < count; k++) {
+        int bin = (int)fmin(BINS - 1, times->one_tree[k] / times->two_trees[k] / bin_width);
+        bins[bin]++;
+        first = bin < first ? bin : first;
+        last = bin > last ? bin : last;
+    }
+    for (int k = first; p != NULL && k <= last; k++) {
+        if (!plot_add(p, "pairs", PLOT_BARS, (k + 0.5) * bin_width, bins[k])) {
+            plot_free(p);
+            p = NULL;
+        }
+    }
+    if (p == NULL) {
+        app_die("out of memory");
+    }
+    if (!plot_write(p, path, message, sizeof message)) {
+        app_die("%s", message);
+    }
+    plot_free(p);
+}
+
+/* Lists of the same length, or one vertex against many; without lists, random pairs of different vertices. */
+static void choose_pairs(sl_int **i, sl_int **j, sl_int *count, const char *to, const char *from,
+                         sl_int wanted, uint64_t seed, sl_int n) {
+    sl_int n_to = 0, n_from = 0;
+    if ((to == NULL) != (from == NULL)) {
+        app_die_usage("--from and --to: both or neither");
+    }
+    if (to == NULL) {
+        *count = wanted;
+        *i = app_alloc((size_t)wanted, sizeof **i);
+        *j = app_alloc((size_t)wanted, sizeof **j);
+        for (sl_int k = 0; k < wanted; k++) {
+            (*i)[k] = app_random_below(&seed, n);
+            do {
+                (*j)[k] = app_random_below(&seed, n);
+            } while (n > 1 && (*j)[k] == (*i)[k]);
+        }
+        return;
+    }
+    sl_int *first = app_vertices("from", from, n, seed, &n_from);
+    sl_int *second = app_vertices("to", to, n, seed + 1, &n_to);
+    if (n_from != n_to && n_from != 1 && n_to != 1) {
+        app_die_usage("--from has %d vertices, --to %d: as many, or one", (int)n_from, (int)n_to);
+    }
+    *count = n_from > n_to ? n_from : n_to;
+    *i = app_alloc((size_t)*count, sizeof **i);
+    *j = app_alloc((size_t)*count, sizeof **j);
+    for (sl_int k = 0; k < *count; k++) {
+        (*i)[k] = second[n_to == 1 ? 0 : k];
+        (*j)[k] = first[n_from == 1 ? 0 : k];
+    }
+    free(second);
+    free(first);
+}
+
+int command_pairs(int argc, char **argv) {
+    const char *operand = NULL, *to = NULL, *from = NULL, *csv_path = NULL, *histogram = NULL;
+    sl_int count = 10000, seed = 1;
+    heat_time time = {0, 0, 0};
+    const option options[] = {
+        {OPTION_COUNT, "count", &count, "K", "how many random pairs (10000)"},
+        {OPTION_COUNT, "seed", &seed, "S", "another number, other pairs (1)"},
+        {OPTION_TEXT, "from", &from, "VERTICES", "instead: where the heat comes from"},
+        {OPTION_TEXT, "to", &to, "VERTICES", "and where it is wanted"},
+        HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
+        {OPTION_TEXT, "csv", &csv_path, "FILE", "write pairs, heat, and seconds of both ways"},
+        {OPTION_TEXT, "svg", &histogram, "FILE", "draw the histogram"},
+        {OPTION_END, NULL, NULL, NULL, NULL}};
+    options_read(&usage, options, argc, argv, &operand);
+    mesh m;
+    heat_system h;
+    sl_int *i = NULL, *j = NULL;
+    app_mesh(&m, operand, true);
+    choose_pairs(&i, &j, &count, to, from, count, (uint64_t)seed, m.n_vertices);
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+    size_t room = (size_t)count;
+    double *one = app_alloc(room, sizeof *one), *two = app_alloc(room, sizeof *two);
+    double *entries = app_alloc(room, sizeof *entries), *gain = app_alloc(room, sizeof *gain);
+    pair_times times = {app_alloc(room, sizeof(double)), app_alloc(room, sizeof(double)), 0};
+    solve_pairs(one, two, &times, h.F, i, j, count);
+    double begin = app_now();
+    app_must(sl_inverse_pairs(h.F, entries, i, j, count, NULL, NULL), "entries", NULL);
+    times.together = app_now() - begin;
+    double worst = 0;
+    sl_int slower = 0;
+    for (sl_int k = 0; k < count; k++) {
+        gain[k] = times.one_tree[k] / times.two_trees[k];
+        slower += gain[k] < 1;
+        /* entries far below the diagonal lose digits against it, not against themselves */
+        double size = fmax(fabs(two[k]), 1e-300);
+        worst = fmax(worst, fmax(fabs(one[k] - two[k]), fabs(entries[k] - two[k])) / size);
+    }
+    printf("%d pairs on %d vertices, t = %.6g\n", (int)count, (int)m.n_vertices, h.t);
+    printf("microseconds a pair: one tree %.2f, two trees %.2f (medians), all in one call %.2f\n",
+           1e6 * median(times.one_tree, count), 1e6 * median(times.two_trees, count),
+           count > 0 ? 1e6 * times.together / count : 0);
+    printf("two trees: %.2f times faster in the median, slower for %.2f %% of the pairs\n",
+           median(gain, count), count > 0 ? 100.0 * slower / count : 0);
+    printf("the ways differ by at most %.2g of a value\n", worst);
+    if (csv_path != NULL) {
+        FILE *csv = app_create(csv_path);
+        fprintf(csv, "from,to,heat,one_tree_s,two_trees_s\n");
+        for (sl_int k = 0; k < count; k++) {
+            fprintf(csv, "%d,%d,%.17g,%.4g,%.4g\n", (int)j[k], (int)i[k], two[k], times.one_tree[k],
+                    times.two_trees[k]);
+        }
+        app_close(csv, csv_path);
+    }
+    if (histogram != NULL) {
+        draw_histogram(histogram, &times, count);
+    }
+    free(times.two_trees);
+    free(times.one_tree);
+    free(gain);
+    free(entries);
+    free(two);
+    free(one);
+    free(j);
+    free(i);
+    heat_system_free(&h);
+    mesh_free(&m);
+    return worst > 1e-8;
+}

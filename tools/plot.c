@@ -1,0 +1,266 @@
+/* plot.c: curves, points and bars with axes, as SVG */
+#include "plot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "colors.h"
+
+enum { NAME_SIZE = 80, MOST_SERIES = 32 };
+
+static const double width = 640, height = 420, left = 78, right = 20, top = 40, bottom = 56;
+
+typedef struct series {
+    char name[NAME_SIZE];
+    plot_style style;
+    size_t count, room;
+    double *xy; /* 2 count */
+} series;
+
+struct plot {
+    char title[2 * NAME_SIZE], name[2][NAME_SIZE];
+    bool is_log[2];
+    int n_series;
+    series all[MOST_SERIES];
+};
+
+plot *plot_create(const char *title, const char *x_name, const char *y_name, bool log_x,
+                  bool log_y) {
+    plot *p = (plot *)calloc(1, sizeof *p);
+    if (p != NULL) {
+        (void)snprintf(p->title, sizeof p->title, "%s", title);
+        (void)snprintf(p->name[0], sizeof p->name[0], "%s", x_name);
+        (void)snprintf(p->name[1], sizeof p->name[1], "%s", y_name);
+        p->is_log[0] = log_x;
+        p->is_log[1] = log_y;
+    }
+    return p;
+}
+
+void plot_free(plot *p) {
+    for (int k = 0; p != NULL && k < p->n_series; k++) {
+        free(p->all[k].xy);
+    }
+    free(p);
+}
+
+bool plot_add(plot *p, const char *name, plot_style style, double x, double y) {
+    int k = 0;
+    if (!isfinite(x) || !isfinite(y) || (p->is_log[0] && x <= 0) || (p->is_log[1] && y <= 0)) {
+        return true;
+    }
+    while (k < p->n_series && strncmp(p->all[k].name, name, NAME_SIZE - 1) != 0) {
+        k++;
+    }
+    if (k == MOST_SERIES) {
+        return false;
+    }
+    series *s = &p->all[k];
+    if (k == p->n_series) {
+        (void)snprintf(s->name, sizeof s->name, "%s", name);
+        s->style = style;
+        p->n_series++;
+    }
+    if (s->count == s->room) {
+        size_t room = s->room > 0 ? 2 * s->room : 16;
+        double *larger = (double *)realloc(s->xy, 2 * room * sizeof *larger);
+        if (larger == NULL) {
+            return false;
+        }
+        s->xy = larger;
+        s->room = room;
+    }
+    s->xy[2 * s->count] = x;
+    s->xy[2 * s->count++ + 1] = y;
+    return true;
+}
+
+/* ---- axes ---- */
+
+typedef struct axis {
+    double low, high; /* logarithms on a logarithmic axis */
+    bool is_log;
+    double begin, end; /* on the paper */
+} axis;
+
+static double on_axis(const axis *a, double x) {
+    double t = ((a->is_log ? log10(x) : x) - a->low) / (a->high - a->low);
+    return a->begin + t * (a->end - a->begin);
+}
+
+/* Half the smallest distance between two bars of a series. */
+static double bar_half(const series *s) {
+    double least = HUGE_VAL;
+    for (size_t k = 0; k < s->count; k++) {
+        for (size_t i = 0; i < k; i++) {
+            double d = fabs(s->xy[2 * k] - s->xy[2 * i]);
+            least = d > 0 ? fmin(least, d) : least;
+        }
+    }
+    return isfinite(least) ? 0.5 * least : 0.5;
+}
+
+static axis find_axis(const plot *p, int d) {
+    axis a = {HUGE_VAL, -HUGE_VAL, p->is_log[d], d == 0 ? left : height - bottom,
+              d == 0 ? width - right : top};
+    for (int k = 0; k < p->n_series; k++) {
+        const series *s = &p->all[k];
+        double half = d == 0 && s->style == PLOT_BARS ? bar_half(s) : 0;
+        if (d == 1 && s->style == PLOT_BARS && !a.is_log) {
+            a.low = fmin(a.low, 0);
+        }
+        for (size_t i = 0; i < s->count; i++) {
+            double x = s->xy[2 * i + (size_t)d];
+            a.low = fmin(a.low, a.is_log ? log10(x) : x - half);
+            a.high = fmax(a.high, a.is_log ? log10(x) : x + half);
+        }
+    }
+    if (!(a.low <= a.high)) {
+        a.low = 0;
+        a.high = 1;
+    }
+    double room = a.high > a.low ? 0.04 * (a.high - a.low) : 0.5;
+    a.low -= a.low == 0 ? 0 : room;
+    a.high += room;
+    return a;
+}
+
+/* 1, 2 or 5 times a power of ten, so that there are four to nine of them. */
+static double tick_step(double range) {
+    double step = pow(10, floor(log10(range / 4)));
+    return range / step >= 20 ? 5 * step : range / step >= 10 ? 2 * step : step;
+}
+
+static void print_text(FILE *f, double x, double y, const char *where, const char *text) {
+    fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", x, y, where);
+    for (; *text != '\0'; text++) {
+        switch (*text) {
+        case '<':
+            fprintf(f, "&lt;");
+            break;
+        case '&':
+            fprintf(f, "&amp;");
+            break;
+        default:
+            fputc(*text, f);
+        }
+    }
+    fprintf(f, "</text>\n");
+}
+
+static void print_tick(FILE *f, const axis *a, int d, double value, bool named) {
+    char text[32];
+    double at = on_axis(a, value);
+    (void)snprintf(text, sizeof text, "%g", fabs(value) < 1e-12 * (a->high - a->low) ? 0 : value);
+    if (d == 0) {
+        fprintf(f, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#ddd\"/>\n", at, top, height - bottom);
+        print_text(f, at, height - bottom + 16, "middle", named ? text : "");
+    } else {
+        fprintf(f, "<path d=\"M%.1f %.1fH%.1f\" stroke=\"#ddd\"/>\n", left, at, width - right);
+        print_text(f, left - 6, at + 4, "end", named ? text : "");
+    }
+}
+
+static void print_axis(FILE *f, const plot *p, const axis *a, int d) {
+    if (a->is_log) {
+        bool many = a->high - a->low < 1.5; /* then 2 and 5 are named too */
+        for (double k = floor(a->low); k <= a->high; k++) {
+            for (int digit = 1; digit < 10; digit++) {
+                double value = digit * pow(10, k);
+                if (log10(value) >= a->low && log10(value) <= a->high &&
+                    (digit == 1 || a->high - a->low < 4)) {
+                    print_tick(f, a, d, value, digit == 1 || (many && (digit == 2 || digit == 5)));
+                }
+            }
+        }
+    } else {
+        double step = tick_step(a->high - a->low);
+        for (double k = ceil(a->low / step); k * step <= a->high; k++) {
+            print_tick(f, a, d, k * step, true);
+        }
+    }
+    if (d == 0) {
+        print_text(f, 0.5 * (left + width - right), height - 14, "middle", p->name[0]);
+    } else {
+        fprintf(f, "<g transform=\"translate(18 %.1f) rotate(-90)\">",
+                0.5 * (top + height - bottom));
+        print_text(f, 0, 0, "middle", p->name[1]);
+        fprintf(f, "</g>\n");
+    }
+}
+
+/* ---- series ---- */
+
+static void print_series(FILE *f, const series *s, const axis *x, const axis *y, int k) {
+    rgb c = color_of_kind(k == 0 ? 4 : k == 4 ? 0 : k); /* blue first */
+    double half = s->style == PLOT_BARS ? 0.9 * bar_half(s) : 0;
+    if (s->style == PLOT_LINES) {
+        fprintf(f, "<polyline fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-width=\"2\" points=\"",
+                c.r, c.g, c.b);
+        for (size_t i = 0; i < s->count; i++) {
+            fprintf(f, "%.2f,%.2f ", on_axis(x, s->xy[2 * i]), on_axis(y, s->xy[2 * i + 1]));
+        }
+        fprintf(f, "\"/>\n");
+    }
+    fprintf(f, "<g fill=\"#%02x%02x%02x\">\n", c.r, c.g, c.b);
+    for (size_t i = 0; i < s->count; i++) {
+        double value = s->xy[2 * i], at = on_axis(x, value), up = on_axis(y, s->xy[2 * i + 1]);
+        if (s->style == PLOT_BARS) {
+            double from = on_axis(x, x->is_log ? value : value - half);
+            double to = on_axis(x, x->is_log ? value : value + half);
+            fprintf(f, "<path d=\"M%.2f %.2fV%.2fH%.2fV%.2fZ\"/>\n", from, y->begin, up, to,
+                    y->begin);
+        } else {
+            fprintf(f, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%s\"/>\n", at, up,
+                    s->style == PLOT_LINES ? "3" : "2");
+        }
+    }
+    fprintf(f, "</g>\n");
+}
+
+static void print_legend(FILE *f, const plot *p) {
+    for (int k = 0; p->n_series > 1 && k < p->n_series; k++) {
+        rgb c = color_of_kind(k == 0 ? 4 : k == 4 ? 0 : k);
+        double y = top + 14 + 16 * k;
+        fprintf(f,
+                "<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"4\" fill=\"#%02x%02x%02x\"/>\n",
+                left + 10, y - 6, c.r, c.g, c.b);
+        print_text(f, left + 28, y, "start", p->all[k].name);
+    }
+}
+
+bool plot_write(const plot *p, const char *path, char *message, size_t message_size) {
+    FILE *f = fopen(path, "w");
+    bool ok = f != NULL;
+    if (ok) {
+        axis x = find_axis(p, 0), y = find_axis(p, 1);
+        fprintf(f,
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+                "width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" font-size=\"12\">\n"
+                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+                width, height, width, height);
+        if (p->n_series > 0) {
+            print_axis(f, p, &x, 0);
+            print_axis(f, p, &y, 1);
+        }
+        for (int k = 0; k < p->n_series; k++) {
+            print_series(f, &p->all[k], &x, &y, k);
+        }
+        fprintf(f,
+                "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
+                "stroke=\"#444\"/>\n",
+                left, top, width - left - right, height - top - bottom);
+        print_legend(f, p);
+        fprintf(f, "<g font-size=\"14\">");
+        print_text(f, 0.5 * width, 24, "middle", p->title);
+        fprintf(f, "</g>\n</svg>\n");
+        ok = ferror(f) == 0;
+        ok = fclose(f) == 0 && ok;
+    }
+    if (!ok && message != NULL && message_size > 0) {
+        (void)snprintf(message, message_size, "%s: cannot be written", path);
+    }
+    return ok;
+}
