@@ -402,7 +402,7 @@ static void try_mesh(const char *name, mesh m) {
     heat_field_free(&f);
     SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
     for (sl_int j = 0; j < f.n; j++) {
-        assert_true(isfinite(f.distance[j]));
+        assert_true(isfinite(f.distance[j]) && f.path[j] >= 0);
     }
     heat_field_free(&f);
     subject_free(&y);

@@ -77,6 +77,22 @@ static void compare(const job *q, const heat_field *f) {
            q->exact, f->n > 0 ? sum / f->n : 0, worst, farthest);
 }
 
+/* What holds on any surface: no distance is shorter than the straight line nor longer than a path of edges. */
+static void check_bounds(const job *q, const heat_field *f) {
+    double below = 0, above = 0;
+    for (sl_int k = 0; k < f->n; k++) {
+        double line = INFINITY;
+        for (sl_int i = 0; i < q->n_sources; i++) {
+            line = fmin(line, straight(q->m.xyz + 3 * (size_t)q->sources[i],
+                                       q->m.xyz + 3 * (size_t)f->vertices[k]));
+        }
+        below = fmax(below, line - f->distance[k]);
+        above = fmax(above, f->distance[k] - f->path[k]);
+    }
+    printf("bounds     at most %.3g below the straight line, %.3g above the path along edges\n",
+           below, above);
+}
+
 static render_mark *marks_of(const job *q) {
     render_mark *marks = app_alloc((size_t)q->n_sources, sizeof *marks);
     const rgb red = {0xd5, 0x2b, 0x1e};
@@ -108,9 +124,10 @@ static void write_distances(const job *q, const heat_field *f) {
     size_t n = (size_t)q->m.n_vertices;
     if (q->output.csv != NULL) {
         FILE *csv = app_create(q->output.csv);
-        fprintf(csv, "vertex,distance,heat\n");
+        fprintf(csv, "vertex,distance,path,heat\n");
         for (sl_int k = 0; k < f->n; k++) {
-            fprintf(csv, "%d,%.17g,%.17g\n", (int)f->vertices[k], f->distance[k], f->heat[k]);
+            fprintf(csv, "%d,%.17g,%.17g,%.17g\n", (int)f->vertices[k], f->distance[k], f->path[k],
+                    f->heat[k]);
         }
         app_close(csv, q->output.csv);
     }
@@ -149,6 +166,9 @@ static void distances(job *q) {
            (int)f.n_ball, (double)f.heat_stats.x_entries, (double)all.nnz_panels, f.solves);
     if (f.cold > 0) {
         printf("no heat    at %d faces: too far for this time, or without a shape\n", (int)f.cold);
+    }
+    if (q->n_sources <= 100) { /* each vertex looks at each source */
+        check_bounds(q, &f);
     }
     if (q->exact != NULL) {
         compare(q, &f);

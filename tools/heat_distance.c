@@ -68,6 +68,7 @@ void heat_field_free(heat_field *f) {
     free(f->vertices);
     free(f->distance);
     free(f->heat);
+    free(f->path);
     memset(f, 0, sizeof *f);
 }
 
@@ -174,8 +175,10 @@ static sl_status allocate(heat_field *out, size_t n) {
     out->vertices = (sl_int *)malloc((n + 1) * sizeof *out->vertices);
     out->distance = (double *)malloc((n + 1) * sizeof *out->distance);
     out->heat = (double *)malloc((n + 1) * sizeof *out->heat);
-    return out->vertices != NULL && out->distance != NULL && out->heat != NULL ? SL_OK
-                                                                               : SL_ERR_MEMORY;
+    out->path = (double *)malloc((n + 1) * sizeof *out->path);
+    return out->vertices != NULL && out->distance != NULL && out->heat != NULL && out->path != NULL
+               ? SL_OK
+               : SL_ERR_MEMORY;
 }
 
 /* The ball comes nearest first, so the sources stand first in it, in an order of their own. */
@@ -197,6 +200,7 @@ static sl_status solve_ball(heat_field *out, heat_solver *s, const ball *b, sl_i
         if (!isnan(d) && (reach->radius == 0 || d <= reach->radius)) {
             out->vertices[out->n] = b->vertices[k];
             out->heat[out->n] = out->heat[k];
+            out->path[out->n] = b->along_edges[k];
             out->distance[out->n++] = d;
         }
     }

@@ -61,6 +61,7 @@ typedef struct heat_field {
     sl_int *vertices;
     double *distance; /* 0 or more; the smallest at the sources of each connected piece is 0 */
     double *heat;     /* u */
+    double *path;     /* the shortest path of edges from a source: no distance is longer */
     sl_int n_ball;    /* vertices that were touched */
     sl_int cold;      /* faces where no heat arrived, or that have no shape: no X there */
     int solves;       /* local solves for d that were made */
