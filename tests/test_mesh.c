@@ -124,7 +124,7 @@ static void off_refusals(void **state) {
 static void other_files_are_refused(void **state) {
     (void)state;
     is_refused(files_path("missing.obj"), "cannot be opened");
-    is_refused(files_put_text("mesh.stl", obj_plain), "not a name of a mesh");
+    is_refused(files_put_text("mesh.3ds", obj_plain), "not a name of a mesh");
     is_refused(files_put_text("obj", obj_plain), "not a name of a mesh");
     char folder[FILE_PATH_SIZE + 100];
     (void)snprintf(folder, sizeof folder, "%s", files_path("folder.obj"));

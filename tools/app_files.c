@@ -158,6 +158,9 @@ void app_view(render_view *view, const app_output *o) {
         }
         view->up = (render_up)(axis - "yxz");
     }
+    if (o->view == NULL) {
+        render_look_from(view, o->toward);
+    }
 }
 
 void app_write_png(const picture *p, const char *path) {

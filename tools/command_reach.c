@@ -86,9 +86,30 @@ static void draw_vertices(const char *path, const app_output *output, const mesh
     app_output drawn = *output;
     drawn.png = path;
     const mesh_extra extra = {.color = color};
-    const render_style style = {.vertex_color = color, .nearest = true};
+    const rgb thin = {0x90, 0x90, 0x90};
+    const render_style style = {.vertex_color = color,
+                                .nearest = true,
+                                .edges = m->n_faces <= 2000 ? 1 : 0,
+                                .edge_color = thin};
     app_write(&drawn, m, &extra, &style);
     free(color);
+}
+
+/* The sum of the normals of the faces whose corners all lie in the patch. */
+static void look_at_patch(double toward[3], const mesh *m, const sl_symbolic_view_t *view,
+                          const int *kind) {
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const sl_int *v = m->faces + 3 * f;
+        if (kind[view->iperm[v[0]]] == IN_PATCH && kind[view->iperm[v[1]]] == IN_PATCH &&
+            kind[view->iperm[v[2]]] == IN_PATCH) {
+            const double *a = m->xyz + 3 * (size_t)v[0], *b = m->xyz + 3 * (size_t)v[1],
+                         *c = m->xyz + 3 * (size_t)v[2];
+            for (int d = 0; d < 3; d++) {
+                int e = (d + 1) % 3, g = (d + 2) % 3;
+                toward[d] += (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
+            }
+        }
+    }
 }
 
 static void write_csv(const char *path, const mesh *m, const sl_symbolic_view_t *view,
@@ -187,6 +208,7 @@ int command_reach(int argc, char **argv) {
     if (output.csv != NULL) {
         write_csv(output.csv, &m, &view, kind, level);
     }
+    look_at_patch(output.toward, &m, &view, kind);
     draw(&q, &output, &m, &A, &view, kind, level);
     free(level);
     free(kind);

@@ -110,7 +110,10 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) 
     static const struct {
         const char *ending;
         bool (*read)(mesh_build *b);
-    } formats[] = {{".obj", mesh_read_obj}, {".off", mesh_read_off}, {".ply", mesh_read_ply}};
+    } formats[] = {{".obj", mesh_read_obj},
+                   {".off", mesh_read_off},
+                   {".ply", mesh_read_ply},
+                   {".stl", mesh_read_stl}};
     memset(out, 0, sizeof *out);
     input in;
     if (!input_open(&in, path, message, message_size)) {
@@ -128,7 +131,8 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) 
     }
     if (!known) {
         in.line = 0;
-        (void)input_refuse(&in, "not a name of a mesh (.obj .off .ply, or one of these with .gz)");
+        (void)input_refuse(&in,
+                           "not a name of a mesh (.obj .off .ply .stl, or one of these with .gz)");
     }
     free(b.corners);
     input_close(&in);

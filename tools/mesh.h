@@ -1,4 +1,4 @@
-/* mesh.h: triangle meshes in memory, and reading them from OBJ, OFF and PLY files */
+/* mesh.h: triangle meshes in memory, and reading them from OBJ, OFF, PLY and STL files */
 #ifndef TOOLS_MESH_H
 #define TOOLS_MESH_H
 
@@ -7,7 +7,7 @@
 
 #include "../sparse_local.h"
 
-/** A triangle mesh as it stood in its file: nothing is merged, dropped, reordered or oriented.
+/** A triangle mesh as it stood in its file: nothing (but the corners of STL) is merged, dropped, reordered or oriented.
  *
  *  Vertices that no face uses, vertices at the same place, faces of zero area, faces with a repeated vertex and
  *  edges of three or more faces are all kept: whoever computes on a mesh must bear them.
@@ -20,7 +20,7 @@ typedef struct mesh {
     sl_int *faces; /* 3 n_faces: corners of face 0, of face 1, ..., in 0..n_vertices-1 */
 } mesh;
 
-/** Reads a triangle mesh; the ending of the name tells the format: .obj .off .ply, plain or with .gz after it.
+/** Reads a triangle mesh; the ending of the name tells the format: .obj .off .ply .stl, plain or .gz.
  *
  *  OBJ  v and f lines (corners v, v/vt, v//vn, v/vt/vn; negative indices count back from the latest vertex; lines
  *       may be continued by a backslash); every other line is passed over.
@@ -28,6 +28,8 @@ typedef struct mesh {
  *       line or on their own; one vertex and one face a line, what follows coordinates or corners is passed over.
  *  PLY  1.0, ascii, binary_little_endian, binary_big_endian; properties of any scalar type in any order; the corners
  *       in a list vertex_indices or vertex_index; other elements and properties are passed over.
+ *  STL  ascii and binary (which one its length tells); corners with the same coordinates become one vertex, numbered as
+ *       they first come; normals and attributes are passed over.
  *
  *  A polygon of k corners becomes a fan of k - 2 triangles around its first corner.
  *
@@ -38,7 +40,7 @@ typedef struct mesh {
  *           coordinate that is not finite, an OBJ file without vertices, more than 2^31-1 of anything, more than
  *           2 GiB of content, out of memory.
  *  Cost     O(file size) in time and memory: counts in a header are not believed before the data are there.
- *  Example  tests/test_mesh.c, tests/test_mesh_ply.c
+ *  Example  tests/test_mesh.c, tests/test_mesh_ply.c, tests/test_mesh_stl.c
  */
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
 

@@ -33,5 +33,6 @@ bool mesh_build_polygon(mesh_build *b);
 bool mesh_read_obj(mesh_build *b);
 bool mesh_read_off(mesh_build *b);
 bool mesh_read_ply(mesh_build *b);
+bool mesh_read_stl(mesh_build *b);
 
 #endif

@@ -12,6 +12,8 @@ enum { SUPERSAMPLE = 2 };
 static const double margin = 0.04; /* of the picture, on each side */
 static const double largest_coordinate = 1e150;
 
+static const double pi = 3.14159265358979323846;
+
 static const rgb background = {255, 255, 255};
 
 render_view render_view_default(void) {
@@ -42,45 +44,70 @@ static bool is_drawn(const scene *s, sl_int face) {
     return true;
 }
 
-/* The three directions of the eye, from the view's angles. */
-static void eye_axes(double axes[3][3], const render_view *view, const mesh *m) {
-    static const int upward[3] = {1, 0, 2};
-    int up = upward[view->up];
-    int side = up == 1 ? 0 : up == 0 ? 1 : 0; /* to the right at azimuth 0 */
-    int front = 3 - up - side;
-    double sign = (up == 1 || up == 0) ? 1 : -1; /* keeps side x up = towards the camera */
-    double azimuth = view->azimuth * 3.14159265358979323846 / 180;
-    double elevation = view->elevation * 3.14159265358979323846 / 180;
-    if (view->automatic) {
-        double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
-            for (int d = 0; d < 3; d++) {
-                double x = m->xyz[3 * (size_t)m->faces[k] + (size_t)d];
-                low[d] = fmin(low[d], x);
-                high[d] = fmax(high[d], x);
-            }
-        }
-        for (int d = 0; d < 3; d++) {
-            double other =
-                fmax(high[(d + 1) % 3] - low[(d + 1) % 3], high[(d + 2) % 3] - low[(d + 2) % 3]);
-            if (m->n_faces > 0 && high[d] - low[d] <= 1e-6 * other) { /* flat: from above */
-                memset(axes, 0, 9 * sizeof(double));
-                axes[0][d == 0 ? 1 : 0] = 1;
-                axes[1][d == 2 ? 1 : 2] = d == 1 ? -1 : 1;
-                axes[2][d] = 1;
-                return;
-            }
+/* Which coordinate points upwards, to the right at azimuth 0, and (times sign) to the camera then. */
+typedef struct frame {
+    int up, side, front;
+    double sign;
+} frame;
+
+static frame frame_of(render_up up) {
+    static const frame frames[3] = {{1, 0, 2, 1}, {0, 1, 2, -1}, {2, 0, 1, -1}}; /* y, x, z */
+    return frames[up];
+}
+
+static bool is_drawable(const double *x) {
+    return fabs(x[0]) < largest_coordinate && fabs(x[1]) < largest_coordinate &&
+           fabs(x[2]) < largest_coordinate;
+}
+
+/* The axis along which the mesh has no extent, or -1. */
+static int flat_axis(const mesh *m) {
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        const double *x = m->xyz + 3 * (size_t)m->faces[k];
+        for (int d = 0; d < 3 && is_drawable(x); d++) {
+            low[d] = fmin(low[d], x[d]);
+            high[d] = fmax(high[d], x[d]);
         }
     }
+    for (int d = 0; d < 3; d++) {
+        int e = (d + 1) % 3, g = (d + 2) % 3;
+        if (high[d] - low[d] <= 1e-6 * fmax(high[e] - low[e], high[g] - low[g])) {
+            return d;
+        }
+    }
+    return -1;
+}
+
+/* The three directions of the eye: to the right, upwards, towards the camera. */
+static void eye_axes(double axes[3][3], const render_view *view, const mesh *m) {
+    int flat = view->automatic ? flat_axis(m) : -1;
     memset(axes, 0, 9 * sizeof(double));
-    axes[0][side] = cos(azimuth);
-    axes[0][front] = -sign * sin(azimuth);
-    axes[1][up] = cos(elevation);
-    axes[1][side] = -sin(elevation) * sin(azimuth);
-    axes[1][front] = -sign * sin(elevation) * cos(azimuth);
-    axes[2][up] = sin(elevation);
-    axes[2][side] = cos(elevation) * sin(azimuth);
-    axes[2][front] = sign * cos(elevation) * cos(azimuth);
+    if (flat >= 0) {
+        axes[0][flat == 0 ? 1 : 0] = 1;
+        axes[1][flat == 2 ? 1 : 2] = flat == 1 ? -1 : 1;
+        axes[2][flat] = 1;
+        return;
+    }
+    frame f = frame_of(view->up);
+    double azimuth = view->azimuth * pi / 180, elevation = view->elevation * pi / 180;
+    axes[0][f.side] = cos(azimuth);
+    axes[0][f.front] = -f.sign * sin(azimuth);
+    axes[1][f.up] = cos(elevation);
+    axes[1][f.side] = -sin(elevation) * sin(azimuth);
+    axes[1][f.front] = -f.sign * sin(elevation) * cos(azimuth);
+    axes[2][f.up] = sin(elevation);
+    axes[2][f.side] = cos(elevation) * sin(azimuth);
+    axes[2][f.front] = f.sign * cos(elevation) * cos(azimuth);
+}
+
+void render_look_from(render_view *view, const double direction[3]) {
+    frame f = frame_of(view->up);
+    double length = hypot(hypot(direction[0], direction[1]), direction[2]);
+    if (length > 0 && isfinite(length)) {
+        view->azimuth = atan2(direction[f.side], f.sign * direction[f.front]) * 180 / pi;
+        view->elevation = asin(direction[f.up] / length) * 180 / pi;
+    }
 }
 
 /* Middle and radius of what is drawn, in eye directions. */
@@ -89,8 +116,7 @@ static double centre_eye(scene *s, double axes[3][3]) {
     size_t n = (size_t)s->m->n_vertices;
     for (size_t v = 0; v < n; v++) {
         const double *x = s->m->xyz + 3 * v;
-        bool fine = fabs(x[0]) < largest_coordinate && fabs(x[1]) < largest_coordinate &&
-                    fabs(x[2]) < largest_coordinate;
+        bool fine = is_drawable(x);
         for (int d = 0; d < 3; d++) {
             s->eye[3 * v + (size_t)d] =
                 fine ? axes[d][0] * x[0] + axes[d][1] * x[1] + axes[d][2] * x[2] : NAN;

@@ -24,6 +24,10 @@ typedef struct render_view {
 /** 800 x 600, azimuth 30, elevation 20, parallel, y up, automatic. */
 render_view render_view_default(void);
 
+/** Turns the camera so that it looks from there to the middle of the mesh; a direction of no length changes nothing. A mesh
+ *  that is flat is still looked at from above where view->automatic says so. */
+void render_look_from(render_view *view, const double direction[3]);
+
 /** A vertex drawn as a disk over the surface. */
 typedef struct render_mark {
     sl_int vertex;

@@ -1,0 +1,144 @@
+/* test_mesh_write.c: meshes written and read back; fields, colours and texture coordinates in the files */
+#define _POSIX_C_SOURCE 200809L
+#include "pyramid.h"
+
+#include "../tools/mesh_write.h"
+#include "../tools/surface.h"
+
+static void reads_back(const mesh *m, const char *name, const mesh_extra *extra) {
+    mesh back;
+    char message[300];
+    const char *path = files_path(name);
+    assert_true(mesh_write(path, m, extra, message, sizeof message));
+    if (!mesh_read(&back, path, message, sizeof message)) {
+        print_error("%s\n", message);
+        fail();
+    }
+    assert_int_equal(back.n_vertices, m->n_vertices);
+    assert_int_equal(back.n_faces, m->n_faces);
+    SAME_VALUES(back.xyz, m->xyz, 3 * (size_t)m->n_vertices);
+    assert_memory_equal(back.faces, m->faces, 3 * (size_t)m->n_faces * sizeof *m->faces);
+    mesh_free(&back);
+}
+
+static void bits_survive(void **state) {
+    (void)state;
+    static const char *const names[] = {"a.ply", "a.obj", "a.ply.gz", "a.obj.gz", "A.PLY"};
+    static const char *const surfaces[] = {"blob:2", "hills:7x5", "grid:1x1"};
+    for (size_t s = 0; s < 3; s++) {
+        mesh m;
+        assert_true(surface_make(&m, surfaces[s], NULL, 0));
+        size_t n = (size_t)m.n_vertices;
+        double *value = test_reals(n), *uv = test_reals(2 * n),
+               *corner_uv = test_reals(6 * (size_t)m.n_faces);
+        rgb *color = (rgb *)test_array(n, sizeof *color);
+        for (size_t v = 0; v < n; v++) {
+            value[v] = v % 3 == 0 ? (double)NAN : 1.0 / (double)(v + 1);
+            uv[2 * v] = v % 5 == 0 ? (double)NAN : (double)v;
+        }
+        const mesh_field fields[2] = {{"heat", value}, {"other", value}};
+        const mesh_extra all = {uv, NULL, color, fields, 2},
+                         corners = {NULL, corner_uv, NULL, fields, 1},
+                         one = {NULL, NULL, NULL, fields, 1};
+        for (size_t k = 0; k < 5; k++) {
+            reads_back(&m, names[k], NULL);
+            reads_back(&m, names[k], &all);
+            reads_back(&m, names[k], &corners);
+            reads_back(&m, names[k], &one);
+        }
+        free(color);
+        free(corner_uv);
+        free(uv);
+        free(value);
+        mesh_free(&m);
+    }
+}
+
+/* A triangle, byte by byte. */
+static void ply_layout(void **state) {
+    (void)state;
+    double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, value[3] = {0.5, -2, 1e300},
+           uv[6] = {1, 2, 3, 4, 5, 6};
+    sl_int faces[3] = {0, 1, 2};
+    const mesh m = {3, 1, xyz, faces};
+    const rgb color[3] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 255}};
+    const mesh_field field = {"heat", value};
+    const mesh_extra extra = {uv, NULL, color, &field, 1};
+    static const char header[] =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty "
+        "double y\nproperty double z\nproperty double heat\nproperty double s\nproperty double "
+        "t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face "
+        "1\nproperty list uchar int vertex_indices\nend_header\n";
+    binary_t b;
+    memset(&b, 0, sizeof b);
+    put_text(&b, header);
+    for (int v = 0; v < 3; v++) {
+        for (int d = 0; d < 3; d++) {
+            put_double(&b, xyz[3 * v + d]);
+        }
+        put_double(&b, value[v]);
+        put_double(&b, uv[2 * v]);
+        put_double(&b, uv[2 * v + 1]);
+        put_bits(&b, color[v].r, 1);
+        put_bits(&b, color[v].g, 1);
+        put_bits(&b, color[v].b, 1);
+    }
+    put_bits(&b, 3, 1);
+    for (int c = 0; c < 3; c++) {
+        put_bits(&b, (uint64_t)c, 4);
+    }
+    size_t length = 0;
+    assert_true(mesh_write(files_path("t.ply"), &m, &extra, NULL, 0));
+    char *got = files_get(files_path("t.ply"), &length);
+    assert_int_equal(length, b.length);
+    assert_memory_equal(got, b.bytes, length);
+    free(got);
+}
+
+static void obj_lines(void **state) {
+    (void)state;
+    double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, value[3] = {2, 4, 3}, uv[6] = {0, 0, 0.5, 0, 0, 1};
+    sl_int faces[3] = {2, 0, 1};
+    const mesh m = {3, 1, xyz, faces};
+    const rgb color[3] = {{255, 0, 51}, {0, 0, 0}, {0, 0, 0}};
+    const mesh_field field = {"heat", value};
+    const mesh_extra all = {uv, NULL, color, &field, 1}, scalar = {NULL, NULL, NULL, &field, 1};
+    size_t length = 0;
+    assert_true(mesh_write(files_path("t.obj"), &m, &all, NULL, 0));
+    char *got = files_get(files_path("t.obj"), &length);
+    assert_string_equal(got, "v 0 0 0 1.0000 0.0000 0.2000\nv 1 0 0 0.0000 0.0000 0.0000\n"
+                             "v 0 1 0 0.0000 0.0000 0.0000\nvt 0 0\nvt 0.5 0\nvt 0 1\n"
+                             "f 3/3 1/1 2/2\n#field heat\n#f 2\n#f 4\n#f 3\n");
+    free(got);
+    assert_true(mesh_write(files_path("t.obj"), &m, &scalar, NULL, 0));
+    got = files_get(files_path("t.obj"), &length);
+    assert_string_equal(got, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0.5 0\n"
+                             "f 3/3 1/1 2/2\n#field heat\n#f 2\n#f 4\n#f 3\n");
+    free(got);
+}
+
+static void refusals(void **state) {
+    (void)state;
+    const mesh none = {0, 0, NULL, NULL};
+    char message[300];
+    assert_false(mesh_write(files_path("a.off"), &none, NULL, message, sizeof message));
+    assert_non_null(strstr(message, "a.off: a mesh is written as .obj or .ply"));
+    assert_false(mesh_write(files_path("no/folder.ply"), &none, NULL, message, sizeof message));
+    assert_non_null(strstr(message, "cannot be written"));
+    if (access("/dev/full", W_OK) == 0 && symlink("/dev/full", files_path("full.ply")) == 0) {
+        assert_false(mesh_write(files_path("full.ply"), &none, NULL, message, sizeof message));
+        assert_non_null(strstr(message, "full.ply: was not written whole"));
+        (void)remove(files_path("full.ply"));
+    }
+    assert_true(mesh_write(files_path("none.ply"), &none, NULL, message, sizeof message));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bits_survive),
+        cmocka_unit_test(ply_layout),
+        cmocka_unit_test(obj_lines),
+        cmocka_unit_test(refusals),
+    };
+    return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
+}

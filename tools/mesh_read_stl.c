@@ -1,0 +1,212 @@
+/* mesh_read_stl.c: reads ASCII and binary STL files; corners with the same coordinates become one vertex */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh_build.h"
+
+enum {
+    HEADER = 84,
+    RECORD = 50
+}; /* bytes: 80 of anything and a count; a normal, three corners, a word */
+
+/* ---- one vertex for equal corners ---- */
+
+typedef struct place {
+    double x[3];
+    sl_int vertex;
+} place;
+
+static bool same_place(const place *a, const place *b) {
+    return a->x[0] == b->x[0] && a->x[1] == b->x[1] && a->x[2] == b->x[2];
+}
+
+static int by_place(const void *a, const void *b) {
+    const place *p = (const place *)a, *q = (const place *)b;
+    for (int d = 0; d < 3; d++) {
+        if (p->x[d] != q->x[d]) {
+            return p->x[d] < q->x[d] ? -1 : 1;
+        }
+    }
+    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+}
+
+/* Vertices keep the order in which they first came. */
+static bool weld(mesh_build *b) {
+    mesh *m = &b->made;
+    size_t n = (size_t)m->n_vertices;
+    place *places = (place *)malloc((n + 1) * sizeof *places);
+    sl_int *number = (sl_int *)malloc((n + 1) * sizeof *number);
+    if (places == NULL || number == NULL) {
+        free(places);
+        free(number);
+        return input_refuse(b->in, "out of memory");
+    }
+    for (size_t v = 0; v < n; v++) {
+        memcpy(places[v].x, m->xyz + 3 * v, sizeof places[v].x);
+        places[v].vertex = (sl_int)v;
+    }
+    qsort(places, n, sizeof *places, by_place);
+    for (size_t k = 0; k < n; k++) { /* the first vertex of each place */
+        bool again = k > 0 && same_place(&places[k], &places[k - 1]);
+        number[places[k].vertex] = again ? number[places[k - 1].vertex] : places[k].vertex;
+    }
+    sl_int kept = 0;
+    for (size_t v = 0; v < n; v++) { /* a first vertex comes before those at its place */
+        if (number[v] == (sl_int)v) {
+            memmove(m->xyz + 3 * (size_t)kept, m->xyz + 3 * v, 3 * sizeof *m->xyz);
+            number[v] = kept++;
+        } else {
+            number[v] = number[number[v]];
+        }
+    }
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        m->faces[k] = number[m->faces[k]];
+    }
+    m->n_vertices = kept;
+    b->largest = kept - 1; /* every vertex is a corner */
+    free(number);
+    free(places);
+    return true;
+}
+
+/* The next corner of the facet at hand. */
+static bool add_corner(mesh_build *b, const double x[3]) {
+    /* + 0.0: a negative zero is a zero */
+    return mesh_build_vertex(b, x[0] + 0.0, x[1] + 0.0, x[2] + 0.0) &&
+           mesh_build_corner(b, b->made.n_vertices - 1);
+}
+
+/* ---- binary: always little-endian ---- */
+
+static uint32_t word_at(const char *bytes) {
+    uint32_t word = 0;
+    for (int k = 3; k >= 0; k--) {
+        word = word << 8 | (unsigned char)bytes[k];
+    }
+    return word;
+}
+
+static double float_at(const char *bytes) {
+    uint32_t word = word_at(bytes);
+    float x;
+    memcpy(&x, &word, sizeof x);
+    return x;
+}
+
+static bool read_binary(mesh_build *b, uint32_t count) {
+    for (uint32_t f = 0; f < count; f++) {
+        const char *at = b->in->data + HEADER + (size_t)f * RECORD + 12; /* behind the normal */
+        for (int c = 0; c < 3; c++, at += 12) {
+            const double x[3] = {float_at(at), float_at(at + 4), float_at(at + 8)};
+            if (!add_corner(b, x)) {
+                return false;
+            }
+        }
+        if (!mesh_build_polygon(b)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- ASCII ---- */
+
+static void read_keyword(input *in, char word[16]) {
+    input_word(in, word, 16);
+    for (char *c = word; *c != '\0'; c++) {
+        *c = *c >= 'A' && *c <= 'Z' ? (char)(*c - 'A' + 'a') : *c;
+    }
+}
+
+static bool read_vertex(mesh_build *b) {
+    double x[3];
+    for (int d = 0; d < 3; d++) {
+        if (!input_number(b->in, &x[d]) || !input_at_word_end(b->in)) {
+            return input_refuse(b->in, "vertex: needs three numbers");
+        }
+    }
+    return add_corner(b, x);
+}
+
+static bool read_ascii(mesh_build *b) {
+    input *in = b->in;
+    bool in_solid = false;
+    while (input_more(in)) {
+        char word[16];
+        read_keyword(in, word);
+        bool is_end = strcmp(word, "endsolid") == 0;
+        if (strcmp(word, "solid") == 0 || is_end) {
+            if (in_solid != is_end || b->n_corners > 0) {
+                return input_refuse(in, "%s stands where it cannot", word);
+            }
+            in_solid = !is_end;
+        } else if (!in_solid) {
+            return input_refuse(in, "\"%s\" stands outside of a solid", word);
+        } else if (strcmp(word, "vertex") == 0) {
+            if (!read_vertex(b)) {
+                return false;
+            }
+            continue; /* the next word may stand on the same line */
+        } else if (strcmp(word, "endloop") == 0) {
+            if (b->n_corners != 3) {
+                return input_refuse(in, "a facet of %d vertices", (int)b->n_corners);
+            }
+            if (!mesh_build_polygon(b)) {
+                return false;
+            }
+            continue;
+        } else if (strcmp(word, "facet") == 0 || strcmp(word, "outer") == 0 ||
+                   strcmp(word, "endfacet") == 0) {
+            if (b->n_corners > 0) {
+                return input_refuse(in, "%s stands inside of a loop", word);
+            }
+            if (word[0] == 'o') {
+                read_keyword(in, word); /* loop */
+                continue;
+            }
+            if (word[0] == 'e') {
+                continue;
+            }
+        } else {
+            return input_refuse(in, "\"%s\" is no word of an STL file", word);
+        }
+        if (!input_next_line(in)) { /* what follows solid, facet is passed over */
+            break;
+        }
+    }
+    return !in_solid || input_refuse(in, "ends without endsolid: truncated");
+}
+
+static bool begins_with_solid(input *in) {
+    char word[16] = "";
+    if (input_more(in)) {
+        read_keyword(in, word);
+    }
+    in->at = in->data;
+    in->line = 1;
+    return strcmp(word, "solid") == 0;
+}
+
+bool mesh_read_stl(mesh_build *b) {
+    input *in = b->in;
+    size_t length = (size_t)(in->end - in->data);
+    uint32_t count = length >= HEADER ? word_at(in->data + 80) : 0;
+    bool ok;
+    /* a binary file may begin with "solid" too: its length is what tells */
+    if (length >= HEADER && length == HEADER + (size_t)count * RECORD) {
+        in->line = 0;
+        ok = read_binary(b, count);
+    } else if (begins_with_solid(in)) {
+        ok = read_ascii(b);
+    } else {
+        in->line = 0;
+        return input_refuse(in,
+                            length < HEADER
+                                ? "too short for an STL file"
+                                : "neither ASCII STL nor binary STL of %lu triangles: %lu "
+                                  "bytes",
+                            (unsigned long)count, (unsigned long)length);
+    }
+    return ok && weld(b);
+}
