@@ -1,100 +1,10 @@
-/* test_tools_geodesic.c: distances by the heat method against exact ones, local against full; cells of the nearest site */
+/* test_tools_geodesic.c: distances by the heat method, local against full; cells of the nearest site; refusals */
 #include "gen.h"
 
-#include "bent_grids.h"
 #include "each_mesh.h"
+#include "heat_subject.h"
 
 #include "../tools/ball.h"
-#include "../tools/heat_distance.h"
-
-typedef double (*exact_distance)(const double *a, const double *b);
-
-static double in_space(const double *a, const double *b) {
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-
-static double on_unit_sphere(const double *a, const double *b) {
-    return 2 * asin(fmin(1, 0.5 * in_space(a, b)));
-}
-
-/* A solver over a mesh that it takes over; t = times the squared mean edge. */
-typedef struct subject_t {
-    mesh m;
-    heat_solver s;
-} subject_t;
-
-static void subject_make(subject_t *y, mesh m, double times) {
-    y->m = m;
-    double h = mesh_mean_edge_length(&y->m);
-    SL_CHECK(heat_solver_create(&y->s, &y->m, times * h * h));
-}
-
-static void subject_free(subject_t *y) {
-    scratch_is_clean(&y->s.around);
-    heat_solver_free(&y->s);
-    mesh_free(&y->m);
-}
-
-/* Distances of all vertices by number, NaN where there is none. */
-static double *by_vertex(subject_t *y, const sl_int *sources, sl_int count,
-                         const heat_reach *reach) {
-    heat_field f;
-    double *d = test_reals((size_t)y->m.n_vertices);
-    for (sl_int v = 0; v < y->m.n_vertices; v++) {
-        d[v] = NAN;
-    }
-    SL_CHECK(heat_distance(&f, &y->s, sources, count, reach));
-    for (sl_int k = 0; k < f.n; k++) {
-        assert_true(isnan(d[f.vertices[k]]) && f.distance[k] >= 0);
-        d[f.vertices[k]] = f.distance[k];
-    }
-    heat_field_free(&f);
-    return d;
-}
-
-static double mean_error(const subject_t *y, const double *d, sl_int source, double radius,
-                         exact_distance exact) {
-    double sum = 0;
-    sl_int count = 0;
-    for (sl_int v = 0; v < y->m.n_vertices; v++) {
-        double x = exact(y->m.xyz + 3 * (size_t)source, y->m.xyz + 3 * (size_t)v);
-        if (x <= radius && !isnan(d[v])) {
-            sum += fabs(d[v] - x);
-            count++;
-        }
-    }
-    assert_true(count > 50);
-    return sum / count;
-}
-
-/* On a plane and on a sphere errors fall with refinement, in full and within a radius. */
-static void errors_fall(void **state) {
-    (void)state;
-    for (int sphere = 0; sphere < 2; sphere++) {
-        double before[2] = {INFINITY, INFINITY};
-        for (sl_int side = 41; side <= 161; side = 2 * side - 1) {
-            subject_t y;
-            sl_int source = side * (side / 2) + side / 2;
-            const heat_reach near = {0.3, 0, 0};
-            subject_make(&y, sphere ? sphere_grid(side, 1) : flat_grid(side, 0.2), 8);
-            exact_distance exact = sphere ? on_unit_sphere : in_space;
-            double *full = by_vertex(&y, &source, 1, NULL);
-            double *local = by_vertex(&y, &source, 1, &near);
-            double errors[2] = {mean_error(&y, full, source, 0.28, exact),
-                                mean_error(&y, local, source, 0.28, exact)};
-            print_message("%s, %d vertices: mean error in full %.5f, within 0.3 %.5f\n",
-                          sphere ? "sphere" : "plane", (int)y.m.n_vertices, errors[0], errors[1]);
-            for (int k = 0; k < 2; k++) {
-                assert_true(errors[k] < 0.8 * before[k]);
-                before[k] = errors[k];
-            }
-            free(local);
-            free(full);
-            subject_free(&y);
-        }
-        assert_true(before[0] < 0.003 && before[1] < 0.003);
-    }
-}
 
 /* Heat on the ball is that of the full solve, to the bit; distances are those of the full method but for the rim. */
 static void local_against_full(void **state) {
@@ -415,7 +325,6 @@ static void real_meshes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_fall),
         cmocka_unit_test(local_against_full),
         cmocka_unit_test(cost_of_a_radius),
         cmocka_unit_test(balls),
