@@ -197,12 +197,12 @@ $(B)/tests/replay_%: $(B)/obj/tests/fuzz_%.o $(B)/obj/tests/replay.o $(LIBRARY) 
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
 # What the variants below share: they differ in B, compiler and flags.
-build-tests: $(TEST_PROGRAMS) $(REPLAYS)
+build-tests: $(TEST_PROGRAMS) $(REPLAYS) $(PROGRAM)
 run-tests: build-tests
-	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)
+	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)
 
-test: deps ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@$(MAKE) --no-print-directory run-tests ALSO=tests/check_header.sh
+test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
+	@$(MAKE) --no-print-directory run-tests ALSO='tests/check_header.sh tests/check_program.sh' PROGRAM=$(B)/sparse-local
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
@@ -218,9 +218,9 @@ test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, e
 	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
 	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
 
-sanitize: deps sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
+sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
-	-fsanitize=address,undefined -fno-sanitize-recover=all'
+	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO=tests/check_program.sh PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_batch
 

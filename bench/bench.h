@@ -24,6 +24,7 @@ typedef struct bench_run_t {
 /** The questions, each in a file of its own. */
 void bench_patches(bench_run *run);
 void bench_scaling(bench_run *run);
+void bench_amortize(bench_run *run);
 void bench_factor(bench_run *run);
 void bench_kernels(bench_run *run);
 void bench_harmonic(bench_run *run);
@@ -296,10 +297,11 @@ typedef struct bench_plot bench_plot;
 bench_plot *bench_plot_open(const bench_run *run, const char *name, const char *title,
                             const char *x_label, const char *y_label, const char *log);
 
-/** Appends a point to the series of that name, made at first use; style is gnuplot's ("linespoints"). */
+/** Appends a point to the series of that name, made at first use; style is "linespoints" or "boxes", with
+ *  " lc K" a colour of one's own, with " dt 2" dashed. */
 void bench_plot_point(bench_plot *plot, const char *series, const char *style, double x, double y);
 
-/** Writes name.gp and, where gnuplot is installed, name.svg; frees the plot. */
+/** Writes name.svg; frees the plot. */
 void bench_plot_close(bench_plot *plot);
 
 #endif

@@ -15,6 +15,7 @@ static const double width = 640, height = 420, left = 78, right = 20, top = 40, 
 typedef struct series {
     char name[NAME_SIZE];
     plot_style style;
+    int kind; /* its colour */
     size_t count, room;
     double *xy; /* 2 count */
 } series;
@@ -46,22 +47,35 @@ void plot_free(plot *p) {
     free(p);
 }
 
-bool plot_add(plot *p, const char *name, plot_style style, double x, double y) {
+/* The series of that name, or one behind the last. */
+static series *series_named(plot *p, const char *name) {
     int k = 0;
-    if (!isfinite(x) || !isfinite(y) || (p->is_log[0] && x <= 0) || (p->is_log[1] && y <= 0)) {
-        return true;
-    }
     while (k < p->n_series && strncmp(p->all[k].name, name, NAME_SIZE - 1) != 0) {
         k++;
     }
-    if (k == MOST_SERIES) {
+    return k < MOST_SERIES ? &p->all[k] : NULL;
+}
+
+void plot_color(plot *p, const char *name, int kind) {
+    series *s = series_named(p, name);
+    if (s != NULL) {
+        s->kind = kind;
+    }
+}
+
+bool plot_add(plot *p, const char *name, plot_style style, double x, double y) {
+    if (!isfinite(x) || !isfinite(y) || (p->is_log[0] && x <= 0) || (p->is_log[1] && y <= 0)) {
+        return true;
+    }
+    series *s = series_named(p, name);
+    if (s == NULL) {
         return false;
     }
-    series *s = &p->all[k];
-    if (k == p->n_series) {
+    if (s == p->all + p->n_series) {
+        static const int kinds[8] = {4, 0, 2, 5, 1, 6, 7, 3}; /* blue first, yellow last */
         (void)snprintf(s->name, sizeof s->name, "%s", name);
         s->style = style;
-        p->n_series++;
+        s->kind = kinds[p->n_series++ % 8];
     }
     if (s->count == s->room) {
         size_t room = s->room > 0 ? 2 * s->room : 16;
@@ -193,12 +207,14 @@ static void print_axis(FILE *f, const plot *p, const axis *a, int d) {
 
 /* ---- series ---- */
 
-static void print_series(FILE *f, const series *s, const axis *x, const axis *y, int k) {
-    rgb c = color_of_kind(k == 0 ? 4 : k == 4 ? 0 : k); /* blue first */
+static void print_series(FILE *f, const series *s, const axis *x, const axis *y) {
+    rgb c = color_of_kind(s->kind);
+    bool has_line = s->style == PLOT_LINES || s->style == PLOT_DASHES;
     double half = s->style == PLOT_BARS ? 0.9 * bar_half(s) : 0;
-    if (s->style == PLOT_LINES) {
-        fprintf(f, "<polyline fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-width=\"2\" points=\"",
-                c.r, c.g, c.b);
+    if (has_line) {
+        fprintf(f,
+                "<polyline fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-width=\"2\"%s points=\"",
+                c.r, c.g, c.b, s->style == PLOT_DASHES ? " stroke-dasharray=\"6 4\"" : "");
         for (size_t i = 0; i < s->count; i++) {
             fprintf(f, "%.2f,%.2f ", on_axis(x, s->xy[2 * i]), on_axis(y, s->xy[2 * i + 1]));
         }
@@ -214,21 +230,32 @@ static void print_series(FILE *f, const series *s, const axis *x, const axis *y,
                     y->begin);
         } else {
             fprintf(f, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%s\"/>\n", at, up,
-                    s->style == PLOT_LINES ? "3" : "2");
+                    has_line ? "3" : "2");
         }
     }
     fprintf(f, "</g>\n");
 }
 
+/* To the right of the frame, in the order of the series. */
 static void print_legend(FILE *f, const plot *p) {
     for (int k = 0; p->n_series > 1 && k < p->n_series; k++) {
-        rgb c = color_of_kind(k == 0 ? 4 : k == 4 ? 0 : k);
-        double y = top + 14 + 16 * k;
-        fprintf(f,
-                "<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"4\" fill=\"#%02x%02x%02x\"/>\n",
-                left + 10, y - 6, c.r, c.g, c.b);
-        print_text(f, left + 28, y, "start", p->all[k].name);
+        const series *s = &p->all[k];
+        rgb c = color_of_kind(s->kind);
+        double x = width - 4, y = top + 8 + 18 * k;
+        fprintf(f, "<path d=\"M%.1f %.1fh24\" stroke=\"#%02x%02x%02x\" stroke-width=\"3\"%s/>\n", x,
+                y - 4, c.r, c.g, c.b, s->style == PLOT_DASHES ? " stroke-dasharray=\"6 4\"" : "");
+        print_text(f, x + 30, y, "start", s->name);
     }
+}
+
+/* How much room the legend needs: letters of 12 pixels are about 6.6 wide. */
+static double legend_width(const plot *p) {
+    size_t longest = 0;
+    for (int k = 0; p->n_series > 1 && k < p->n_series; k++) {
+        size_t length = strlen(p->all[k].name);
+        longest = length > longest ? length : longest;
+    }
+    return longest > 0 ? 40 + 6.6 * (double)longest : 0;
 }
 
 bool plot_write(const plot *p, const char *path, char *message, size_t message_size) {
@@ -236,17 +263,18 @@ bool plot_write(const plot *p, const char *path, char *message, size_t message_s
     bool ok = f != NULL;
     if (ok) {
         axis x = find_axis(p, 0), y = find_axis(p, 1);
+        double whole = width + legend_width(p);
         fprintf(f,
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
                 "width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" font-size=\"12\">\n"
                 "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-                width, height, width, height);
+                whole, height, whole, height);
         if (p->n_series > 0) {
             print_axis(f, p, &x, 0);
             print_axis(f, p, &y, 1);
         }
         for (int k = 0; k < p->n_series; k++) {
-            print_series(f, &p->all[k], &x, &y, k);
+            print_series(f, &p->all[k], &x, &y);
         }
         fprintf(f,
                 "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "

@@ -1,0 +1,393 @@
+/* test_commands.c: the commands of sparse-local, run as functions: their numbers against sums over all eigenvectors,
+ * their answers under a renumbering and a turn of the mesh, their pictures */
+#define _POSIX_C_SOURCE 200809L
+#include "eigen.h"
+#include "files.h"
+
+#include <fcntl.h>
+
+#include "../tools/command.h"
+#include "../tools/dissection.h"
+#include "../tools/laplacian.h"
+#include "../tools/mesh_write.h"
+#include "../tools/picture.h"
+#include "../tools/surface.h"
+
+/* ---- running a command ---- */
+
+static int pictures_written, picture_colors;
+
+/* Takes the place of the program's own (png_write.c), which needs libpng; counts the colours that the picture has. */
+bool picture_write_png(const picture *p, const char *path, char *message, size_t message_size) {
+    static unsigned char seen[1 << 15]; /* five bits of each colour */
+    (void)path;
+    (void)message;
+    (void)message_size;
+    memset(seen, 0, sizeof seen);
+    picture_colors = 0;
+    for (int k = 0; k < p->width * p->height; k++) {
+        int color = (p->at[k].r >> 3) << 10 | (p->at[k].g >> 3) << 5 | p->at[k].b >> 3;
+        picture_colors += !seen[color];
+        seen[color] = 1;
+    }
+    pictures_written++;
+    return true;
+}
+
+/* Runs with standard output put aside; words are parted by blanks. */
+static void run(int (*command)(int, char **), const char *format, ...) {
+    char line[2048], *argv[40];
+    int argc = 0;
+    va_list list;
+    va_start(list, format);
+    assert_true(vsnprintf(line, sizeof line, format, list) < (int)sizeof line);
+    va_end(list);
+    for (char *word = strtok(line, " "); word != NULL; word = strtok(NULL, " ")) {
+        argv[argc++] = word;
+    }
+    argv[argc] = NULL;
+    (void)fflush(stdout);
+    int kept = dup(1), nowhere = open("/dev/null", O_WRONLY);
+    assert_true(kept >= 0 && nowhere >= 0 && dup2(nowhere, 1) == 1);
+    int status = command(argc, argv);
+    (void)fflush(stdout);
+    assert_true(dup2(kept, 1) == 1);
+    (void)close(kept);
+    (void)close(nowhere);
+    assert_int_equal(status, 0);
+}
+
+/* A table of numbers behind one line of names; returns how many rows. */
+static int read_csv(const char *path, double *values, int columns, int most_rows) {
+    size_t length = 0;
+    char *text = files_get(path, &length), *at = strchr(text, '\n');
+    int rows = 0;
+    assert_non_null(at);
+    for (at++; *at != '\0' && rows < most_rows; rows++) {
+        for (int c = 0; c < columns; c++) {
+            char *after = at;
+            values[rows * columns + c] = strtod(at, &after);
+            assert_true(after > at && *after == (c + 1 < columns ? ',' : '\n'));
+            at = after + 1;
+        }
+    }
+    assert_true(*at == '\0');
+    free(text);
+    return rows;
+}
+
+/* ---- a small mesh and its eigenvectors ---- */
+
+typedef struct spectrum {
+    mesh m;
+    int n;
+    double *lambda, *phi; /* phi: n x n, column-major, phi' M phi = 1 */
+} spectrum;
+
+static spectrum spectrum_of(const char *surface) {
+    spectrum s;
+    sl_matrix *L = NULL;
+    assert_true(surface_make(&s.m, surface, NULL, 0));
+    assert_true(laplacian_cotangent(&L, &s.m));
+    sl_csc A = sl_matrix_view(L);
+    size_t n = (size_t)A.n_cols;
+    double *dense = test_reals(n * n), *mass = test_reals(n);
+    s.n = (int)n;
+    s.lambda = test_reals(n);
+    s.phi = test_reals(n * n);
+    laplacian_mass(mass, &s.m);
+    for (size_t j = 0; j < n; j++) {
+        for (sl_int p = A.p[j]; p < A.p[j + 1]; p++) {
+            size_t i = (size_t)A.i[p];
+            dense[i + j * n] = dense[j + i * n] = A.x[p] / sqrt(mass[i] * mass[j]);
+        }
+    }
+    eigen_all(dense, s.phi, s.n);
+    for (size_t k = 0; k < n; k++) {
+        s.lambda[k] = dense[k + k * n];
+        for (size_t i = 0; i < n; i++) {
+            s.phi[i + k * n] /= sqrt(mass[i]);
+        }
+    }
+    free(mass);
+    free(dense);
+    sl_matrix_free(L);
+    return s;
+}
+
+static void spectrum_free(spectrum *s) {
+    mesh_free(&s->m);
+    free(s->lambda);
+    free(s->phi);
+}
+
+static double heat_by_sum(const spectrum *s, int i, int j, double t) {
+    double sum = 0;
+    for (int k = 0; k < s->n; k++) {
+        sum += s->phi[i + k * s->n] * s->phi[j + k * s->n] / (1 + t * s->lambda[k]);
+    }
+    return sum;
+}
+
+/* Both ways err by n eps times the condition of M + t L, which is 1 + t lambda_max where the masses are alike;
+ * ten times that, for the roundings of the eigenvectors' rotations add up. */
+static double allowed(const spectrum *s, double t) {
+    double largest = 0;
+    for (int k = 0; k < s->n; k++) {
+        largest = s->lambda[k] > largest ? s->lambda[k] : largest;
+    }
+    return 10 * s->n * DBL_EPSILON * (1 + t * largest);
+}
+
+#define NEAR(a, b, size, tolerance) assert_true(fabs((a) - (b)) <= (tolerance) * (size))
+
+static const char *const small[] = {"sphere:2", "blob:2", "hills:13x12", "torus:16x9"};
+
+static void against_eigenvectors(void **state) {
+    (void)state;
+    char csv[FILE_PATH_SIZE + 100];
+    (void)snprintf(csv, sizeof csv, "%s", files_path("numbers.csv"));
+    for (size_t k = 0; k < sizeof small / sizeof *small; k++) {
+        spectrum s = spectrum_of(small[k]);
+        double *values = test_reals(20 * (size_t)s.n);
+        for (double t = 1e-3; t < 1e4; t *= 31) {
+            run(command_adf, "adf %s --time %.17g --csv %s", small[k], t, csv);
+            assert_int_equal(read_csv(csv, values, 2, s.n), s.n);
+            for (int v = 0; v < s.n; v++) {
+                double want = heat_by_sum(&s, v, v, t);
+                assert_true(values[2 * v] == v);
+                NEAR(values[2 * v + 1], want, want, allowed(&s, t));
+            }
+            run(command_adf, "adf %s --time %.17g --csv %s --at 7,7,3,9-11", small[k], t, csv);
+            assert_int_equal(read_csv(csv, values, 2, s.n), 6);
+            NEAR(values[1], heat_by_sum(&s, 7, 7, t), values[1], allowed(&s, t));
+            NEAR(values[11], heat_by_sum(&s, 11, 11, t), values[11], allowed(&s, t));
+            run(command_heat, "heat %s --time %.17g --csv %s --from 5,60 --at 0,5,33", small[k], t,
+                csv);
+            assert_int_equal(read_csv(csv, values, 2, s.n), 3);
+            for (int row = 0; row < 3; row++) {
+                int v = (int)values[2 * row];
+                NEAR(values[2 * row + 1], heat_by_sum(&s, v, 5, t) + heat_by_sum(&s, v, 60, t),
+                     heat_by_sum(&s, 5, 5, t), allowed(&s, t));
+            }
+            run(command_pairs, "pairs %s --time %.17g --csv %s --count 40", small[k], t, csv);
+            assert_int_equal(read_csv(csv, values, 5, s.n), 40);
+            for (int row = 0; row < 40; row++) {
+                int from = (int)values[5 * row], to = (int)values[5 * row + 1];
+                NEAR(values[5 * row + 2], heat_by_sum(&s, to, from, t), heat_by_sum(&s, to, to, t),
+                     allowed(&s, t));
+            }
+        }
+        run(command_hks, "hks %s --times 6 --csv %s --first 0.01 --last 100 --at all", small[k],
+            csv);
+        assert_int_equal(read_csv(csv, values, 7, s.n), s.n);
+        for (int v = 0; v < s.n; v++) {
+            for (int i = 0; i < 6; i++) {
+                double t = 0.01 * pow(1e4, i / 5.0), want = heat_by_sum(&s, v, v, t);
+                NEAR(values[7 * v + 1 + i], want, want, allowed(&s, t));
+            }
+        }
+        free(values);
+        spectrum_free(&s);
+    }
+}
+
+/* Heat is neither made nor lost: the sum of mass times x is that of the sources; and it is what a radius asks for. */
+static void heat_is_kept(void **state) {
+    (void)state;
+    char csv[FILE_PATH_SIZE + 100];
+    (void)snprintf(csv, sizeof csv, "%s", files_path("heat.csv"));
+    mesh m;
+    assert_true(surface_make(&m, "hills:40x30", NULL, 0));
+    double mass[1200], all[2400], near[2400];
+    laplacian_mass(mass, &m);
+    run(command_heat, "heat hills:40x30 --scaled-time 50 --from 600,3 --csv %s", csv);
+    assert_int_equal(read_csv(csv, all, 2, 1200), 1200);
+    double sum = 0;
+    for (int v = 0; v < 1200; v++) {
+        sum += mass[v] * all[2 * v + 1];
+    }
+    assert_true(fabs(sum - 2) < 1e-12);
+    run(command_heat, "heat hills:40x30 --scaled-time 50 --from 600,3 --radius 0.2 --csv %s", csv);
+    int rows = read_csv(csv, near, 2, 1200), inside = 0;
+    for (int v = 0; v < 1200; v++) {
+        const double *x = m.xyz + 3 * v, *a = m.xyz + 3 * 600, *b = m.xyz + 3 * 3;
+        inside += hypot(hypot(x[0] - a[0], x[1] - a[1]), x[2] - a[2]) <= 0.2 ||
+                  hypot(hypot(x[0] - b[0], x[1] - b[1]), x[2] - b[2]) <= 0.2;
+    }
+    assert_int_equal(rows, inside);
+    for (int k = 0; k < rows; k++) { /* local equals full, to the bit */
+        assert_true(near[2 * k + 1] == all[2 * (int)near[2 * k] + 1]);
+    }
+    mesh_free(&m);
+}
+
+/* Vertices in another order, the surface turned and moved: the same numbers at the same places. */
+static void an_isometry_changes_nothing(void **state) {
+    (void)state;
+    mesh m, other;
+    char csv[FILE_PATH_SIZE + 100], path[FILE_PATH_SIZE + 100];
+    (void)snprintf(csv, sizeof csv, "%s", files_path("iso.csv"));
+    (void)snprintf(path, sizeof path, "%s", files_path("iso.ply"));
+    assert_true(surface_make(&m, "star:3", NULL, 0));
+    int n = m.n_vertices;
+    other = m;
+    other.xyz = test_reals(3 * (size_t)n);
+    other.faces = test_ints(3 * (size_t)m.n_faces);
+    for (int v = 0; v < n; v++) { /* v becomes 7 v + 3; 7 does not divide 642 */
+        const double *x = m.xyz + 3 * v;
+        double *y = other.xyz + 3 * ((7 * v + 3) % n);
+        double c = cos(0.7), s = sin(0.7);
+        y[0] = c * x[0] - s * x[1] + 5;
+        y[1] = c * x[2] + s * (s * x[0] + c * x[1]) - 2;
+        y[2] = s * x[2] - c * (s * x[0] + c * x[1]) + 1;
+    }
+    for (int k = 0; k < 3 * m.n_faces; k++) { /* the last face first, each begun elsewhere */
+        other.faces[3 * (m.n_faces - 1 - k / 3) + (k % 3 + 1) % 3] = (7 * m.faces[k] + 3) % n;
+    }
+    assert_true(mesh_write(path, &other, NULL, NULL, 0));
+    double *a = test_reals(2 * (size_t)n), *b = test_reals(2 * (size_t)n);
+    run(command_adf, "adf star:3 --time 0.3 --csv %s", csv);
+    assert_int_equal(read_csv(csv, a, 2, n), n);
+    run(command_adf, "adf %s --time 0.3 --csv %s", path, csv);
+    assert_int_equal(read_csv(csv, b, 2, n), n);
+    for (int v = 0; v < n; v++) {
+        NEAR(b[2 * ((7 * v + 3) % n) + 1], a[2 * v + 1], a[2 * v + 1], 1e-11);
+    }
+    free(a);
+    free(b);
+    free(other.xyz);
+    free(other.faces);
+    mesh_free(&m);
+}
+
+/* ---- reach ---- */
+
+/* The columns visited are the ancestors of the patch: what lies beyond never changes them. */
+static void reach_tells_the_tree(void **state) {
+    (void)state;
+    char csv[FILE_PATH_SIZE + 100];
+    (void)snprintf(csv, sizeof csv, "%s", files_path("reach.csv"));
+    double *rows = test_reals(7 * 1200);
+    run(command_reach, "reach hills:40x30 --center 615 --patch 50 --csv %s", csv);
+    assert_int_equal(read_csv(csv, rows, 7, 1200), 1200);
+    int in_patch = 0;
+    for (int v = 0; v < 1200; v++) {
+        const double *r = rows + 7 * v;
+        int parent = (int)r[2];
+        in_patch += r[5] == 1;
+        assert_true(r[0] == v && r[5] <= r[6]);
+        assert_true(parent < 0 || rows[7 * parent + 1] > r[1]);  /* parents come later */
+        assert_true(parent < 0 || r[6] <= rows[7 * parent + 6]); /* and are visited too */
+    }
+    assert_int_equal(in_patch, 50);
+    for (int v = 0; v < 1200; v++) { /* a visited column has the patch below it */
+        if (rows[7 * v + 6] == 1 && rows[7 * v + 5] == 0) {
+            int children = 0;
+            for (int w = 0; w < 1200; w++) {
+                children += rows[7 * w + 2] == v && rows[7 * w + 6] == 1;
+            }
+            assert_true(children > 0);
+        }
+    }
+    free(rows);
+}
+
+static sl_int component_without(const mesh *m, const sl_int *level_of, sl_int below, sl_int *mark) {
+    sl_int largest = 0;
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        mark[v] = level_of[v] >= 0 && level_of[v] < below ? -1 : v;
+    }
+    for (bool changed = true; changed;) { /* the smallest number of each component wins */
+        changed = false;
+        for (sl_int k = 0; k < 3 * m->n_faces; k++) {
+            sl_int a = m->faces[k], b = m->faces[k % 3 == 2 ? k - 2 : k + 1];
+            if (mark[a] >= 0 && mark[b] >= 0 && mark[a] != mark[b]) {
+                mark[a] = mark[b] = mark[a] < mark[b] ? mark[a] : mark[b];
+                changed = true;
+            }
+        }
+    }
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        sl_int count = 0;
+        for (sl_int w = 0; mark[v] == v && w < m->n_vertices; w++) {
+            count += mark[w] == v;
+        }
+        largest = count > largest ? count : largest;
+    }
+    return largest;
+}
+
+/* Without the separators of the first k levels, no part is larger than three quarters to the k of the mesh. */
+static void separators_separate(void **state) {
+    (void)state;
+    mesh m;
+    sl_matrix *L = NULL;
+    sl_symbolic *S = NULL;
+    sl_options opt = options_none();
+    opt.relaxation = SL_RELAXATION_NONE;
+    opt.ordering = SL_ORDERING_METIS;
+    assert_true(surface_make(&m, "sphere:4", NULL, 0));
+    assert_true(laplacian_cotangent(&L, &m));
+    sl_csc A = sl_matrix_view(L);
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    sl_symbolic_view_t view = sl_symbolic_view(S);
+    sl_int *level = test_ints((size_t)view.n), *of = test_ints((size_t)view.n);
+    sl_int *mark = test_ints((size_t)view.n);
+    assert_int_equal(dissection_levels(level, &view, 4), 4);
+    for (sl_int k = 0; k < view.n; k++) {
+        of[view.perm[k]] = level[k];
+        assert_true(view.parent[k] < 0 || level[k] < 0 || level[view.parent[k]] >= 0);
+    }
+    sl_int whole = view.n;
+    for (sl_int below = 1; below <= 4; below++) {
+        sl_int part = component_without(&m, of, below, mark);
+        assert_true(part < 3 * whole / 4);
+        whole = part;
+    }
+    free(mark);
+    free(of);
+    free(level);
+    sl_symbolic_free(S);
+    sl_matrix_free(L);
+    mesh_free(&m);
+    const sl_symbolic_view_t none = {0};
+    sl_int nothing;
+    assert_int_equal(dissection_levels(&nothing, &none, 3), 0);
+}
+
+static void pictures_are_drawn(void **state) {
+    (void)state;
+    char folder[FILE_PATH_SIZE + 100];
+    (void)snprintf(folder, sizeof folder, "%s", files_path(""));
+    pictures_written = 0;
+    run(command_heat, "heat star:3 --png p --size 200x150");
+    assert_true(pictures_written == 1 && picture_colors > 100);
+    run(command_adf, "adf star:3 --png p --size 200x150 --view 10,80 --up z");
+    assert_true(pictures_written == 2 && picture_colors > 100);
+    run(command_hks, "hks star:3 --png p --size 200x150 --times 3 --like 5 --out %s/hks.ply",
+        folder);
+    assert_true(pictures_written == 3 && picture_colors > 100);
+    run(command_reach,
+        "reach star:3 --png p --separators q --pattern r --tree %s/t.svg --size 200x150", folder);
+    assert_int_equal(pictures_written, 6);
+    run(command_pairs, "pairs star:2 --count 50 --svg %s/pairs.svg", folder);
+    run(command_info, "info star:2");
+    static const char *const files[] = {"t.svg", "pairs.svg"};
+    for (int k = 0; k < 2; k++) {
+        size_t length = 0;
+        char *svg = files_get(files_path(files[k]), &length);
+        assert_true(strncmp(svg, "<svg", 4) == 0 && strstr(svg, "</svg>\n") != NULL);
+        assert_true(strstr(svg, "nan") == NULL && strstr(svg, "inf") == NULL);
+        free(svg);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_eigenvectors),        cmocka_unit_test(heat_is_kept),
+        cmocka_unit_test(an_isometry_changes_nothing), cmocka_unit_test(reach_tells_the_tree),
+        cmocka_unit_test(separators_separate),         cmocka_unit_test(pictures_are_drawn),
+    };
+    return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
+}
