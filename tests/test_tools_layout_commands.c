@@ -190,6 +190,21 @@ static void helps_and_refusals(void **state) {
                  "words.txt:1: not the number of a vertex");
     (void)files_put_text("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
     command_says(command_geodesic, with_paths("geodesic @point.obj"), 1, "no length");
+    /* three faces at an edge, faces with a corner twice, a vertex alone: what is no surface is passed over */
+    (void)files_put_text("fan.obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 1 2 4\n"
+                         "f 2 1 5\nf 1 1 2\nf 1 2 2\n");
+    command_says(command_param, with_paths("param @fan.obj --compare --png @fan.png"), 0,
+                 "patch  ");
+    command_says(command_param, with_paths("param @fan.obj --list 0-4"), 1,
+                 "three faces at the edge");
+    command_says(command_param, with_paths("param @fan.obj --vertex 5"), 1,
+                 "no face is at vertex 5");
+    command_says(command_scp, with_paths("scp @fan.obj"), 0, "spectral conformal");
+    command_says(command_geodesic, with_paths("geodesic @fan.obj --png @fan.png"), 0,
+                 "distances  of 5 vertices");
+    command_says(command_geodesic, with_paths("geodesic @fan.obj --from 5"), 0,
+                 "distances  of 1 vertices");
     /* one face without an area: laid out as well as may be, and alive */
     command_says(command_param, with_paths("param @point.obj"), 0, "patch      3 vertices");
     command_says(command_arap, with_paths("arap @point.obj"), 0, "energy");
