@@ -84,6 +84,8 @@ static void lists_and_comparisons(void **state) {
                  "refactorize the patch and solve");
     command_says(command_param, "param torus:60x30 --vertex 40 --count 200 --compare", 0,
                  "  0 from the full solve");
+    command_says(command_param, "param grid:40x40 --vertex 820 --sweep 50,200", 0, "     200 ");
+    command_says(command_param, "param grid:20x20 --sweep 2", 1, "3 or more");
     command_says(command_param, "param grid:20x20 --dirichlet", 0, "Dirichlet");
     char *said = said_by(command_param, "param grid:30x30 --vertex 440 --count 200 --boundary "
                                         "unrolled --system patch");

@@ -160,10 +160,56 @@ static bool compare(job *q) {
     return local == 0 && by_mesh <= 1e-5;
 }
 
+/* Right-hand side, boundary and room for the patch that the job has now. */
+static void begin_patch(job *q) {
+    q->n = q->j.d.p.m.n_vertices;
+    q->boundary = layout_job_boundary(&q->j);
+    q->flux = layout_job_flux(&q->j, q->boundary);
+    q->X = app_alloc(2 * (size_t)q->n, sizeof *q->X);
+}
+
+static void end_patch(job *q) {
+    free(q->X);
+    free(q->flux);
+    free(q->boundary);
+}
+
+/* Milliseconds of one way. */
+static double best(job *q, void (*solve)(job *)) {
+    timed(q, solve);
+    return 1e3 * q->seconds;
+}
+
+/* The times of the paper's Figures 4 and 5 on this mesh: patches of several sizes. */
+static void sweep(job *q, const char *text_of_sizes) {
+    sl_int count;
+    sl_int *sizes = app_vertices("sweep", text_of_sizes, q->j.m.n_vertices + 1, 1, &count);
+    printf("\nmilliseconds, two right-hand sides: the first local solve with its plan; then the "
+           "best of %d\n"
+           "%8s %8s %10s %10s %10s %12s %12s\n",
+           REPETITIONS, "patch", "boundary", "first", "local", "full", "refactorize",
+           "conj. grad.");
+    for (sl_int k = 0; k < count; k++) {
+        app_progress("patches", (double)k / (double)count);
+        layout_job_regrow(&q->j, sizes[k]);
+        begin_patch(q);
+        double began = app_now();
+        solve_mesh(q);
+        double first = 1e3 * (q->j.seconds_plan + app_now() - began), local = best(q, solve_mesh);
+        double full = best(q, solve_full), refactor = best(q, solve_refactor);
+        double gradients = best(q, solve_cg);
+        app_progress_end();
+        printf("%8d %8d %10.3f %10.3f %10.3f %12.3f %12.3f\n", (int)q->n, (int)q->j.d.n_boundary,
+               first, local, full, refactor, gradients);
+        end_patch(q);
+    }
+    free(sizes);
+}
+
 int command_param(int argc, char **argv) {
     job q;
     bool with_compare = false, dirichlet = false;
-    const char *system = "mesh", *operand = NULL;
+    const char *system = "mesh", *sizes = NULL, *operand = NULL;
     memset(&q, 0, sizeof q);
     layout_job_defaults(&q.j);
     const option options[] = {
@@ -174,6 +220,8 @@ int command_param(int argc, char **argv) {
          "keep the boundary where it is laid: the classic harmonic map"},
         {OPTION_FLAG, "compare", &with_compare, NULL,
          "time it beside a full solve, refactorizing the patch, and conjugate gradients"},
+        {OPTION_TEXT, "sweep", &sizes, "SIZES",
+         "then time patches of these sizes, 2000,10000,30000,50000 say, in all ways"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     const options_usage usage = {"param", "MESH", 1, 1, text};
     options_read(&usage, options, argc, argv, &operand);
@@ -181,10 +229,7 @@ int command_param(int argc, char **argv) {
         app_die_usage("--system %s: not mesh or patch", system);
     }
     layout_job_open(&q.j, operand);
-    q.n = q.j.d.p.m.n_vertices;
-    q.boundary = layout_job_boundary(&q.j);
-    q.flux = layout_job_flux(&q.j, q.boundary);
-    q.X = app_alloc(2 * (size_t)q.n, sizeof *q.X);
+    begin_patch(&q);
     double began = app_now();
     if (dirichlet) {
         solve_dirichlet(&q);
@@ -206,9 +251,10 @@ int command_param(int argc, char **argv) {
         printf("the ways differ by more than rounding\n");
     }
     layout_job_write(&q.j, q.X);
-    free(q.X);
-    free(q.flux);
-    free(q.boundary);
+    end_patch(&q);
+    if (sizes != NULL) {
+        sweep(&q, sizes);
+    }
     layout_job_close(&q.j);
     return agree ? 0 : 1;
 }

@@ -41,6 +41,16 @@ static sl_int *read_list(const char *path, sl_int *count) {
     return list.at;
 }
 
+/* Where a patch is grown from. */
+static sl_int first_vertex(const layout_job *j) {
+    sl_int v = j->vertex >= 0 ? j->vertex : 0;
+    while (j->vertex < 0 && v + 1 < j->m.n_vertices &&
+           j->around.begin[v] == j->around.begin[v + 1]) {
+        v++;
+    }
+    return v;
+}
+
 /* The patch: listed, or grown. */
 static void find_patch(layout_job *j) {
     char message[512] = "";
@@ -56,11 +66,7 @@ static void find_patch(layout_job *j) {
         ok = disk_of_list(&j->d, &j->around, list, count, message, sizeof message);
         free(list);
     } else {
-        sl_int start = j->vertex >= 0 ? j->vertex : 0, size = j->size;
-        while (j->vertex < 0 && start + 1 < n &&
-               j->around.begin[start] == j->around.begin[start + 1]) {
-            start++;
-        }
+        sl_int start = first_vertex(j), size = j->size;
         if (size == 0) {
             size = n / 4 < LAYOUT_JOB_SIZE ? n / 4 : LAYOUT_JOB_SIZE;
             size = size < 3 ? 3 : size;
@@ -97,6 +103,22 @@ static void factor_mesh(layout_job *j) {
     app_progress_end();
 }
 
+static void plan_patch(layout_job *j) {
+    double began = app_now();
+    app_must(patch_solver_create(&j->s, j->S, j->F, &j->d.p), "plan of the patch", NULL);
+    j->seconds_plan = app_now() - began;
+}
+
+void layout_job_regrow(layout_job *j, sl_int size) {
+    char message[512] = "";
+    patch_solver_free(&j->s);
+    disk_free(&j->d);
+    if (!disk_grow(&j->d, &j->around, first_vertex(j), size, NULL, message, sizeof message)) {
+        app_die("%s", message);
+    }
+    plan_patch(j);
+}
+
 void layout_job_open(layout_job *j, const char *operand) {
     if (strcmp(j->boundary, "circle") != 0 && strcmp(j->boundary, "unrolled") != 0) {
         app_die_usage("--boundary %s: not circle or unrolled", j->boundary);
@@ -108,9 +130,7 @@ void layout_job_open(layout_job *j, const char *operand) {
     find_patch(j);
     look_at_faces(j->view, &j->picture, &j->d.p.m, NULL, 0);
     factor_mesh(j);
-    double began = app_now();
-    app_must(patch_solver_create(&j->s, j->S, j->F, &j->d.p), "plan of the patch", NULL);
-    j->seconds_plan = app_now() - began;
+    plan_patch(j);
     sl_stats all;
     sl_symbolic_stats(j->S, &all);
     printf("mesh       %d vertices, %d faces; Laplacian factored in %.1f ms\n",

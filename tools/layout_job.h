@@ -66,6 +66,10 @@ void layout_job_defaults(layout_job *j);
  *  reason where that fails. */
 void layout_job_open(layout_job *j, const char *operand);
 
+/** Takes another patch of the same mesh: `size` vertices grown from the vertex that was asked for. Dies with the reason
+ *  where that fails. */
+void layout_job_regrow(layout_job *j, sl_int size);
+
 /** The boundary in the plane (2 d.n_boundary), as --boundary says, and the Neumann data of it spread to the patch
  *  (n x 2, column-major). */
 double *layout_job_boundary(const layout_job *j);
