@@ -184,11 +184,11 @@ static double best(job *q, void (*solve)(job *)) {
 static void sweep(job *q, const char *text_of_sizes) {
     sl_int count;
     sl_int *sizes = app_vertices("sweep", text_of_sizes, q->j.m.n_vertices + 1, 1, &count);
-    printf("\nmilliseconds, two right-hand sides: the first local solve with its plan; then the "
-           "best of %d\n"
-           "%8s %8s %10s %10s %10s %12s %12s\n",
-           REPETITIONS, "patch", "boundary", "first", "local", "full", "refactorize",
-           "conj. grad.");
+    printf(
+        "\nmilliseconds, two right-hand sides. first: the plans, the patch's own Laplacian, and a "
+        "solve;\nthen the best of %d\n"
+        "%8s %8s %10s %10s %10s %12s %12s\n",
+        REPETITIONS, "patch", "boundary", "first", "local", "full", "refactorize", "conj. grad.");
     for (sl_int k = 0; k < count; k++) {
         app_progress("patches", (double)k / (double)count);
         layout_job_regrow(&q->j, sizes[k]);
