@@ -58,7 +58,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
+	figures format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -284,6 +284,14 @@ bench-peers: deps deps-peers sparse_local.h ## the questions peers and peers_har
 readme-table: ## what the last bench-peers measured, as a Markdown table
 	@awk -f tools/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv)
+
+# ---- the paper ----
+
+FIGURES = build/figures$(if $(MESH),/$(firstword $(subst ., ,$(notdir $(MESH)))))
+# The bench is built as for `make bench`, the program as for the tests.
+figures: deps deps-png sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
+	@$(MAKE) --no-print-directory build/timed/bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
+	@tools/figures.sh $(B)/sparse-local build/timed/bench '$(FIGURES)' '$(MESH)'
 
 # ---- the rest ----
 

@@ -52,8 +52,9 @@ static void a_patch_with_texture_coordinates(void **state) {
     mesh m;
     char message[300];
     char *said =
-        said_by(command_param, "param --vertex 500 --count 300 --out @a.obj --png @a.png --layout "
-                               "@b.png --patch @c.png --size 200x150 sphere:4");
+        said_by(command_param,
+                "param --center 500 --patch 300 --csv @a.csv --out @a.obj --png @a.png --layout "
+                "@b.png --close @c.png --size 200x150 sphere:4");
     assert_true(number_after(said, "patch      ") == 300);
     free(said);
     char *text = files_get(files_path("a.obj"), &length);
@@ -69,6 +70,9 @@ static void a_patch_with_texture_coordinates(void **state) {
     assert_true(mesh_read(&m, files_path("a.obj"), message, sizeof message));
     assert_true(m.n_vertices == 300 && m.n_faces > 500);
     mesh_free(&m);
+    text = files_get(files_path("a.csv"), &length);
+    assert_int_equal(lines_that_begin(text, ""), 1 + 300 + 1);
+    free(text);
     picture_is("a.png", 200, 150);
     picture_is("b.png", 200, 150);
     picture_is("c.png", 200, 150);
@@ -82,12 +86,12 @@ static void lists_and_comparisons(void **state) {
                  "patch      9 vertices, 8 faces, 8 on its boundary");
     command_says(command_param, "param grid:20x20 --list 0-2,20-22,40-42 --compare", 0,
                  "refactorize the patch and solve");
-    command_says(command_param, "param torus:60x30 --vertex 40 --count 200 --compare", 0,
+    command_says(command_param, "param torus:60x30 --center 40 --patch 200 --compare", 0,
                  "  0 from the full solve");
-    command_says(command_param, "param grid:40x40 --vertex 820 --sweep 50,200", 0, "     200 ");
+    command_says(command_param, "param grid:40x40 --center 820 --sweep 50,200", 0, "     200 ");
     command_says(command_param, "param grid:20x20 --sweep 2", 1, "3 or more");
     command_says(command_param, "param grid:20x20 --dirichlet", 0, "Dirichlet");
-    char *said = said_by(command_param, "param grid:30x30 --vertex 440 --count 200 --boundary "
+    char *said = said_by(command_param, "param grid:30x30 --center 440 --patch 200 --boundary "
                                         "unrolled --system patch");
     /* a flat patch by its own boundary: nothing is bent, stretched or turned over */
     assert_true(fabs(number_after(said, "Neumann")) <= 1e-12);
@@ -96,10 +100,10 @@ static void lists_and_comparisons(void **state) {
 
 static void layouts_get_better(void **state) {
     (void)state;
-    static const char *const ways[] = {"arap hills:40x40 --count 500 --vertex 800",
-                                       "arap hills:40x40 --count 500 --vertex 800 --own-factor",
-                                       "scp hills:40x40 --count 500 --vertex 800",
-                                       "scp hills:40x40 --count 500 --vertex 800 --descend 4"};
+    static const char *const ways[] = {"arap hills:40x40 --patch 500 --center 800",
+                                       "arap hills:40x40 --patch 500 --center 800 --own-factor",
+                                       "scp hills:40x40 --patch 500 --center 800",
+                                       "scp hills:40x40 --patch 500 --center 800 --descend 4"};
     static const char *const ends[] = {"as rigid as possible", "as rigid as possible",
                                        "spectral conformal", "conformal, by descent"};
     for (int k = 0; k < 4; k++) {
@@ -168,8 +172,8 @@ static void helps_and_refusals(void **state) {
         {command_param, "param grid:9x9 --list 0-81", 1, "no vertex 81"},
         {command_param, "param grid:9x9 --list 0 --list-file x", 2, "one of them"},
         {command_param, "param grid:9x9 --list-file /nowhere/x", 1, "/nowhere/x"},
-        {command_param, "param grid:9x9 --vertex 81", 1, "no vertex 81"},
-        {command_param, "param grid:9x9 --count 2", 1, "3 or more"},
+        {command_param, "param grid:9x9 --center 81", 1, "no vertex 81"},
+        {command_param, "param grid:9x9 --patch 2", 1, "3 or more"},
         {command_param, "param grid:9x9 --boundary square", 2, "circle or unrolled"},
         {command_param, "param grid:9x9 --system half", 2, "mesh or patch"},
         {command_param, "param grid:1x1", 1, "no faces"},
@@ -200,7 +204,7 @@ static void helps_and_refusals(void **state) {
                  "patch  ");
     command_says(command_param, with_paths("param @fan.obj --list 0-4"), 1,
                  "three faces at the edge");
-    command_says(command_param, with_paths("param @fan.obj --vertex 5"), 1,
+    command_says(command_param, with_paths("param @fan.obj --center 5"), 1,
                  "no face is at vertex 5");
     command_says(command_scp, with_paths("scp @fan.obj"), 0, "spectral conformal");
     command_says(command_geodesic, with_paths("geodesic @fan.obj --png @fan.png"), 0,

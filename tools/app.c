@@ -72,6 +72,13 @@ void app_progress(const char *what, double fraction) {
     }
 }
 
+void app_stage(const char *what) {
+    if (isatty(2)) {
+        (void)fprintf(stderr, "\r%s ...", what);
+        line_shown = true;
+    }
+}
+
 void app_progress_end(void) {
     if (line_shown) {
         (void)fprintf(stderr, "\r%60s\r", "");

@@ -42,6 +42,9 @@ double app_now(void);
 /** Says on standard error how far long work is: only where that is a terminal, and not before a second has passed. */
 void app_progress(const char *what, double fraction);
 
+/** Says on standard error what is being done, of which no share is known: only where that is a terminal. */
+void app_stage(const char *what);
+
 /** Wipes the progress line; the next piece of work starts its own second. */
 void app_progress_end(void);
 
@@ -105,6 +108,13 @@ void app_close(FILE *file, const char *path);
 
 /** Fills in the view that the options ask for; dies on malformed ones. */
 void app_view(render_view *view, const app_output *o);
+
+/** Where the options give no view: turns the camera to the side where these vertices are. */
+void app_look_at(app_output *o, const mesh *m, const sl_int *vertices, sl_int count);
+
+/** The range of a field for the colour map: all values at the corners of faces but the lowest and the highest half per
+ *  cent, so that a speck of dust does not make the rest one colour. 0 and 1 where there are none. */
+void app_range(double *low, double *high, const mesh *m, const double *value);
 
 /** Writes what `o` asks for: o->out with the fields of `extra`, and o->png as `style` says. Dies where that fails. */
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,

@@ -2,6 +2,7 @@
 #include "app.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -159,8 +160,48 @@ void app_view(render_view *view, const app_output *o) {
         view->up = (render_up)(axis - "yxz");
     }
     if (o->view == NULL) {
+        const double steepest = 55; /* so that what stands upright still does */
         render_look_from(view, o->toward);
+        view->elevation = fmax(-steepest, fmin(steepest, view->elevation));
     }
+}
+
+void app_look_at(app_output *o, const mesh *m, const sl_int *vertices, sl_int count) {
+    unsigned char *chosen = app_alloc((size_t)m->n_vertices, 1);
+    memset(o->toward, 0, sizeof o->toward);
+    for (sl_int k = 0; k < count; k++) {
+        chosen[vertices[k]] = 1;
+    }
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) { /* the sum of the normals there */
+        const sl_int *v = m->faces + 3 * f;
+        const double *a = m->xyz + 3 * (size_t)v[0], *b = m->xyz + 3 * (size_t)v[1],
+                     *c = m->xyz + 3 * (size_t)v[2];
+        for (int d = 0; d < 3 && (chosen[v[0]] || chosen[v[1]] || chosen[v[2]]); d++) {
+            int e = (d + 1) % 3, g = (d + 2) % 3;
+            o->toward[d] += (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
+        }
+    }
+    free(chosen);
+}
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+void app_range(double *low, double *high, const mesh *m, const double *value) {
+    size_t count = 0;
+    double *sorted = app_alloc(3 * (size_t)m->n_faces, sizeof *sorted);
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        double x = value[m->faces[k]];
+        if (isfinite(x)) {
+            sorted[count++] = x;
+        }
+    }
+    qsort(sorted, count, sizeof *sorted, by_size);
+    *low = count > 0 ? sorted[count / 200] : 0;
+    *high = count > 0 ? sorted[count - 1 - count / 200] : 1;
+    free(sorted);
 }
 
 void app_write_png(const picture *p, const char *path) {

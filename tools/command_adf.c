@@ -66,7 +66,8 @@ static void write_results(const app_output *output, const mesh *m, const double 
     }
     const mesh_field fields[] = {{"adf", field}};
     const mesh_extra extra = {.fields = fields, .n_fields = 1};
-    const render_style style = {.scalar = shown};
+    render_style style = {.scalar = shown};
+    app_range(&style.low, &style.high, m, shown);
     app_write(output, m, &extra, &style);
     free(shown);
     free(field);

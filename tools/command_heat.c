@@ -148,6 +148,7 @@ int command_heat(int argc, char **argv) {
             printf("%d %.17g\n", (int)wanted[k], x[k]);
         }
     }
+    app_look_at(&output, &m, sources, n_sources);
     write_mesh(&output, &m, x, wanted, n_wanted, sources, n_sources);
     free(x);
     free(wanted);

@@ -105,17 +105,32 @@ static void write_mesh(const app_output *output, const mesh *m, const double *va
     const rgb red = {0xd5, 0x2b, 0x1e};
     const render_mark mark = {like >= 0 ? vertices[like] : 0, 6, red};
     const mesh_extra extra = {.fields = fields, .n_fields = (int)fields_room};
-    const render_style style = {.scalar = columns, .marks = &mark, .n_marks = like >= 0};
+    render_style style = {.scalar = columns, .marks = &mark, .n_marks = like >= 0};
+    app_range(&style.low, &style.high, m, columns);
     app_write(output, m, &extra, &style);
     free(names);
     free(fields);
     free(columns);
 }
 
+/* Where the list has the vertex that --like names. */
+static sl_int find_like(const char *like, const sl_int *vertices, sl_int count, sl_int n) {
+    sl_int likes = 0, place = -1;
+    sl_int *wanted = app_vertices("like", like, n, 1, &likes);
+    for (sl_int i = 0; i < count && place < 0; i++) {
+        place = vertices[i] == wanted[0] ? i : -1;
+    }
+    free(wanted);
+    if (likes != 1 || place < 0) {
+        app_die_usage("--like %s: one vertex, and one of those of --at", like);
+    }
+    return place;
+}
+
 int command_hks(int argc, char **argv) {
     const char *operand = NULL, *at = "all", *like = NULL;
     double first = 0, last = 0;
-    sl_int n_times = 16, count = 0, likes = 0, like_place = -1;
+    sl_int n_times = 16, count = 0, like_place = -1;
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
@@ -137,14 +152,7 @@ int command_hks(int argc, char **argv) {
     app_mesh(&m, operand, true);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     if (like != NULL) {
-        sl_int *wanted = app_vertices("like", like, m.n_vertices, 1, &likes);
-        for (sl_int i = 0; i < count && like_place < 0; i++) {
-            like_place = vertices[i] == wanted[0] ? i : -1;
-        }
-        free(wanted);
-        if (likes != 1 || like_place < 0) {
-            app_die_usage("--like %s: one vertex, and one of those of --at", like);
-        }
+        like_place = find_like(like, vertices, count, m.n_vertices);
     }
     double *times = app_alloc((size_t)n_times, sizeof *times);
     double *values = app_alloc((size_t)n_times * (size_t)count, sizeof *values);

@@ -131,8 +131,40 @@ static void choose_pairs(sl_int **i, sl_int **j, sl_int *count, const char *to, 
     free(first);
 }
 
+/* Prints what was measured; returns how far the ways differ, as a share of the value. */
+static double report(const pair_times *times, const double *one, const double *two,
+                     const double *entries, sl_int count) {
+    double *gain = app_alloc((size_t)count, sizeof *gain), worst = 0;
+    sl_int slower = 0;
+    for (sl_int k = 0; k < count; k++) {
+        gain[k] = times->one_tree[k] / times->two_trees[k];
+        slower += gain[k] < 1;
+        double size = fmax(fabs(two[k]), 1e-300);
+        worst = fmax(worst, fmax(fabs(one[k] - two[k]), fabs(entries[k] - two[k])) / size);
+    }
+    printf("microseconds a pair: one tree %.2f, two trees %.2f (medians), all in one call %.2f\n",
+           1e6 * median(times->one_tree, count), 1e6 * median(times->two_trees, count),
+           count > 0 ? 1e6 * times->together / count : 0);
+    printf("two trees: %.2f times faster in the median, slower for %.2f %% of the pairs\n",
+           median(gain, count), count > 0 ? 100.0 * slower / count : 0);
+    printf("the ways differ by at most %.2g of a value\n", worst);
+    free(gain);
+    return worst;
+}
+
+static void write_csv(const char *path, const sl_int *i, const sl_int *j, const double *heat,
+                      const pair_times *times, sl_int count) {
+    FILE *csv = app_create(path);
+    fprintf(csv, "from,to,heat,one_tree_s,two_trees_s\n");
+    for (sl_int k = 0; k < count; k++) {
+        fprintf(csv, "%d,%d,%.17g,%.4g,%.4g\n", (int)j[k], (int)i[k], heat[k], times->one_tree[k],
+                times->two_trees[k]);
+    }
+    app_close(csv, path);
+}
+
 int command_pairs(int argc, char **argv) {
-    const char *operand = NULL, *to = NULL, *from = NULL, *csv_path = NULL, *histogram = NULL;
+    const char *operand = NULL, *to = NULL, *from = NULL, *csv = NULL, *histogram = NULL;
     sl_int count = 10000, seed = 1;
     heat_time time = {0, 0, 0};
     const option options[] = {
@@ -141,7 +173,7 @@ int command_pairs(int argc, char **argv) {
         {OPTION_TEXT, "from", &from, "VERTICES", "instead: where the heat comes from"},
         {OPTION_TEXT, "to", &to, "VERTICES", "and where it is wanted"},
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
-        {OPTION_TEXT, "csv", &csv_path, "FILE", "write pairs, heat, and seconds of both ways"},
+        {OPTION_TEXT, "csv", &csv, "FILE", "write pairs, heat, and seconds of both ways"},
         {OPTION_TEXT, "svg", &histogram, "FILE", "draw the histogram"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, options, argc, argv, &operand);
@@ -152,47 +184,24 @@ int command_pairs(int argc, char **argv) {
     choose_pairs(&i, &j, &count, to, from, count, (uint64_t)seed, m.n_vertices);
     heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
     size_t room = (size_t)count;
-    double *one = app_alloc(room, sizeof *one), *two = app_alloc(room, sizeof *two);
-    double *entries = app_alloc(room, sizeof *entries), *gain = app_alloc(room, sizeof *gain);
+    double *values = app_alloc(3 * room, sizeof *values); /* one way after the other */
+    double *one = values, *two = values + room, *entries = values + 2 * room;
     pair_times times = {app_alloc(room, sizeof(double)), app_alloc(room, sizeof(double)), 0};
     solve_pairs(one, two, &times, h.F, i, j, count);
     double begin = app_now();
     app_must(sl_inverse_pairs(h.F, entries, i, j, count, NULL, NULL), "entries", NULL);
     times.together = app_now() - begin;
-    double worst = 0;
-    sl_int slower = 0;
-    for (sl_int k = 0; k < count; k++) {
-        gain[k] = times.one_tree[k] / times.two_trees[k];
-        slower += gain[k] < 1;
-        /* entries far below the diagonal lose digits against it, not against themselves */
-        double size = fmax(fabs(two[k]), 1e-300);
-        worst = fmax(worst, fmax(fabs(one[k] - two[k]), fabs(entries[k] - two[k])) / size);
-    }
     printf("%d pairs on %d vertices, t = %.6g\n", (int)count, (int)m.n_vertices, h.t);
-    printf("microseconds a pair: one tree %.2f, two trees %.2f (medians), all in one call %.2f\n",
-           1e6 * median(times.one_tree, count), 1e6 * median(times.two_trees, count),
-           count > 0 ? 1e6 * times.together / count : 0);
-    printf("two trees: %.2f times faster in the median, slower for %.2f %% of the pairs\n",
-           median(gain, count), count > 0 ? 100.0 * slower / count : 0);
-    printf("the ways differ by at most %.2g of a value\n", worst);
-    if (csv_path != NULL) {
-        FILE *csv = app_create(csv_path);
-        fprintf(csv, "from,to,heat,one_tree_s,two_trees_s\n");
-        for (sl_int k = 0; k < count; k++) {
-            fprintf(csv, "%d,%d,%.17g,%.4g,%.4g\n", (int)j[k], (int)i[k], two[k], times.one_tree[k],
-                    times.two_trees[k]);
-        }
-        app_close(csv, csv_path);
+    double worst = report(&times, one, two, entries, count);
+    if (csv != NULL) {
+        write_csv(csv, i, j, two, &times, count);
     }
     if (histogram != NULL) {
         draw_histogram(histogram, &times, count);
     }
     free(times.two_trees);
     free(times.one_tree);
-    free(gain);
-    free(entries);
-    free(two);
-    free(one);
+    free(values);
     free(j);
     free(i);
     heat_system_free(&h);

@@ -95,23 +95,6 @@ static void draw_vertices(const char *path, const app_output *output, const mesh
     free(color);
 }
 
-/* The sum of the normals of the faces whose corners all lie in the patch. */
-static void look_at_patch(double toward[3], const mesh *m, const sl_symbolic_view_t *view,
-                          const int *kind) {
-    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
-        const sl_int *v = m->faces + 3 * f;
-        if (kind[view->iperm[v[0]]] == IN_PATCH && kind[view->iperm[v[1]]] == IN_PATCH &&
-            kind[view->iperm[v[2]]] == IN_PATCH) {
-            const double *a = m->xyz + 3 * (size_t)v[0], *b = m->xyz + 3 * (size_t)v[1],
-                         *c = m->xyz + 3 * (size_t)v[2];
-            for (int d = 0; d < 3; d++) {
-                int e = (d + 1) % 3, g = (d + 2) % 3;
-                toward[d] += (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
-            }
-        }
-    }
-}
-
 static void write_csv(const char *path, const mesh *m, const sl_symbolic_view_t *view,
                       const int *kind, const sl_int *level) {
     FILE *csv = app_create(path);
@@ -153,6 +136,25 @@ static void draw(const reach_question *q, const app_output *output, const mesh *
     }
 }
 
+static void print_reach(const sl_symbolic_view_t *view, const int *kind, const sl_int *level,
+                        sl_int count, sl_int visited, sl_int levels) {
+    double entries = 0, all = 0;
+    for (sl_int k = 0; k < view->n; k++) {
+        entries += kind[k] >= 0 ? view->counts[k] : 0;
+        all += view->counts[k];
+    }
+    printf("patch %d of %d vertices; columns visited %d, %d of them beyond the patch\n", (int)count,
+           (int)view->n, (int)visited, (int)(visited - count));
+    printf("entries of L in them: %.0f of %.0f (%.2f %%)\n", entries, all, 100 * entries / all);
+    for (sl_int d = 0; d < levels; d++) {
+        sl_int columns = 0;
+        for (sl_int k = 0; k < view->n; k++) {
+            columns += level[k] == d;
+        }
+        printf("separators of level %d: %d vertices\n", (int)d, (int)columns);
+    }
+}
+
 int command_reach(int argc, char **argv) {
     const char *operand = NULL;
     reach_question q = {"0", NULL, NULL, NULL, 500, 6};
@@ -190,25 +192,11 @@ int command_reach(int argc, char **argv) {
     if (found < 0) {
         app_die("out of memory");
     }
-    double entries = 0, all = 0;
-    for (sl_int k = 0; k < view.n; k++) {
-        entries += kind[k] >= 0 ? view.counts[k] : 0;
-        all += view.counts[k];
-    }
-    printf("patch %d of %d vertices; columns visited %d, %d of them beyond the patch\n", (int)count,
-           (int)m.n_vertices, (int)visited, (int)(visited - count));
-    printf("entries of L in them: %.0f of %.0f (%.2f %%)\n", entries, all, 100 * entries / all);
-    for (sl_int d = 0; d < found; d++) {
-        sl_int columns = 0;
-        for (sl_int k = 0; k < view.n; k++) {
-            columns += level[k] == d;
-        }
-        printf("separators of level %d: %d vertices\n", (int)d, (int)columns);
-    }
+    print_reach(&view, kind, level, count, visited, found);
     if (output.csv != NULL) {
         write_csv(output.csv, &m, &view, kind, level);
     }
-    look_at_patch(output.toward, &m, &view, kind);
+    app_look_at(&output, &m, patch, count);
     draw(&q, &output, &m, &A, &view, kind, level);
     free(level);
     free(kind);

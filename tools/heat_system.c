@@ -24,6 +24,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t) {
     memset(h, 0, sizeof *h);
     h->stats.error_row = -1;
     double begin = app_now();
+    app_stage("analysing and factoring");
     if (!laplacian_cotangent(&h->laplacian, m)) {
         app_die("no memory for the Laplacian of %d vertices", (int)m->n_vertices);
     }
@@ -36,6 +37,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t) {
     h->seconds_assemble = app_now() - begin;
     app_must(sl_symbolic_create(&h->S, &h->A, NULL, &h->stats), "analysis", &h->stats);
     app_must(sl_factor_create(&h->F, h->S, &h->A, NULL, &h->stats), "factorization", &h->stats);
+    app_progress_end();
 }
 
 void heat_system_set_time(heat_system *h, double t) {

@@ -248,6 +248,20 @@ static void draw_mesh(const layout_job *j, const double *uv, const render_style 
     free(corner_uv);
 }
 
+static void write_csv(const layout_job *j, const double *X) {
+    sl_int n = j->d.p.m.n_vertices;
+    double *uv = app_alloc(2 * (size_t)n, sizeof *uv);
+    FILE *csv = app_create(j->picture.csv);
+    layout_from_columns(uv, X, n);
+    distortion_normalize(&j->d.p.m, uv);
+    fprintf(csv, "vertex,u,v\n");
+    for (sl_int v = 0; v < n; v++) {
+        fprintf(csv, "%d,%.17g,%.17g\n", (int)j->d.p.vertices[v], uv[2 * v], uv[2 * v + 1]);
+    }
+    app_close(csv, j->picture.csv);
+    free(uv);
+}
+
 void layout_job_write(const layout_job *j, const double *X) {
     static const rgb grey = {0x28, 0x28, 0x28};
     char message[512];
@@ -266,6 +280,9 @@ void layout_job_write(const layout_job *j, const double *X) {
             app_die("%s", message);
         }
     }
+    if (j->picture.csv != NULL) {
+        write_csv(j, X);
+    }
     if (j->layout != NULL) {
         app_view(&view, &j->picture);
         style.edges = j->d.p.m.n_faces <= 20000 ? 0.4 : 0;
@@ -275,10 +292,10 @@ void layout_job_write(const layout_job *j, const double *X) {
         picture_free(&p);
         style.edges = 0;
     }
-    if (j->patch != NULL) {
+    if (j->close != NULL) {
         app_view(&view, &j->picture);
         bool made = render_mesh(&p, &j->d.p.m, &view, &style);
-        write_png(&p, made, j->patch);
+        write_png(&p, made, j->close);
         picture_free(&p);
     }
     if (j->picture.png != NULL) {

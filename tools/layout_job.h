@@ -14,12 +14,12 @@ typedef struct layout_job {
     /* options */
     const char *list;      /* --list */
     const char *list_file; /* --list-file */
-    sl_int vertex;         /* --vertex */
-    sl_int size;           /* --count */
+    sl_int vertex;         /* --center */
+    sl_int size;           /* --patch */
     const char *boundary;  /* --boundary */
     const char *out;       /* --out */
     const char *layout;    /* --layout */
-    const char *patch;     /* --patch */
+    const char *patch;     /* --close */
     sl_int checks;         /* --checks */
     app_output picture;    /* --png and how */
     char view[LOOK_TEXT];  /* where the patch is seen from the front */
@@ -35,14 +35,14 @@ typedef struct layout_job {
     double seconds_plan;   /* the patch, once its vertices are known: plans, its own Laplacian */
 } layout_job;
 
-/** How many vertices a patch has where --count does not say. */
+/** How many vertices a patch has where --patch does not say. */
 enum { LAYOUT_JOB_SIZE = 2000 };
 
 #define LAYOUT_JOB_OPTIONS(j)                                                                      \
-    {OPTION_COUNT, "vertex", &(j)->vertex, "V",                                                    \
+    {OPTION_COUNT, "center", &(j)->vertex, "V",                                                    \
      "grow the patch from this vertex in breadth-first order, a disk at every step (the first "    \
      "that has a face)"},                                                                          \
-        {OPTION_COUNT, "count", &(j)->size, "N",                                                   \
+        {OPTION_COUNT, "patch", &(j)->size, "N",                                                   \
          "vertices of the grown patch (2000, or a fourth of the mesh where that is less)"},        \
         {OPTION_TEXT, "list", &(j)->list, "LIST",                                                  \
          "instead: the patch of these vertices, 3,17,100-200; refused with the reason if it is "   \
@@ -54,8 +54,10 @@ enum { LAYOUT_JOB_SIZE = 2000 };
          "lengths and angles as far as the curvature inside allows (circle)"},                     \
         {OPTION_TEXT, "out", &(j)->out, "FILE",                                                    \
          "write the patch with its texture coordinates, fitted to the unit square: .obj or .ply"}, \
+        {OPTION_TEXT, "csv", &(j)->picture.csv, "FILE",                                            \
+         "write vertex, u, v: the layout, with the area of the patch"},                            \
         {OPTION_TEXT, "layout", &(j)->layout, "FILE", "draw the layout in the plane (PNG)"},       \
-        {OPTION_TEXT, "patch", &(j)->patch, "FILE", "draw the patch alone, checkered (PNG)"},      \
+        {OPTION_TEXT, "close", &(j)->close, "FILE", "draw the patch alone, checkered (PNG)"},      \
         {OPTION_COUNT, "checks", &(j)->checks, "N",                                                \
          "squares of the checkerboard along the larger side (20)"},                                \
         APP_PICTURE_OPTIONS(&(j)->picture)

@@ -143,26 +143,83 @@ static void bump(mesh *m) {
     }
 }
 
-/* Five arms of different lengths. */
+/* ---- a star: a sphere with five arms of different lengths ---- */
+
+/* How far out the star reaches in a direction. */
+static double star_radius(const double x[3]) {
+    static const double arms[5][5] = {/* unit direction, length, sharpness */
+                                      {0.099, 0.990, 0.099, 1.5, 14},
+                                      {0.962, 0.253, 0.101, 1.1, 16},
+                                      {-0.913, 0.355, 0.203, 1.3, 18},
+                                      {0.488, -0.781, 0.390, 1.0, 14},
+                                      {-0.551, -0.827, -0.110, 0.8, 12}};
+    double r = 0.6;
+    for (int k = 0; k < 5; k++) {
+        double cosine = arms[k][0] * x[0] + arms[k][1] * x[1] + arms[k][2] * x[2];
+        r += arms[k][3] * exp(arms[k][4] * (cosine - 1));
+    }
+    return r;
+}
+
 static void grow_arms(mesh *m) {
-    static const double arms[5][5] = {/* direction, length, sharpness */
-                                      {0.1, 1, 0.1, 1.5, 14},
-                                      {0.95, 0.25, 0.1, 1.1, 16},
-                                      {-0.9, 0.35, 0.2, 1.3, 18},
-                                      {0.5, -0.8, 0.4, 1.0, 14},
-                                      {-0.5, -0.75, -0.1, 0.8, 12}};
     for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
-        double *x = m->xyz + 3 * v;
-        double r = 0.6;
-        for (int k = 0; k < 5; k++) {
-            double d[3] = {arms[k][0], arms[k][1], arms[k][2]};
-            to_sphere(d);
-            r += arms[k][3] * exp(arms[k][4] * (d[0] * x[0] + d[1] * x[1] + d[2] * x[2] - 1));
-        }
+        double *x = m->xyz + 3 * v, r = star_radius(x);
+        x[0] *= r;
+        x[1] *= r;
+        x[2] *= r;
+    }
+}
+
+/* Adds area times middle of a face of the star to its corners; sum: 4 numbers a vertex. */
+static void add_face(double *sum, const mesh *m, const sl_int *f) {
+    const double *a = m->xyz + 3 * (size_t)f[0], *b = m->xyz + 3 * (size_t)f[1],
+                 *c = m->xyz + 3 * (size_t)f[2];
+    double n[3], area;
+    for (int d = 0; d < 3; d++) {
+        int e = (d + 1) % 3, g = (d + 2) % 3;
+        n[d] = (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
+    }
+    area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int corner = 0; corner < 3; corner++) {
+        double *to = sum + 4 * (size_t)f[corner];
         for (int d = 0; d < 3; d++) {
-            x[d] *= r;
+            to[d] += area * (a[d] + b[d] + c[d]);
+        }
+        to[3] += area;
+    }
+}
+
+/* Moves the directions of a sphere's vertices so that the faces of the star come out alike in area: each vertex goes to
+ * the middle of its faces, some times over. */
+static bool even_out(mesh *m) {
+    enum { ROUNDS = 16 };
+    size_t n = (size_t)m->n_vertices;
+    double *sum = (double *)malloc(4 * n * sizeof *sum);
+    for (int round = 0; sum != NULL && round < ROUNDS; round++) {
+        memset(sum, 0, 4 * n * sizeof *sum);
+        grow_arms(m);
+        for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+            add_face(sum, m, m->faces + 3 * f);
+        }
+        for (size_t v = 0; v < n; v++) {
+            memcpy(m->xyz + 3 * v, sum + 4 * v, 3 * sizeof *sum);
+            to_sphere(m->xyz + 3 * v);
         }
     }
+    bool ok = sum != NULL;
+    free(sum);
+    return ok;
+}
+
+static bool make_star(mesh *m, sl_int cuts) {
+    bool ok = icosahedron(m);
+    for (sl_int k = 0; ok && k < cuts; k++) {
+        ok = cut(m) && even_out(m);
+    }
+    if (ok) {
+        grow_arms(m);
+    }
+    return ok;
 }
 
 /* ---- tubes ---- */
@@ -277,16 +334,15 @@ static bool make(mesh *out, kind k, sl_int w, sl_int h) {
         return make_hills(out, w, h);
     case SPHERE:
     case BLOB:
-    case STAR:
         if (!make_sphere(out, w)) {
             return false;
         }
         if (k == BLOB) {
             bump(out);
-        } else if (k == STAR) {
-            grow_arms(out);
         }
         return true;
+    case STAR:
+        return make_star(out, w);
     case TORUS:
         return make_tube(out, w, h, 0.35, point_of_circle);
     case KNOT:

@@ -1,0 +1,54 @@
+#!/bin/sh
+# figures.sh: the figures of the paper, by the program and by the bench (make figures)
+#
+#     tools/figures.sh PROGRAM BENCH FOLDER [MESH]
+#
+# On made-up surfaces, or on MESH. Pictures are PNG or SVG; the numbers stand beside them as CSV, and what the programs
+# printed as TXT. The times (Figures 4 to 6) are those of the bench; BENCH=quick in the environment makes them short.
+
+program=$1 bench=$2 folder=$3 mesh=$4
+mkdir -p "$folder" || exit 1
+failed=0
+
+# draw NAME COMMAND ARGUMENT ...: runs a command of the program, its output into NAME.txt.
+draw() {
+    name=$1
+    shift
+    echo "  $name: sparse-local $*"
+    "$program" "$@" >"$folder/$name.txt" || { echo "  $name FAILED" >&2; failed=1; }
+}
+
+# has COMMAND: does the program have it?
+has() {
+    "$program" --help | grep -q "^  $1 "
+}
+
+surface=${mesh:-star:6}
+draw figure1 reach "$surface" --patch "${PATCH:-2000}" --center "${CENTER:-100}" --png "$folder/figure1_reach.png" \
+    --separators "$folder/figure1_separators.png" --tree "$folder/figure1_tree.svg" --csv "$folder/figure1.csv"
+draw figure2 reach grid:6x5 --center 7 --patch 3 --levels 3 --size 480x400 --png "$folder/figure2_mesh.png" \
+    --separators "$folder/figure2_separators.png" --tree "$folder/figure2_tree.svg" \
+    --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
+if has param; then
+    draw figure3 param "$surface" --patch "${PATCH:-2000}" --center "${CENTER:-100}" --png "$folder/figure3_param.png" \
+        --csv "$folder/figure3.csv"
+fi
+draw adf adf "${mesh:-star:6}" --area-time 0.3 --png "$folder/adf.png" --csv "$folder/adf.csv"
+draw adf_53k adf torus:400x133 --csv "$folder/adf_53k.csv"
+draw hks hks "$surface" --like "${CENTER:-100}" --png "$folder/hks.png" --csv "$folder/hks.csv"
+draw heat heat "$surface" --from "${CENTER:-100}" --scaled-time 10 --png "$folder/heat.png" --csv "$folder/heat.csv"
+draw histogram pairs "${mesh:-hills:447x447}" --count 10000 --svg "$folder/histogram.svg" --csv "$folder/histogram.csv"
+
+BENCH_OUT=$folder MESH=$mesh "$bench" patches scaling amortize multi_rhs >"$folder/bench.txt" ||
+    { echo "  the bench FAILED: $folder/bench.txt" >&2; failed=1; }
+rename() {
+    [ ! -f "$folder/$1" ] || { mv "$folder/$1" "$folder/$2" && echo "  ${2%.svg}: bench, $1"; }
+}
+rename patches_by_mesh.svg figure4.svg
+rename patches_by_patch.svg figure5.svg
+rename scaling.svg figure6_left.svg
+rename amortize.svg figure6_right.svg
+awk -f "$(dirname "$0")/paper_table.awk" "$folder"/patches.csv "$folder"/multi_rhs.csv "$folder"/adf_53k.txt \
+    "$folder"/histogram.txt >"$folder/paper.md" && cat "$folder/paper.md"
+echo "figures are in $folder"
+exit $failed
