@@ -19,7 +19,7 @@ typedef struct layout_job {
     const char *boundary;  /* --boundary */
     const char *out;       /* --out */
     const char *layout;    /* --layout */
-    const char *patch;     /* --close */
+    const char *close;     /* --close */
     sl_int checks;         /* --checks */
     app_output picture;    /* --png and how */
     char view[LOOK_TEXT];  /* where the patch is seen from the front */
