@@ -5,6 +5,7 @@
 #include "heat_subject.h"
 
 #include "../tools/ball.h"
+#include "../tools/surface.h"
 
 /* Heat on the ball is that of the full solve, to the bit; distances are those of the full method but for the rim. */
 static void local_against_full(void **state) {
@@ -266,6 +267,36 @@ static void cells(void **state) {
     subject_free(&y);
 }
 
+/* Long faces with obtuse angles: with a small time heat falls below 0, with a larger one not; changing the time gives
+ * what a solver made with it gives. */
+static void obtuse_faces_need_time(void **state) {
+    (void)state;
+    subject_t y, z;
+    heat_field f;
+    sl_int source = 100;
+    mesh m, same;
+    assert_true(surface_make(&m, "star:5", NULL, 0) && surface_make(&same, "star:5", NULL, 0));
+    subject_make(&y, m, 1);
+    subject_make(&z, same, 32);
+    SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
+    assert_true(f.negative > 100);
+    heat_field_free(&f);
+    SL_CHECK(heat_solver_set_time(&y.s, z.s.t));
+    SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
+    assert_int_equal(f.negative, 0);
+    double *d = by_vertex(&z, &source, 1, NULL);
+    for (sl_int k = 0; k < f.n; k++) {
+        assert_true(d[f.vertices[k]] == f.distance[k]);
+        assert_true(f.distance[k] <= 1.1 * f.path[k] + 0.1);
+    }
+    SL_EXPECT(SL_ERR_ARGUMENT, heat_solver_set_time(&y.s, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, heat_solver_set_time(&y.s, NAN));
+    free(d);
+    heat_field_free(&f);
+    subject_free(&y);
+    subject_free(&z);
+}
+
 static void refusals(void **state) {
     (void)state;
     subject_t y;
@@ -331,6 +362,7 @@ int main(void) {
         cmocka_unit_test(pieces_and_many_sources),
         cmocka_unit_test(renumbered_moved_and_scaled),
         cmocka_unit_test(cells),
+        cmocka_unit_test(obtuse_faces_need_time),
         cmocka_unit_test(refusals),
         cmocka_unit_test(real_meshes),
     };

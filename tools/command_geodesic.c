@@ -29,6 +29,8 @@ static const char text[] = "Distances along the surface from some vertices by th
                            "arrives (Herholz et al. 2017): for a short "
                            "time the nearest one, but for a margin where two are almost as near.";
 
+enum { FIRST_TIME = 4, LAST_TIME = 256 }; /* squared mean edges */
+
 typedef struct job {
     mesh m;
     heat_solver s;
@@ -164,6 +166,12 @@ static void distances(job *q) {
     printf("touched    %d vertices; %.3g of %.3g entries of each factor, %d solves for the "
            "distance\n",
            (int)f.n_ball, (double)f.heat_stats.x_entries, (double)all.nnz_panels, f.solves);
+    if (f.negative > 0) {
+        printf("warning    heat below 0 at %d vertices: distances will be wrong, a larger "
+               "--scaled-time may "
+               "help\n",
+               (int)f.negative);
+    }
     if (f.cold > 0) {
         printf("no heat    at %d faces: too far for this time, or without a shape\n", (int)f.cold);
     }
@@ -266,6 +274,29 @@ static sl_int *sources_of(const char *from, const mesh *m, sl_int *count) {
     return first;
 }
 
+/* Finds a time that will do, unless one was given: from 4 squared edges on, twice as long until no heat is below 0 where
+ * the sources' heat is looked at. Each is a factorization of new numbers over the same analysis. */
+static void find_time(job *q, double squared_edge) {
+    sl_int before = 0;
+    double scaled = FIRST_TIME;
+    for (;; scaled *= 2) {
+        heat_field f;
+        app_must(heat_distance(&f, &q->s, q->sources, q->n_sources, &q->reach), "distances", NULL);
+        sl_int negative = f.negative;
+        heat_field_free(&f);
+        if (negative == 0 || scaled >= LAST_TIME) {
+            break;
+        }
+        before = before == 0 ? negative : before;
+        app_must(heat_solver_set_time(&q->s, 2 * scaled * squared_edge), "factor of heat", NULL);
+    }
+    if (before > 0) {
+        printf("time       raised to %g squared edges: %d vertices had heat below 0, behind obtuse "
+               "faces\n",
+               scaled, (int)before);
+    }
+}
+
 int command_geodesic(int argc, char **argv) {
     job q;
     const char *operand = NULL, *from = NULL;
@@ -282,7 +313,8 @@ int command_geodesic(int argc, char **argv) {
         {OPTION_FLAG, "cut", &cut, NULL, "one solve of the right-hand side cut at the ball"},
         {OPTION_REAL, "time", &time, "T", "heat flows for the time T"},
         {OPTION_REAL, "scaled-time", &scaled, "S",
-         "heat flows for S times the squared mean length of an edge (4)"},
+         "heat flows for S times the squared mean length of an edge (4, or more if heat then falls "
+         "below 0)"},
         {OPTION_TEXT, "exact", &q.exact, "plane|sphere",
          "compare with straight distances, or with those on the sphere that the mesh is"},
         {OPTION_FLAG, "voronoi", &voronoi, NULL, "the nearest site instead of the distance"},
@@ -305,7 +337,7 @@ int command_geodesic(int argc, char **argv) {
     q.reach.solves = cut ? 1 : (int)solves;
     q.sources = sources_of(from, &q.m, &q.n_sources);
     double edge = mesh_mean_edge_length(&q.m);
-    double t = time > 0 ? time : (scaled > 0 ? scaled : 4) * edge * edge;
+    double t = time > 0 ? time : (scaled > 0 ? scaled : FIRST_TIME) * edge * edge;
     if (!(t > 0)) {
         app_die("%s: its edges have no length", operand);
     }
@@ -319,6 +351,9 @@ int command_geodesic(int argc, char **argv) {
     printf(
         "mesh       %d vertices, %d faces, edges of %.4g; time %.4g; factored twice in %.1f ms\n",
         (int)q.m.n_vertices, (int)q.m.n_faces, edge, t, 1e3 * (app_now() - began));
+    if (!(time > 0) && !(scaled > 0)) {
+        find_time(&q, edge * edge);
+    }
     if (q.n_sources == 1 && radius > 0) {
         const incidence *a = &q.s.around;
         sl_int v = q.sources[0];

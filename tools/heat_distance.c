@@ -64,6 +64,21 @@ sl_status heat_solver_create(heat_solver *out, const mesh *m, double t) {
     return status;
 }
 
+sl_status heat_solver_set_time(heat_solver *s, double t) {
+    sl_matrix *A = NULL;
+    if (!(t > 0 && t <= 1e200)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!laplacian_system(&A, s->m, t)) {
+        return SL_ERR_MEMORY;
+    }
+    const sl_csc view = sl_matrix_view(A);
+    sl_status status = sl_factor_refactor(s->heat, &view, NULL);
+    sl_matrix_free(A);
+    s->t = t;
+    return status;
+}
+
 void heat_field_free(heat_field *f) {
     free(f->vertices);
     free(f->distance);
@@ -195,6 +210,9 @@ static sl_status solve_ball(heat_field *out, heat_solver *s, const ball *b, sl_i
                        reach->solves > 0 ? reach->solves : HEAT_SOLVES, out->heat, out->distance);
     }
     out->n_ball = b->n;
+    for (sl_int k = 0; k < b->n && status == SL_OK; k++) {
+        out->negative += out->heat[k] < 0;
+    }
     for (sl_int k = 0; k < b->n && status == SL_OK; k++) {
         double d = out->distance[k];
         if (!isnan(d) && (reach->radius == 0 || d <= reach->radius)) {

@@ -19,7 +19,8 @@
  * sqrt(t) is some of these. With t the square of one edge the heat follows the directions of the edges too much: on a
  * regular grid an error of about 1 % stays however fine it is; 4 or 8 times that t make it fall. Too large a t rounds
  * off the corners of the distance; with too small a one no heat arrives far away (in double precision beyond some
- * 700 sqrt(t)). Obtuse faces make all of it worse.
+ * 700 sqrt(t)). Obtuse faces make all of it worse: with a small t heat falls below 0 behind them, and the distances are
+ * wrong. So none below 0 is a sign of a t that will do.
  *
  *  [CWW13]  Crane, Weischedel, Wardetzky: Geodesics in heat, ACM TOG 32(5), 2013.
  *  [HHA17]  Herholz, Haase, Alexa: Diffusion diagrams: Voronoi cells and centroids from diffusion, 2017.
@@ -42,6 +43,12 @@ typedef struct heat_solver {
  */
 sl_status heat_solver_create(heat_solver *out, const mesh *m, double t);
 
+/** Another time: M + t L factored again over the same analysis. On error s can only be freed.
+ *
+ *  Returns  as heat_solver_create.
+ */
+sl_status heat_solver_set_time(heat_solver *s, double t);
+
 void heat_solver_free(heat_solver *s);
 
 /** How far to look, and how. All zero: the whole mesh. */
@@ -63,6 +70,7 @@ typedef struct heat_field {
     double *heat;     /* u */
     double *path;     /* the shortest path of edges from a source: no distance is longer */
     sl_int n_ball;    /* vertices that were touched */
+    sl_int negative;  /* vertices with less heat than none: t is too small for these obtuse faces */
     sl_int cold;      /* faces where no heat arrived, or that have no shape: no X there */
     int solves;       /* local solves for d that were made */
     sl_stats heat_stats, poisson_stats; /* what they read of the factors */
