@@ -43,7 +43,7 @@ static void one_system(const bench_run *run, bench_report *report, bench_plot *p
         preparation part = {&patch.A};
         contender.state = &part;
         snprintf(what, sizeof what, "patch of %.0f %%", 100 * shares[k]);
-        snprintf(series, sizeof series, "mesh of %.3g vertices", (double)system->n);
+        snprintf(series, sizeof series, "mesh of %d vertices", (int)system->n);
         row.what = what;
         bench_race(&row.time, &contender, 1, run->seconds / 2);
         bench_report_row(report, system, &row);
@@ -55,7 +55,7 @@ static void one_system(const bench_run *run, bench_report *report, bench_plot *p
 void bench_amortize(bench_run *run) {
     static const double wanted[] = {1e4, 5e4, 2e5, 1e6};
     const bench_system *systems[4];
-    int count = bench_systems(run, wanted, 4, systems);
+    int count = bench_systems(run, wanted, run->size == BENCH_FULL ? 4 : 3, systems);
     bench_report *report =
         bench_report_open(run, "amortize",
                           "preparing a patch alone against preparing the mesh (paper: Figure 6, "

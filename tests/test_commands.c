@@ -222,6 +222,37 @@ static void heat_is_kept(void **state) {
     mesh_free(&m);
 }
 
+/* On the unit sphere with eigenvalues l (l + 1) the heat at angle a is the sum over l of
+ * (2 l + 1) / (4 pi) P_l(cos a) / (1 + t l (l + 1)); the mesh of edges 0.075 comes within 1 % of it. */
+static void a_sphere_in_closed_form(void **state) {
+    (void)state;
+    char csv[FILE_PATH_SIZE + 100];
+    mesh m;
+    (void)snprintf(csv, sizeof csv, "%s", files_path("sphere.csv"));
+    assert_true(surface_make(&m, "sphere:4", NULL, 0));
+    double *x = test_reals(2 * (size_t)m.n_vertices), t = 0.3;
+    run(command_heat, "heat sphere:4 --from 0 --time %.17g --csv %s", t, csv);
+    assert_int_equal(read_csv(csv, x, 2, m.n_vertices), m.n_vertices);
+    for (int v = 0; v < m.n_vertices; v += 7) {
+        double c =
+            m.xyz[0] * m.xyz[3 * v] + m.xyz[1] * m.xyz[3 * v + 1] + m.xyz[2] * m.xyz[3 * v + 2];
+        double before = 1, at = c, sum = 1 + 3 * c / (1 + 2 * t);
+        if (c > 0.9) {
+            continue; /* the sum diverges at the source itself, and slowly next to it */
+        }
+        for (int l = 2; l < 3000; l++) { /* Bonnet's recursion */
+            double next = ((2 * l - 1) * c * at - (l - 1) * before) / l;
+            before = at;
+            at = next;
+            sum += (2 * l + 1) * at / (1 + t * l * (l + 1.0));
+        }
+        sum /= 4 * 3.14159265358979323846;
+        assert_true(fabs(x[2 * v + 1] - sum) < 0.01 * sum);
+    }
+    free(x);
+    mesh_free(&m);
+}
+
 /* Vertices in another order, the surface turned and moved: the same numbers at the same places. */
 static void an_isometry_changes_nothing(void **state) {
     (void)state;
@@ -385,9 +416,10 @@ static void pictures_are_drawn(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_eigenvectors),        cmocka_unit_test(heat_is_kept),
-        cmocka_unit_test(an_isometry_changes_nothing), cmocka_unit_test(reach_tells_the_tree),
-        cmocka_unit_test(separators_separate),         cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(against_eigenvectors),    cmocka_unit_test(heat_is_kept),
+        cmocka_unit_test(a_sphere_in_closed_form), cmocka_unit_test(an_isometry_changes_nothing),
+        cmocka_unit_test(reach_tells_the_tree),    cmocka_unit_test(separators_separate),
+        cmocka_unit_test(pictures_are_drawn),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -58,7 +58,7 @@ typedef struct app_output {
     const char *size; /* of the picture: "800x600" */
     const char *view; /* "azimuth,elevation" in degrees; NULL: chosen by the mesh */
     const char *up;   /* "x", "y" or "z" */
-    double toward[3]; /* where there is no `view`: the side to be seen; 0 0 0: as render_view_default */
+    double toward[3]; /* the side to be seen where there is no view; 0 0 0: any */
 } app_output;
 
 /** The options of an app_output, to be put into a command's table. */

@@ -43,8 +43,8 @@ int main(int argc, char **argv) {
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
         strcmp(argv[1], "help") == 0) {
         print_usage(stdout);
-        (void)printf("\nMESH is ");
-        options_print_wrapped(app_mesh_help, 0, 8);
+        (void)printf("\nMESH is");
+        options_print_wrapped(app_mesh_help, 0, 7);
         return 0;
     }
     for (int k = 0; k < N_COMMANDS; k++) {

@@ -179,7 +179,7 @@ static void print_tick(FILE *f, const axis *a, int d, double value, bool named) 
 
 static void print_axis(FILE *f, const plot *p, const axis *a, int d) {
     if (a->is_log) {
-        bool many = a->high - a->low < 1.5; /* then 2 and 5 are named too */
+        bool many = a->high - a->low < 2; /* then 2 and 5 are named too */
         for (double k = floor(a->low); k <= a->high; k++) {
             for (int digit = 1; digit < 10; digit++) {
                 double value = digit * pow(10, k);
