@@ -297,6 +297,36 @@ static void find_time(job *q, double squared_edge) {
     }
 }
 
+/* Mesh, sources, both factors, and from where to look. time, scaled: 0 where they are not given. */
+static void open_job(job *q, const char *operand, const char *from, double time, double scaled) {
+    app_mesh(&q->m, operand, true);
+    q->sources = sources_of(from, &q->m, &q->n_sources);
+    double edge = mesh_mean_edge_length(&q->m);
+    double t = time > 0 ? time : (scaled > 0 ? scaled : FIRST_TIME) * edge * edge;
+    if (!(t > 0)) {
+        app_die("%s: its edges have no length", operand);
+    }
+    if (t < 0.1 * edge * edge) {
+        printf("warning    in this time heat does not get over an edge: distances will be wrong\n");
+    }
+    double began = app_now();
+    app_progress("factoring the mesh twice", 0);
+    app_must(heat_solver_create(&q->s, &q->m, t), "factors of heat and Laplacian", NULL);
+    app_progress_end();
+    printf(
+        "mesh       %d vertices, %d faces, edges of %.4g; time %.4g; factored twice in %.1f ms\n",
+        (int)q->m.n_vertices, (int)q->m.n_faces, edge, t, 1e3 * (app_now() - began));
+    if (!(time > 0) && !(scaled > 0)) {
+        find_time(q, edge * edge);
+    }
+    if (q->n_sources == 1 && q->reach.radius > 0) {
+        const incidence *a = &q->s.around;
+        sl_int v = q->sources[0];
+        look_at_faces(q->view, &q->output, &q->m, a->face + a->begin[v],
+                      (sl_int)(a->begin[v + 1] - a->begin[v]));
+    }
+}
+
 int command_geodesic(int argc, char **argv) {
     job q;
     const char *operand = NULL, *from = NULL;
@@ -331,35 +361,10 @@ int command_geodesic(int argc, char **argv) {
     if (time < 0 || scaled < 0 || (time > 0 && scaled > 0)) {
         app_die_usage("--time or --scaled-time, one of them, above 0");
     }
-    app_mesh(&q.m, operand, true);
     q.reach.radius = radius;
     q.reach.margin = margin;
     q.reach.solves = cut ? 1 : (int)solves;
-    q.sources = sources_of(from, &q.m, &q.n_sources);
-    double edge = mesh_mean_edge_length(&q.m);
-    double t = time > 0 ? time : (scaled > 0 ? scaled : FIRST_TIME) * edge * edge;
-    if (!(t > 0)) {
-        app_die("%s: its edges have no length", operand);
-    }
-    if (t < 0.1 * edge * edge) {
-        printf("warning    in this time heat does not get over an edge: distances will be wrong\n");
-    }
-    double began = app_now();
-    app_progress("factoring the mesh twice", 0);
-    app_must(heat_solver_create(&q.s, &q.m, t), "factors of heat and Laplacian", NULL);
-    app_progress_end();
-    printf(
-        "mesh       %d vertices, %d faces, edges of %.4g; time %.4g; factored twice in %.1f ms\n",
-        (int)q.m.n_vertices, (int)q.m.n_faces, edge, t, 1e3 * (app_now() - began));
-    if (!(time > 0) && !(scaled > 0)) {
-        find_time(&q, edge * edge);
-    }
-    if (q.n_sources == 1 && radius > 0) {
-        const incidence *a = &q.s.around;
-        sl_int v = q.sources[0];
-        look_at_faces(q.view, &q.output, &q.m, a->face + a->begin[v],
-                      (sl_int)(a->begin[v + 1] - a->begin[v]));
-    }
+    open_job(&q, operand, from, time, scaled);
     if (voronoi) {
         cells(&q);
     } else {
