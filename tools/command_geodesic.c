@@ -310,7 +310,7 @@ static void open_job(job *q, const char *operand, const char *from, double time,
         printf("warning    in this time heat does not get over an edge: distances will be wrong\n");
     }
     double began = app_now();
-    app_progress("factoring the mesh twice", 0);
+    app_stage("factoring the mesh twice");
     app_must(heat_solver_create(&q->s, &q->m, t), "factors of heat and Laplacian", NULL);
     app_progress_end();
     printf(

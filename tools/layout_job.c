@@ -94,10 +94,10 @@ static void factor_mesh(layout_job *j) {
         app_die("out of memory");
     }
     const sl_csc A = sl_matrix_view(j->L);
-    app_progress("factoring the mesh", 0);
+    app_stage("analysing the mesh");
     double began = app_now();
     app_must(sl_symbolic_create(&j->S, &A, NULL, &stats), "analysis of the Laplacian", &stats);
-    app_progress("factoring the mesh", 0.5);
+    app_stage("factoring the mesh");
     app_must(sl_factor_create(&j->F, j->S, &A, &opt, &stats), "factor of the Laplacian", &stats);
     j->seconds_factor = app_now() - began;
     app_progress_end();
