@@ -10,24 +10,20 @@
 #include "laplacian.h"
 #include "look.h"
 
-static const char text[] = "Distances along the surface from some vertices by the heat method "
-                           "(Crane et al. 2013): heat flows for a short "
-                           "time, its gradient scaled to length 1 is the gradient of the distance, "
-                           "which a Poisson problem puts together. "
-                           "With --radius only a ball around the sources is touched.\n"
-                           "Exact: all linear solves, and so the heat within the ball. "
-                           "Approximate, also without --radius: the method, by "
-                           "about an edge's length if --scaled-time is 4 or more (with 1, the "
-                           "usual value, an error of about a percent stays "
-                           "on regular grids however fine; larger values round off where distances "
-                           "meet). With --radius also the distance "
-                           "at the rim of the ball: the gradient beyond it is not known. By "
-                           "default nothing flows through the rim (--solves "
-                           "local solves on the mesh's factor); --cut takes the right-hand side as "
-                           "it ends there, one solve, and is worse.\n"
-                           "--voronoi gives each vertex to the site (source) from which most heat "
-                           "arrives (Herholz et al. 2017): for a short "
-                           "time the nearest one, but for a margin where two are almost as near.";
+static const char text[] =
+    "Distances along the surface from some vertices by the heat method (Crane et al. 2013): heat "
+    "flows for a short time, its gradient scaled to length 1 is the gradient of the distance, "
+    "which a Poisson problem puts together. With --radius only a ball around the sources is "
+    "touched.\nExact: all linear solves, and so the heat within the ball. Approximate, also "
+    "without --radius: the method, by about an edge's length if --scaled-time is 4 or more (with "
+    "1, the usual value, an error of about a percent stays on regular grids however fine; larger "
+    "values round off where distances meet). In a short time heat may fall below 0 behind obtuse "
+    "faces, and distances are wrong: unless a time is given it is raised until none does. With "
+    "--radius also the distance at the rim of the ball: the gradient beyond it is not known. By "
+    "default nothing flows through the rim (--solves local solves on the mesh's factor); --cut "
+    "takes the right-hand side as it ends there, one solve, and is worse.\n--voronoi gives each "
+    "vertex to the site (source) from which most heat arrives (Herholz et al. 2017): for a short "
+    "time the nearest one, but for a margin where two are almost as near.";
 
 enum { FIRST_TIME = 4, LAST_TIME = 256 }; /* squared mean edges */
 
