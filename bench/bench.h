@@ -248,13 +248,6 @@ void bench_call_full(void *state);
 void bench_call_full_interleaved(void *state); /* B and X read as row-major */
 void bench_call_full_apart(void *state);
 
-/* ---- conjugate gradients, the rival (cg.c) ---- */
-
-/** Jacobi-preconditioned conjugate gradients from x = 0 until ||b - A x|| <= tolerance ||b||; work holds 4 n doubles.
- *  Returns the iterations, at most limit. A must store both triangles. */
-int bench_cg(const sl_csc *A, double *x, const double *b, double tolerance, int limit,
-             double *work);
-
 /* ---- tables and CSV (report.c) ---- */
 
 /** One line of a table. What does not apply is 0. */

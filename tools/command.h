@@ -10,5 +10,9 @@ int command_hks(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_pairs(int argc, char **argv);
 int command_reach(int argc, char **argv);
+int command_param(int argc, char **argv);
+int command_geodesic(int argc, char **argv);
+int command_arap(int argc, char **argv);
+int command_scp(int argc, char **argv);
 
 #endif

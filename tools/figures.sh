@@ -18,21 +18,19 @@ draw() {
     "$program" "$@" >"$folder/$name.txt" || { echo "  $name FAILED" >&2; failed=1; }
 }
 
-# has COMMAND: does the program have it?
-has() {
-    "$program" --help | grep -q "^  $1 "
-}
-
 surface=${mesh:-star:6}
 draw figure1 reach "$surface" --patch "${PATCH:-2000}" --center "${CENTER:-100}" --png "$folder/figure1_reach.png" \
     --separators "$folder/figure1_separators.png" --tree "$folder/figure1_tree.svg" --csv "$folder/figure1.csv"
 draw figure2 reach grid:6x5 --center 7 --patch 3 --levels 3 --size 480x400 --png "$folder/figure2_mesh.png" \
     --separators "$folder/figure2_separators.png" --tree "$folder/figure2_tree.svg" \
     --graph "$folder/figure2_graph.svg" --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
-if has param; then
-    draw figure3 param "$surface" --patch "${PATCH:-2000}" --center "${CENTER:-100}" --png "$folder/figure3_param.png" \
-        --csv "$folder/figure3.csv"
-fi
+patch="--patch ${PATCH:-2000} --center ${CENTER:-100}"
+draw figure3 param "$surface" $patch --png "$folder/figure3_param.png" --layout "$folder/figure3_layout.png" \
+    --close "$folder/figure3_patch.png" --out "$folder/figure3.obj" --csv "$folder/figure3.csv"
+draw arap arap "$surface" $patch --png "$folder/arap.png" --layout "$folder/arap_layout.png"
+draw scp scp "$surface" $patch --png "$folder/scp.png" --layout "$folder/scp_layout.png"
+draw geodesic geodesic "$surface" --from "${CENTER:-100}" --png "$folder/geodesic.png"
+draw voronoi geodesic "$surface" --from random:60 --voronoi --png "$folder/voronoi.png"
 draw adf adf "${mesh:-star:6}" --area-time 0.3 --png "$folder/adf.png" --csv "$folder/adf.csv"
 draw adf_53k adf torus:400x133 --csv "$folder/adf_53k.csv"
 draw hks hks "$surface" --like "${CENTER:-100}" --png "$folder/hks.png" --csv "$folder/hks.csv"

@@ -11,20 +11,14 @@
 #define LARGEST_AREA 1e290 /* 2^31 of them still sum to a finite mass */
 #define LARGEST_STEP 1e200 /* times a weight, plus a mass: finite */
 
-/* What one face gives: its area, and the weight of the edge opposite to each corner (half a cotangent). */
-typedef struct face_measure {
-    double area;
-    double weight[3];
-} face_measure;
-
 static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* Cotangents do not depend on the scale, so all is computed on edges scaled to at most 1: no square of a coordinate
  * can overflow or vanish. */
-static face_measure measure_face(const mesh *m, const sl_int *face) {
-    face_measure result = {0, {0, 0, 0}};
+laplacian_face laplacian_of_face(const mesh *m, const sl_int *face) {
+    laplacian_face result = {0, {0, 0, 0}};
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
         return result;
     }
@@ -84,7 +78,7 @@ void laplacian_mass(double *mass, const mesh *m) {
     }
     for (size_t f = 0; f < (size_t)m->n_faces; f++) {
         const sl_int *face = m->faces + 3 * f;
-        double third = measure_face(m, face).area / 3;
+        double third = laplacian_of_face(m, face).area / 3;
         for (int k = 0; k < 3; k++) {
             mass[face[k]] += third;
         }
@@ -100,7 +94,7 @@ static bool assemble(sl_matrix **out, const mesh *m, double *diagonal, double t)
     bool ok = triplets_reserve(&list, (size_t)m->n_vertices + 3 * (size_t)m->n_faces);
     for (size_t f = 0; f < (size_t)m->n_faces && ok; f++) {
         const sl_int *face = m->faces + 3 * f;
-        face_measure measure = measure_face(m, face);
+        laplacian_face measure = laplacian_of_face(m, face);
         for (int k = 0; k < 3 && ok; k++) {
             sl_int u = face[(k + 1) % 3];
             sl_int v = face[(k + 2) % 3];

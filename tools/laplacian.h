@@ -18,6 +18,18 @@
  * are at most 1e8 in size, so no NaN or infinity can arise from any input.
  */
 
+/** What one face gives: its area, and the weight of the edge opposite to each corner (half a cotangent).
+ *
+ *  With f linear on the face, f0 f1 f2 at its corners: area |grad f|^2 = sum over k of weight[k] (f(k+1) - f(k+2))^2.
+ */
+typedef struct laplacian_face {
+    double area;
+    double weight[3];
+} laplacian_face;
+
+/** Measures the face of these three corners, each in 0..n_vertices-1. */
+laplacian_face laplacian_of_face(const mesh *m, const sl_int *face);
+
 /** Lower triangle of the cotangent Laplacian: the weight of an edge is half the sum of the cotangents opposite to it.
  *
  *  Summed over all faces of the edge: one at the boundary, three or more where the mesh is not manifold. Each face

@@ -18,6 +18,10 @@ static const command commands[] = {
     {"hks", "heat-kernel signatures: auto-diffusion over a range of times", command_hks},
     {"pairs", "heat that pairs of vertices exchange; one tree against two", command_pairs},
     {"reach", "pictures of what a local solve touches", command_reach},
+    {"param", "a patch laid out in the plane by harmonic coordinates", command_param},
+    {"arap", "a patch laid out with its lengths kept: as rigid as possible", command_arap},
+    {"scp", "a patch laid out with its angles kept: spectral conformal", command_scp},
+    {"geodesic", "distances along the surface by the heat method; nearest sites", command_geodesic},
 };
 
 enum { N_COMMANDS = sizeof commands / sizeof *commands };

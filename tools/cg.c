@@ -1,7 +1,7 @@
 /* cg.c: conjugate gradients with Jacobi preconditioning, the iterative rival of a local solve */
-#include <math.h>
+#include "cg.h"
 
-#include "bench.h"
+#include <math.h>
 
 static double dot(const double *a, const double *b, sl_int n) {
     double sum[4] = {0, 0, 0, 0};
@@ -37,12 +37,12 @@ static void inverse_diagonal(const sl_csc *A, double *inverse) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
             d += A->i[p] == j ? A->x[p] : 0;
         }
-        inverse[j] = 1 / d;
+        inverse[j] = d > 0 ? 1 / d : 1;
     }
 }
 
-int bench_cg(const sl_csc *A, double *x, const double *b, double tolerance, int limit,
-             double *work) {
+int cg_jacobi(const sl_csc *A, double *x, const double *b, double tolerance, int limit,
+              double *work) {
     sl_int n = A->n_cols;
     double *r = work, *p = r + n, *q = p + n, *inverse = q + n;
     double stop = tolerance * sqrt(dot(b, b, n)), rho = 0;

@@ -1,0 +1,129 @@
+/* bent_grids.h: meshes whose distances, angles and flat layouts are known, and the factor of their Laplacian */
+#ifndef SL_TEST_BENT_GRIDS_H
+#define SL_TEST_BENT_GRIDS_H
+
+#include "test.h"
+
+#include "../tools/disk.h"
+#include "../tools/grid.h"
+#include "../tools/laplacian.h"
+#include "../tools/mesh.h"
+
+/* A jittered grid over 0..1 x 0..1. */
+static inline mesh flat_grid(sl_int side, double jitter) {
+    mesh m;
+    assert_true(mesh_grid(&m, side, side, jitter, 5));
+    return m;
+}
+
+/* The same, rolled by half a turn onto a cylinder: developable. On a cylinder the chords of the edges are shorter than
+ * the arcs; the mesh itself is flat only if its vertices lie on straight lines along it, so there is no jitter. */
+static inline mesh rolled_grid(sl_int side) {
+    mesh m = flat_grid(side, 0);
+    for (sl_int v = 0; v < m.n_vertices; v++) {
+        double *x = m.xyz + 3 * (size_t)v, angle = 3.0 * x[0];
+        x[0] = sin(angle);
+        x[2] = cos(angle);
+    }
+    return m;
+}
+
+/* The same, projected from the centre onto the unit sphere, 2 half wide in the plane that touches it. */
+static inline mesh sphere_grid(sl_int side, double half) {
+    mesh m = flat_grid(side, 0);
+    for (sl_int v = 0; v < m.n_vertices; v++) {
+        double *x = m.xyz + 3 * (size_t)v, u = half * (2 * x[0] - 1), w = half * (2 * x[1] - 1);
+        double r = sqrt(1 + u * u + w * w);
+        x[0] = u / r;
+        x[1] = w / r;
+        x[2] = 1 / r;
+    }
+    return m;
+}
+
+/* A torus of a x b squares, each two triangles: closed, with a handle. */
+static inline mesh torus_grid(sl_int a, sl_int b) {
+    mesh m = {a * b, 2 * a * b, NULL, NULL};
+    m.xyz = (double *)malloc(3 * (size_t)m.n_vertices * sizeof(double));
+    m.faces = (sl_int *)malloc(3 * (size_t)m.n_faces * sizeof(sl_int));
+    assert_true(m.xyz != NULL && m.faces != NULL);
+    for (sl_int i = 0; i < a; i++) {
+        for (sl_int j = 0; j < b; j++) {
+            double u = 6.283185307179586 * i / a, w = 6.283185307179586 * j / b;
+            double *x = m.xyz + 3 * (size_t)(i * b + j);
+            sl_int *f = m.faces + 6 * (size_t)(i * b + j);
+            sl_int here = i * b + j, right = (i + 1) % a * b + j;
+            sl_int up = i * b + (j + 1) % b, across = (i + 1) % a * b + (j + 1) % b;
+            const sl_int corners[6] = {here, right, across, here, across, up};
+            x[0] = (2 + cos(w)) * cos(u);
+            x[1] = (2 + cos(w)) * sin(u);
+            x[2] = sin(w);
+            memcpy(f, corners, sizeof corners);
+        }
+    }
+    return m;
+}
+
+/* A mesh with the factor of its Laplacian, and what parts of it need. */
+typedef struct whole_t {
+    mesh m;
+    incidence around;
+    sl_matrix *L;
+    sl_symbolic *S;
+    sl_factor *F;
+} whole_t;
+
+static inline void whole_make(whole_t *w, mesh m) {
+    sl_options opt = options_none();
+    memset(w, 0, sizeof *w);
+    w->m = m;
+    opt.definiteness = SL_SEMIDEFINITE;
+    assert_true(incidence_create(&w->around, &w->m));
+    assert_true(laplacian_cotangent(&w->L, &w->m));
+    const sl_csc A = sl_matrix_view(w->L);
+    SL_CHECK(sl_symbolic_create(&w->S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&w->F, w->S, &A, &opt, NULL));
+}
+
+/* The scratch was given back as it was. */
+static inline void scratch_is_clean(const incidence *a) {
+    for (sl_int v = 0; v < a->m->n_vertices; v++) {
+        assert_int_equal(a->place[v], -1);
+    }
+    for (sl_int f = 0; f < a->m->n_faces; f++) {
+        assert_int_equal(a->taken[f], 0);
+    }
+}
+
+static inline void whole_free(whole_t *w) {
+    scratch_is_clean(&w->around);
+    sl_factor_free(w->F);
+    sl_symbolic_free(w->S);
+    sl_matrix_free(w->L);
+    incidence_free(&w->around);
+    mesh_free(&w->m);
+}
+
+static inline disk grown_disk(whole_t *w, sl_int start, sl_int count) {
+    disk d;
+    char message[200] = "";
+    if (!disk_grow(&d, &w->around, start, count, NULL, message, sizeof message)) {
+        print_error("%s\n", message);
+        fail();
+    }
+    return d;
+}
+
+/* Largest difference of two columns of n, once each has lost its mean. */
+static inline double apart(const double *a, const double *b, sl_int n) {
+    double mean = 0, worst = 0;
+    for (sl_int k = 0; k < n; k++) {
+        mean += (a[k] - b[k]) / n;
+    }
+    for (sl_int k = 0; k < n; k++) {
+        worst = fmax(worst, fabs(a[k] - b[k] - mean));
+    }
+    return worst;
+}
+
+#endif

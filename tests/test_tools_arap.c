@@ -1,0 +1,207 @@
+/* test_tools_arap.c: as-rigid-as-possible layouts: the energy never rises, developable patches come out flat */
+#include "gen.h"
+
+#include "bent_grids.h"
+#include "each_mesh.h"
+
+#include "../tools/arap.h"
+#include "../tools/distortion.h"
+#include "../tools/harmonic_map.h"
+
+enum { OWN = 0 }; /* instead of a number of local solves: the part's own factor */
+
+/* The start: the harmonic layout of the whole mesh's system, by a boundary on the circle, scaled to the patch. */
+static double *harmonic_start(const whole_t *w, const disk *d) {
+    sl_int n = d->p.m.n_vertices, nb = d->n_boundary;
+    double *edge = test_reals(2 * (size_t)nb), *b = test_reals(2 * (size_t)nb);
+    double *X = test_reals(2 * (size_t)n), *uv = test_reals(2 * (size_t)n);
+    patch_solver s;
+    SL_CHECK(patch_solver_create(&s, w->S, w->F, &d->p));
+    boundary_on_circle(edge, d);
+    boundary_neumann(b, edge, nb);
+    boundary_spread(X, b, d);
+    SL_CHECK(patch_solver_mesh(&s, X, X, 2));
+    layout_from_columns(uv, X, n);
+    distortion_normalize(&d->p.m, uv);
+    layout_to_columns(X, uv, n);
+    patch_solver_free(&s);
+    free(uv);
+    free(b);
+    free(edge);
+    return X;
+}
+
+/* Iterates from X (left at the last layout) and returns the last energy; fails where one rises. */
+static double iterate(const whole_t *w, const disk *d, double *X, int solves, int count) {
+    patch_solver s;
+    arap a;
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_options opt = options_none();
+    opt.definiteness = SL_SEMIDEFINITE;
+    SL_CHECK(patch_solver_create(&s, w->S, w->F, &d->p));
+    assert_true(arap_create(&a, &d->p));
+    const sl_csc N = sl_matrix_view(s.N);
+    SL_CHECK(sl_symbolic_create(&S, &N, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &N, &opt, NULL));
+    double energy = arap_turn(&a, X), size = energy + 1;
+    for (int k = 0; k < count; k++) {
+        if (solves == OWN) {
+            SL_CHECK(arap_move_own(&a, X, F, NULL));
+        } else {
+            SL_CHECK(arap_move(&a, X, &s, solves));
+        }
+        double next = arap_turn(&a, X);
+        assert_true(next <= energy + 1e-12 * size);
+        energy = next;
+    }
+    arap_free(&a);
+    patch_solver_free(&s);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    return energy;
+}
+
+static double energy_from_start(const whole_t *w, const disk *d, int solves, int count) {
+    double *X = harmonic_start(w, d);
+    double energy = iterate(w, d, X, solves, count);
+    free(X);
+    return energy;
+}
+
+/* Few local solves on the mesh's factor do what the patch's own factor does. */
+static void mesh_factor_and_own_factor(void **state) {
+    (void)state;
+    for (int which = 0; which < 3; which++) {
+        whole_t w;
+        whole_make(&w, which == 0   ? sphere_grid(40, 1)
+                       : which == 1 ? torus_grid(50, 30)
+                                    : rolled_grid(40));
+        disk d = grown_disk(&w, w.m.n_vertices / 2 + 20, 400);
+        double own = energy_from_start(&w, &d, OWN, 10);
+        double one = energy_from_start(&w, &d, 1, 10), two = energy_from_start(&w, &d, 2, 10);
+        double eight = energy_from_start(&w, &d, 8, 10);
+        assert_true(fabs(eight - own) <= 1e-6 + 0.01 * own);
+        assert_true(two <= 1e-4 + 1.1 * own && own > -1e-12);
+        assert_true(one <= 0.05);
+        /* all end at the same place */
+        own = energy_from_start(&w, &d, OWN, 300);
+        assert_true(fabs(energy_from_start(&w, &d, 1, 300) - own) <= 1e-6 + 0.01 * own);
+        disk_free(&d);
+        whole_free(&w);
+    }
+}
+
+/* A piece of a cylinder: from its unrolled boundary it is flat at once, from the circle after some iterations. */
+static void developable_patches(void **state) {
+    (void)state;
+    whole_t w;
+    whole_make(&w, rolled_grid(41));
+    disk d = grown_disk(&w, 20 * 41 + 20, 500);
+    sl_int n = d.p.m.n_vertices;
+    double *edge = test_reals(2 * (size_t)d.n_boundary), *X = test_reals(2 * (size_t)n);
+    double *b = test_reals(2 * (size_t)d.n_boundary), *B = test_reals(2 * (size_t)n);
+    patch_solver s;
+    int solves = 60;
+    SL_CHECK(patch_solver_create(&s, w.S, w.F, &d.p));
+    boundary_unrolled(edge, &d);
+    boundary_neumann(b, edge, d.n_boundary);
+    boundary_spread(B, b, &d);
+    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-15, &solves));
+    assert_true(iterate(&w, &d, X, 1, 0) <= 1e-18);
+    /* an isometry rests, on the factor of the mesh too, in one solve or many */
+    memcpy(B, X, 2 * (size_t)n * sizeof *B);
+    assert_true(iterate(&w, &d, X, 1, 3) <= 1e-18);
+    assert_true(apart(X, B, n) <= 1e-9 && apart(X + n, B + n, n) <= 1e-9);
+    assert_true(energy_from_start(&w, &d, 2, 60) <= 1e-6);
+    assert_true(energy_from_start(&w, &d, OWN, 60) <= 1e-6);
+    patch_solver_free(&s);
+    free(B);
+    free(b);
+    free(X);
+    free(edge);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+/* The energy is what the singular values of the faces' maps give. */
+static void energy_by_singular_values(void **state) {
+    (void)state;
+    whole_t w;
+    whole_make(&w, sphere_grid(25, 1));
+    disk d = grown_disk(&w, 300, 200);
+    double *X = test_reals(400), *uv = test_reals(400);
+    for (uint64_t seed = 1; seed < 5; seed++) { /* also with faces turned over */
+        gen_reals(X, 400, seed);
+        layout_from_columns(uv, X, 200);
+        distortion q = distortion_of(&d.p.m, uv);
+        double energy = iterate(&w, &d, X, 1, 0);
+        assert_true(q.flipped > 0);
+        assert_true(fabs(q.rigid - energy) <= 1e-11 * energy);
+    }
+    free(uv);
+    free(X);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+/* The singular values themselves, and the measures made of them, for linear maps of a flat patch. */
+static void distortion_of_linear_maps(void **state) {
+    (void)state;
+    static const double maps[4][4] = {
+        {1, 0, 0, 1}, {0, -3, 3, 0}, {2, 0, 0, 0.5}, {1, 0, 0, -1}}; /* by rows */
+    static const double large[4] = {1, 3, 2, 1}, small[4] = {1, 3, 0.5, -1};
+    mesh m = flat_grid(8, 0.2);
+    double *uv = test_reals(128);
+    for (int k = 0; k < 4; k++) {
+        double a = large[k], b = small[k];
+        for (sl_int v = 0; v < 64; v++) {
+            const double *x = m.xyz + 3 * v;
+            uv[2 * v] = maps[k][0] * x[0] + maps[k][1] * x[1] + 7;
+            uv[2 * v + 1] = maps[k][2] * x[0] + maps[k][3] * x[1];
+        }
+        distortion q = distortion_of(&m, uv);
+        assert_true(fabs(q.area - 1) <= 1e-13 && fabs(q.area_flat - a * b) <= 1e-12);
+        assert_true(fabs(q.conformal * q.area_flat - 0.5 * (a - b) * (a - b)) <= 1e-12);
+        assert_true(fabs(q.rigid - (a - 1) * (a - 1) - (b - 1) * (b - 1)) <= 1e-12);
+        assert_int_equal(q.flipped, b < 0 ? m.n_faces : 0);
+        assert_int_equal(q.no_shape, 0);
+        if (b > 0) {
+            assert_true(fabs(q.angle - a / b) <= 1e-11 && fabs(q.angle_most - a / b) <= 1e-11);
+            assert_true(q.stretch <= 1e-6);
+            distortion_normalize(&m, uv);
+            assert_true(fabs(distortion_of(&m, uv).area_flat - 1) <= 1e-12);
+        }
+    }
+    free(uv);
+    mesh_free(&m);
+}
+
+static void try_mesh(const char *name, mesh m) {
+    whole_t w;
+    whole_make(&w, m);
+    disk d = grown_disk(&w, w.m.n_vertices / 3, 500);
+    double own = energy_from_start(&w, &d, OWN, 10), two = energy_from_start(&w, &d, 2, 10);
+    print_message("%s: %.5f, by the patch's own factor %.5f\n", name, two, own);
+    assert_true(two <= 1.2 * own + 1e-4);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+static void real_meshes(void **state) {
+    (void)state;
+    static const char *const names[] = {"bunny.off.gz", "spot.ply.gz", "mountain.obj.gz",
+                                        "hammer.obj.gz"};
+    each_mesh(names, 4, INT32_MAX, try_mesh);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mesh_factor_and_own_factor),
+        cmocka_unit_test(developable_patches),
+        cmocka_unit_test(energy_by_singular_values),
+        cmocka_unit_test(distortion_of_linear_maps),
+        cmocka_unit_test(real_meshes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,198 @@
+/* test_tools_patch_solver.c: Poisson problems on patches by the factor of the whole mesh, against other ways */
+#include "gen.h"
+
+#include "bent_grids.h"
+#include "each_mesh.h"
+#include "patch_checks.h"
+
+#include "../tools/cg.h"
+#include "../tools/harmonic_map.h"
+#include "../tools/product.h"
+
+/* Right-hand sides that sum to 0. */
+static double *random_flux(sl_int n, sl_int nrhs, uint64_t seed) {
+    double *B = test_reals((size_t)n * (size_t)nrhs);
+    gen_reals(B, (size_t)n * (size_t)nrhs, seed);
+    for (sl_int c = 0; c < nrhs; c++) {
+        double mean = 0;
+        for (sl_int k = 0; k < n; k++) {
+            mean += B[c * n + k] / n;
+        }
+        for (sl_int k = 0; k < n; k++) {
+            B[c * n + k] -= mean;
+        }
+    }
+    return B;
+}
+
+/* The paper's problem: the rows of a full solve, to the bit; harmonic inside, where rows of L are those of N. */
+static void the_mesh_problem_is_the_full_solve(void **state) {
+    (void)state;
+    whole_t w;
+    whole_make(&w, torus_grid(30, 20));
+    disk d = grown_disk(&w, 100, 150);
+    sl_int n = d.p.m.n_vertices, all = w.m.n_vertices, nb = d.n_boundary;
+    double *edge = test_reals(2 * (size_t)nb), *b = test_reals(2 * (size_t)nb);
+    double *B = test_reals(2 * (size_t)n), *X = test_reals(2 * (size_t)n);
+    double *full = test_reals(2 * (size_t)all);
+    patch_solver s = solver_of(&w, &d.p);
+    boundary_on_circle(edge, &d);
+    boundary_neumann(b, edge, nb);
+    boundary_spread(B, b, &d);
+    SL_CHECK(patch_solver_mesh(&s, X, B, 2));
+    for (sl_int v = 0; v < n; v++) {
+        full[d.p.vertices[v]] = B[v];
+        full[all + d.p.vertices[v]] = B[n + v];
+    }
+    SL_CHECK(sl_factor_solve(w.F, full, (size_t)all, full, (size_t)all, 2, NULL));
+    for (sl_int v = 0; v < n; v++) {
+        assert_true(X[v] == full[d.p.vertices[v]] && X[n + v] == full[all + d.p.vertices[v]]);
+    }
+    SL_CHECK(patch_solver_apply(&s, B, X, 2));
+    for (sl_int k = 0; k < d.p.n_rim; k++) {
+        B[d.p.rim[k]] = B[n + d.p.rim[k]] = 0;
+    }
+    assert_true(largest(B, 2 * (size_t)n) <= 1e-13 * largest(X, 2 * (size_t)n));
+    patch_solver_free(&s);
+    free(full);
+    free(X);
+    free(B);
+    free(b);
+    free(edge);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+/* The part's own problem by the mesh's factor, by a factor of its own, and by conjugate gradients. */
+static void three_ways_agree(const part *p, patch_solver *s, int most_solves) {
+    sl_int n = p->m.n_vertices;
+    double *B = random_flux(n, 3, 9), *X = test_reals(3 * (size_t)n);
+    double *Y = test_reals(3 * (size_t)n), *work = test_reals(4 * (size_t)n);
+    const sl_csc N = sl_matrix_view(s->N);
+    sl_matrix *both;
+    int solves = most_solves;
+    assert_true(csc_both_triangles(&both, &N));
+    const sl_csc A = sl_matrix_view(both);
+    SL_CHECK(patch_solver_part(s, X, B, 3, 1e-11, &solves));
+    SL_CHECK(refactor_solve(Y, &N, B, 3));
+    assert_true(solves < most_solves);
+    for (sl_int c = 0; c < 3; c++) {
+        double size = largest(Y + c * n, (size_t)n);
+        assert_true(apart(X + c * n, Y + c * n, n) <= 1e-8 * size);
+        (void)cg_jacobi(&A, X + c * n, B + c * n, 1e-12, 100000, work);
+        assert_true(apart(X + c * n, Y + c * n, n) <= 1e-7 * size);
+    }
+    sl_matrix_free(both);
+    free(work);
+    free(Y);
+    free(X);
+    free(B);
+}
+
+static void the_part_problem_by_the_factor_of_the_mesh(void **state) {
+    (void)state;
+    for (int which = 0; which < 3; which++) {
+        whole_t w;
+        whole_make(&w, which == 0   ? flat_grid(50, 0.2)
+                       : which == 1 ? torus_grid(60, 40)
+                                    : sphere_grid(50, 2));
+        for (sl_int count = 4; count < w.m.n_vertices; count *= 4) {
+            disk d = grown_disk(&w, w.m.n_vertices / 2 + 25, count);
+            patch_solver s = solver_of(&w, &d.p);
+            three_ways_agree(&d.p, &s, 40);
+            patch_solver_free(&s);
+            disk_free(&d);
+        }
+        whole_free(&w);
+    }
+}
+
+static void refusals(void **state) {
+    (void)state;
+    whole_t w;
+    whole_make(&w, flat_grid(6, 0));
+    disk d = grown_disk(&w, 7, 10);
+    patch_solver s = solver_of(&w, &d.p);
+    double X[50] = {0}, B[50] = {0};
+    int solves = 3;
+    SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_part(&s, X, B, 5, 1e-10, &solves));
+    assert_int_equal(solves, 0);
+    solves = 3;
+    SL_CHECK(patch_solver_part(&s, X, B, 0, 1e-10, &solves)); /* no right-hand side */
+    solves = 3;
+    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-10, &solves)); /* b = 0 */
+    assert_int_equal(solves, 1);
+    patch_solver_free(&s);
+    d.p.vertices[3] = d.p.vertices[2];
+    SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_create(&s, w.S, w.F, &d.p));
+    d.p.vertices[3] = 36;
+    SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_create(&s, w.S, w.F, &d.p));
+    assert_null(s.whole);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+/* What a patch of one size costs is the paths above it: an ever smaller part of the factor. */
+static void cost_of_a_patch(void **state) {
+    (void)state;
+    double before = 1;
+    for (sl_int side = 50; side <= 200; side *= 2) {
+        whole_t w;
+        whole_make(&w, flat_grid(side, 0));
+        disk d = grown_disk(&w, (side / 2) * side + side / 2, 300);
+        patch_solver s = solver_of(&w, &d.p);
+        sl_stats all;
+        sl_symbolic_stats(w.S, &all);
+        assert_int_equal(d.p.m.n_vertices, 300);
+        double share = (double)s.stats.x_entries / (double)all.nnz_panels;
+        assert_true(s.stats.b_entries == s.stats.x_entries && share < 0.8 * before);
+        before = share;
+        patch_solver_free(&s);
+        disk_free(&d);
+        whole_free(&w);
+    }
+}
+
+/* Patches of the development meshes: the mesh's problem is finite, the part's by two ways the same. */
+static void try_mesh(const char *name, mesh m) {
+    whole_t w;
+    whole_make(&w, m);
+    disk d = grown_disk(&w, w.m.faces[0], 800);
+    sl_int n = d.p.m.n_vertices;
+    patch_solver s = solver_of(&w, &d.p);
+    double *B = random_flux(n, 2, 5), *X = test_reals(2 * (size_t)n);
+    double *R = test_reals(2 * (size_t)n);
+    int solves = 200;
+    SL_CHECK(patch_solver_mesh(&s, X, B, 2));
+    assert_true(isfinite(largest(X, 2 * (size_t)n)));
+    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-8, &solves));
+    SL_CHECK(patch_solver_apply(&s, R, X, 2));
+    for (sl_int i = 0; i < 2 * n; i++) {
+        R[i] -= B[i];
+    }
+    double rest = largest(R, 2 * (size_t)n) / largest(B, 2 * (size_t)n);
+    print_message("%s: %d solves, residual %.1e\n", name, solves, rest);
+    assert_true(solves < 200 && rest <= 1e-6);
+    free(R);
+    free(X);
+    free(B);
+    patch_solver_free(&s);
+    disk_free(&d);
+    whole_free(&w);
+}
+
+static void real_meshes(void **state) {
+    (void)state;
+    each_mesh(NULL, 0, 60000, try_mesh);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_mesh_problem_is_the_full_solve),
+        cmocka_unit_test(the_part_problem_by_the_factor_of_the_mesh),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(cost_of_a_patch),
+        cmocka_unit_test(real_meshes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,40 @@
+/* flat_face.c: a triangle laid flat in its own plane, and the linear map from there to a layout */
+#include "flat_face.h"
+
+#include <math.h>
+
+flat_face flat_face_of(const mesh *m, const sl_int *face) {
+    const double *o = m->xyz + 3 * (size_t)face[0];
+    double e[3], d[3], length = 0, along = 0, rest = 0;
+    for (int c = 0; c < 3; c++) {
+        e[c] = m->xyz[3 * (size_t)face[1] + (size_t)c] - o[c];
+        d[c] = m->xyz[3 * (size_t)face[2] + (size_t)c] - o[c];
+    }
+    length = hypot(hypot(e[0], e[1]), e[2]);
+    for (int c = 0; c < 3; c++) {
+        along += length > 0 ? d[c] * (e[c] / length) : 0;
+    }
+    for (int c = 0; c < 3; c++) {
+        rest = hypot(rest, length > 0 ? d[c] - along * (e[c] / length) : d[c]);
+    }
+    flat_face f = {{{0, 0}, {length, 0}, {along, rest}}};
+    return f;
+}
+
+bool flat_face_map(flat_map *out, const flat_face *f, const double *const to[3]) {
+    double base = f->x[1][0], height = f->x[2][1];
+    if (!(base > 0 && height > 0)) {
+        return false;
+    }
+    for (int c = 0; c < 2; c++) {
+        double along = (to[1][c] - to[0][c]) / base;
+        out->a[c][0] = along;
+        out->a[c][1] = (to[2][c] - to[0][c] - along * f->x[2][0]) / height;
+    }
+    /* the halves of a that turn and scale: one keeps the orientation, the other reverses it */
+    double keeps = 0.5 * hypot(out->a[0][0] + out->a[1][1], out->a[1][0] - out->a[0][1]);
+    double turns = 0.5 * hypot(out->a[0][0] - out->a[1][1], out->a[1][0] + out->a[0][1]);
+    out->large = keeps + turns;
+    out->small = keeps - turns;
+    return isfinite(out->large);
+}

@@ -1,0 +1,162 @@
+/* patch_solver.c: Poisson problems on a part of a mesh, solved by local solves on the factor of the whole mesh */
+#include "patch_solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "laplacian.h"
+
+void patch_solver_free(patch_solver *s) {
+    sl_matrix_free(s->N);
+    sl_plan_free(s->whole);
+    sl_plan_free(s->from_rim);
+    sl_work_free(s->work);
+    free(s->scratch);
+    memset(s, 0, sizeof *s);
+}
+
+sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_factor *F,
+                              const part *p) {
+    memset(out, 0, sizeof *out);
+    out->F = F;
+    out->p = p;
+    size_t n = (size_t)p->m.n_vertices;
+    sl_int *rim = (sl_int *)malloc(((size_t)p->n_rim + 1) * sizeof *rim);
+    out->scratch = (double *)malloc((4 * n * PATCH_SOLVER_MOST + 1) * sizeof *out->scratch);
+    sl_status status = SL_ERR_MEMORY;
+    if (rim != NULL && out->scratch != NULL && laplacian_cotangent(&out->N, &p->m)) {
+        for (sl_int k = 0; k < p->n_rim; k++) {
+            rim[k] = p->vertices[p->rim[k]];
+        }
+        status = sl_work_create(&out->work, NULL);
+    }
+    if (status == SL_OK) {
+        status = sl_plan_create(&out->whole, S, p->vertices, p->m.n_vertices, p->vertices,
+                                p->m.n_vertices, NULL, &out->stats);
+    }
+    if (status == SL_OK && p->n_rim > 0) {
+        status = sl_plan_create(&out->from_rim, S, rim, p->n_rim, p->vertices, p->m.n_vertices,
+                                NULL, NULL);
+    }
+    free(rim);
+    if (status != SL_OK) {
+        patch_solver_free(out);
+    }
+    return status;
+}
+
+sl_status patch_solver_mesh(patch_solver *s, double *X, const double *B, sl_int nrhs) {
+    size_t n = (size_t)s->p->m.n_vertices;
+    return sl_plan_solve(s->whole, s->F, X, n, B, n, nrhs, s->work);
+}
+
+sl_status patch_solver_apply(const patch_solver *s, double *Y, const double *X, sl_int nrhs) {
+    const sl_csc N = sl_matrix_view(s->N);
+    size_t n = (size_t)N.n_rows;
+    return sl_csc_multiply(&N, SL_AS_SYMMETRIC, Y, n, X, n, nrhs);
+}
+
+static double dot(const double *a, const double *b, size_t n) {
+    double sum = 0;
+    for (size_t k = 0; k < n; k++) {
+        sum += a[k] * b[k];
+    }
+    return sum;
+}
+
+/* Z = L^-1 R for an R that is 0 off the rim: one local solve from there. R on the rim is gathered into Z's place. */
+static sl_status precondition(patch_solver *s, double *Z, const double *R, sl_int nrhs) {
+    const part *p = s->p;
+    size_t n = (size_t)p->m.n_vertices, rows = (size_t)p->n_rim;
+    double *on_rim = s->scratch + 3 * n * PATCH_SOLVER_MOST;
+    for (size_t c = 0; c < (size_t)nrhs; c++) {
+        for (size_t k = 0; k < rows; k++) {
+            on_rim[c * rows + k] = R[c * n + (size_t)p->rim[k]];
+        }
+    }
+    return sl_plan_solve(s->from_rim, s->F, Z, n, on_rim, rows, nrhs, s->work);
+}
+
+/* The state of one right-hand side: r'z of the last step, and where to stop. */
+typedef struct column {
+    double rho, stop;
+    bool done;
+} column;
+
+/* R = B - N X; what is left of it off the rim is rounding. Returns whether every column is done. */
+static bool residual(const patch_solver *s, double *R, const double *X, const double *B,
+                     sl_int nrhs, column *columns, double tolerance) {
+    const sl_csc N = sl_matrix_view(s->N);
+    size_t n = (size_t)N.n_rows;
+    bool all = true;
+    if (sl_csc_residual(&N, R, n, NULL, X, n, B, n, nrhs) != SL_OK) {
+        return true;
+    }
+    for (size_t c = 0; c < (size_t)nrhs; c++) {
+        columns[c].rho = 0;
+        columns[c].stop = tolerance * sqrt(dot(B + c * n, B + c * n, n));
+        columns[c].done = !(sqrt(dot(R + c * n, R + c * n, n)) > columns[c].stop);
+        all = all && columns[c].done;
+    }
+    return all;
+}
+
+/* One step of conjugate gradients of each column that is not done: D the directions, Z = L^-1 R, Q scratch. */
+static bool step(const patch_solver *s, double *X, double *R, double *D, double *Z, sl_int nrhs,
+                 column *columns) {
+    size_t n = (size_t)s->p->m.n_vertices;
+    bool all = true;
+    for (size_t c = 0; c < (size_t)nrhs; c++) {
+        double *x = X + c * n, *r = R + c * n, *d = D + c * n, *z = Z + c * n;
+        if (columns[c].done) {
+            continue;
+        }
+        double rho = dot(r, z, n), beta = columns[c].rho > 0 ? rho / columns[c].rho : 0;
+        for (size_t k = 0; k < n; k++) {
+            d[k] = z[k] + beta * d[k];
+        }
+        columns[c].rho = rho;
+        columns[c].done = patch_solver_apply(s, z, d, 1) != SL_OK;
+        double curvature = dot(d, z, n);
+        if (columns[c].done || !(rho > 0 && curvature > 0)) {
+            columns[c].done = true;
+            continue;
+        }
+        double alpha = rho / curvature;
+        for (size_t k = 0; k < n; k++) {
+            x[k] += alpha * d[k];
+            r[k] -= alpha * z[k];
+        }
+        columns[c].done = !(sqrt(dot(r, r, n)) > columns[c].stop);
+        all = all && columns[c].done;
+    }
+    return all;
+}
+
+sl_status patch_solver_part(patch_solver *s, double *X, const double *B, sl_int nrhs,
+                            double tolerance, int *solves) {
+    size_t n = (size_t)s->p->m.n_vertices;
+    double *R = s->scratch, *D = R + n * PATCH_SOLVER_MOST, *Z = D + n * PATCH_SOLVER_MOST;
+    column columns[PATCH_SOLVER_MOST];
+    int most = *solves;
+    *solves = 0;
+    if (nrhs < 0 || nrhs > PATCH_SOLVER_MOST) {
+        return SL_ERR_ARGUMENT;
+    }
+    *solves = 1;
+    sl_status status = patch_solver_mesh(s, X, B, nrhs);
+    if (status != SL_OK || s->p->n_rim == 0) {
+        return status;
+    }
+    bool done = residual(s, R, X, B, nrhs, columns, tolerance);
+    memset(D, 0, n * (size_t)nrhs * sizeof *D);
+    while (!done && *solves < most && status == SL_OK) {
+        status = precondition(s, Z, R, nrhs);
+        if (status == SL_OK) {
+            done = step(s, X, R, D, Z, nrhs, columns);
+            ++*solves;
+        }
+    }
+    return status;
+}
