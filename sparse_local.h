@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e025b406a2cc284e
+ * FNV-1a of all that follows this comment, license aside: c2e93e9e624f66aa
  *
  * Contents
  *         (what a user reads)
@@ -75,28 +75,28 @@
  *  15951  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
  *  16072  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
  *  16131  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16236  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  16557  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  16599  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  16243  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  16562  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  16604  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17003  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  17267  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  17439  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17687  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17900  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  18204  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18446  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  18623  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  18813  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  18989  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  19206  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  19404  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  19548  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  19771  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  19871  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
- *  20121  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
+ *  17006  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  17270  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  17442  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17690  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  17894  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  18198  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18440  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  18617  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  18807  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  18983  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  19200  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  19398  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  19542  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  19762  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  19862  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
+ *  20112  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
  *         (last: takes every internal macro away again)
- *  20359  impl/leave.h               takes every internal macro away again
+ *  20349  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16155,6 +16155,15 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     return SL_OK;
 }
 
+/* A workspace for one call: nothing yet, and its block to be released at the end. */
+static sl_work sli_work_own(const sl_allocator *a) {
+    sl_work own;
+    own.allocator = *a;
+    own.block = NULL;
+    own.size = 0;
+    return own;
+}
+
 /* The base of W, grown to what a layout has counted, for its second run. */
 static sl_status sli_work_lay(sl_work *W, sli_block *b) {
     const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
@@ -16213,9 +16222,7 @@ SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     if (*out == NULL) {
         return SL_ERR_MEMORY;
     }
-    (*out)->allocator = a;
-    (*out)->block = NULL;
-    (*out)->size = 0;
+    **out = sli_work_own(&a);
     return SL_OK;
 }
 
@@ -16525,9 +16532,7 @@ static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, s
     if (nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
-    own.allocator = F->allocator;
-    own.block = NULL;
-    own.size = 0;
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     bytes = sli_vectors_bytes(q, nrhs);
     status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
@@ -16989,9 +16994,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
     if (!F->is_good) {
         return SL_ERR_STATE;
     }
-    own.allocator = F->allocator;
-    own.block = NULL;
-    own.size = 0;
+    own = sli_work_own(&F->allocator);
     status = sli_local(F, X, ldx, &b, &x, B, ldb, nrhs, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
@@ -17725,15 +17728,6 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
     }
 }
 
-/* A workspace for one call, where the caller has none. */
-static sl_work sli_work_own(const sl_factor *F) {
-    sl_work own;
-    own.allocator = F->allocator;
-    own.block = NULL;
-    own.size = 0;
-    return own;
-}
-
 /* Clears what a call says of its sweeps. */
 static void sli_inverse_stats(sl_stats *stats) {
     if (stats != NULL) {
@@ -17889,7 +17883,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     q.count[0] = nc;
     q.count[1] = nb;
     q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = sli_inverse_form(&q, out, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
@@ -18176,7 +18170,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
     }
     sli_inverse_stats(stats);
     q = sli_entries_of(F, out, rows, columns, count);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
     return status;
@@ -18435,7 +18429,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
                           : sli_requests_of(F, columns, columns, n_columns);
     q.kept_stride = rows_pass ? ldz : 1;
     q.passing_stride = rows_pass ? 1 : ldz;
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = is_empty ? SL_OK : sli_block_answer(&q, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
@@ -18597,7 +18591,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     f.F = F;
     f.A = A;
     f.triangle = sli_triangle_scan(A);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
     status = nrhs > 0 ? sli_work_lay(W, &b) : SL_OK;
@@ -18802,7 +18796,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     f.F = F;
     f.q = &P->query;
     f.room = sli_min(F->stats.regularized, P->query.forward.columns);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = sli_mend(&f, X, ldx, B, ldb, nrhs, steps, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
@@ -18920,7 +18914,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     }
     p.F = F;
     p.all = sli_reach_all(F->S);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_probe_layout(&p, &b);
     status = sli_work_lay(W, &b);
@@ -18972,7 +18966,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
         return SL_OK;
     }
     q = sli_query_all(F->S);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     b.used = sli_vectors_bytes(&q, nrhs);
     b.overflow = b.used == SIZE_MAX;
@@ -19419,8 +19413,8 @@ typedef struct sli_diagonals {
 
 /* One factor's. Inside a loop over several workers none of them begins another. */
 static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
-    sli_entries q = sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows,
-                                   d->n_rows);
+    sli_entries q =
+        sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
     q.threads = d->workers > 1 ? &d->none : q.threads;
     return q;
 }
@@ -19487,7 +19481,7 @@ static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) 
     }
     if (d->works == NULL) {
         for (w = 0; w < d->workers; w++) {
-            own[w] = sli_work_own(d->factors[0]);
+            own[w] = sli_work_own(&d->factors[0]->allocator);
             works[w] = &own[w];
         }
         d->works = works;
@@ -19674,12 +19668,9 @@ static const sli_stage sli_selected_stage = {sli_selected_lay, NULL};
 
 /* The numbers, in the caller's workspace or in one for this call. F fits. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    sl_work own;
+    sl_work own = sli_work_own(&Z->allocator);
     sli_descending run;
     sl_status status;
-    own.allocator = Z->allocator;
-    own.block = NULL;
-    own.size = 0;
     memset(&run, 0, sizeof run);
     run.F = F;
     run.d = &Z->descent;
@@ -20248,11 +20239,10 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
                                  sl_work *W) {
     const double started = sli_seconds();
-    sl_work own = sli_work_own(F);
+    sl_work own = sli_work_own(&R->allocator);
     sl_status status = SL_OK;
     const int is_copied = Z != NULL && sli_region_copy(R, Z);
     if (!is_copied) { /* fails before it writes anything, or not at all */
-        own.allocator = R->allocator;
         status = sli_inverse_among(F, R->asked, R->fence.n_rows, sli_region_put, R,
                                    W == NULL ? &own : W);
         sli_free(&own.allocator, own.block);

@@ -188,8 +188,7 @@ static void done(entries *e) {
 
 static void pairs(bench_run *run, bench_report *report, const bench_system *system) {
     static void (*const calls[])(void *) = {one_tree, two_trees, forward_apart, forward_together};
-    static const char *const names[] = {"one tree", "two trees", "forward, one by one",
-                                        "one list"};
+    static const char *const names[] = {"one tree", "two trees", "forward, one by one", "one list"};
     entries e = make(system, run->size == BENCH_QUICK ? 1000 : 10000, 0);
     uint64_t chance = 2017;
     e.columns = bench_alloc((size_t)e.count, sizeof *e.columns);
@@ -241,9 +240,8 @@ void bench_inverse(bench_run *run) {
     static const double default_n = 2e5, quick_n = 5e4;
     const bench_system *system;
     if (bench_systems(run, run->size == BENCH_QUICK ? &quick_n : &default_n, 1, &system) == 1) {
-        bench_report *report =
-            bench_report_open(run, "inverse", "entries of the inverse by forward sweeps alone",
-                              "one list");
+        bench_report *report = bench_report_open(
+            run, "inverse", "entries of the inverse by forward sweeps alone", "one list");
         bench_patch patch;
         diagonal(run, report, system);
         pairs(run, report, system);

@@ -19,8 +19,8 @@ typedef struct sli_diagonals {
 
 /* One factor's. Inside a loop over several workers none of them begins another. */
 static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
-    sli_entries q = sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows,
-                                   d->n_rows);
+    sli_entries q =
+        sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
     q.threads = d->workers > 1 ? &d->none : q.threads;
     return q;
 }
@@ -87,7 +87,7 @@ static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) 
     }
     if (d->works == NULL) {
         for (w = 0; w < d->workers; w++) {
-            own[w] = sli_work_own(d->factors[0]);
+            own[w] = sli_work_own(&d->factors[0]->allocator);
             works[w] = &own[w];
         }
         d->works = works;

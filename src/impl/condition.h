@@ -112,7 +112,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     }
     p.F = F;
     p.all = sli_reach_all(F->S);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_probe_layout(&p, &b);
     status = sli_work_lay(W, &b);
@@ -164,7 +164,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
         return SL_OK;
     }
     q = sli_query_all(F->S);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     b.used = sli_vectors_bytes(&q, nrhs);
     b.overflow = b.used == SIZE_MAX;

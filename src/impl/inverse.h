@@ -42,15 +42,6 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
     }
 }
 
-/* A workspace for one call, where the caller has none. */
-static sl_work sli_work_own(const sl_factor *F) {
-    sl_work own;
-    own.allocator = F->allocator;
-    own.block = NULL;
-    own.size = 0;
-    return own;
-}
-
 /* Clears what a call says of its sweeps. */
 static void sli_inverse_stats(sl_stats *stats) {
     if (stats != NULL) {
@@ -206,7 +197,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     q.count[0] = nc;
     q.count[1] = nb;
     q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = sli_inverse_form(&q, out, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;

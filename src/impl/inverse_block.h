@@ -233,7 +233,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
                           : sli_requests_of(F, columns, columns, n_columns);
     q.kept_stride = rows_pass ? ldz : 1;
     q.passing_stride = rows_pass ? 1 : ldz;
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = is_empty ? SL_OK : sli_block_answer(&q, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;

@@ -279,7 +279,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
     }
     sli_inverse_stats(stats);
     q = sli_entries_of(F, out, rows, columns, count);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
     return status;

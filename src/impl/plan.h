@@ -393,9 +393,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx, const
     if (!F->is_good) {
         return SL_ERR_STATE;
     }
-    own.allocator = F->allocator;
-    own.block = NULL;
-    own.size = 0;
+    own = sli_work_own(&F->allocator);
     status = sli_local(F, X, ldx, &b, &x, B, ldb, nrhs, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;

@@ -156,7 +156,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     f.F = F;
     f.A = A;
     f.triangle = sli_triangle_scan(A);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
     status = nrhs > 0 ? sli_work_lay(W, &b) : SL_OK;

@@ -181,7 +181,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     f.F = F;
     f.q = &P->query;
     f.room = sli_min(F->stats.regularized, P->query.forward.columns);
-    own = sli_work_own(F);
+    own = sli_work_own(&F->allocator);
     status = sli_mend(&f, X, ldx, B, ldb, nrhs, steps, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;

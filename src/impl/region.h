@@ -130,11 +130,10 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
                                  sl_work *W) {
     const double started = sli_seconds();
-    sl_work own = sli_work_own(F);
+    sl_work own = sli_work_own(&R->allocator);
     sl_status status = SL_OK;
     const int is_copied = Z != NULL && sli_region_copy(R, Z);
     if (!is_copied) { /* fails before it writes anything, or not at all */
-        own.allocator = R->allocator;
         status = sli_inverse_among(F, R->asked, R->fence.n_rows, sli_region_put, R,
                                    W == NULL ? &own : W);
         sli_free(&own.allocator, own.block);

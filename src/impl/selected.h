@@ -131,12 +131,9 @@ static const sli_stage sli_selected_stage = {sli_selected_lay, NULL};
 
 /* The numbers, in the caller's workspace or in one for this call. F fits. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
-    sl_work own;
+    sl_work own = sli_work_own(&Z->allocator);
     sli_descending run;
     sl_status status;
-    own.allocator = Z->allocator;
-    own.block = NULL;
-    own.size = 0;
     memset(&run, 0, sizeof run);
     run.F = F;
     run.d = &Z->descent;

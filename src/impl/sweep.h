@@ -293,9 +293,7 @@ static sl_status sli_answer(const sl_factor *F, const sli_query *q, double *X, s
     if (nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
-    own.allocator = F->allocator;
-    own.block = NULL;
-    own.size = 0;
+    own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     bytes = sli_vectors_bytes(q, nrhs);
     status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);

@@ -27,6 +27,15 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     return SL_OK;
 }
 
+/* A workspace for one call: nothing yet, and its block to be released at the end. */
+static sl_work sli_work_own(const sl_allocator *a) {
+    sl_work own;
+    own.allocator = *a;
+    own.block = NULL;
+    own.size = 0;
+    return own;
+}
+
 /* The base of W, grown to what a layout has counted, for its second run. */
 static sl_status sli_work_lay(sl_work *W, sli_block *b) {
     const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
@@ -85,9 +94,7 @@ SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     if (*out == NULL) {
         return SL_ERR_MEMORY;
     }
-    (*out)->allocator = a;
-    (*out)->block = NULL;
-    (*out)->size = 0;
+    **out = sli_work_own(&a);
     return SL_OK;
 }
 
