@@ -196,7 +196,8 @@ $(B)/tests/replay_%: $(B)/obj/tests/fuzz_%.o $(B)/obj/tests/replay.o $(LIBRARY) 
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
-# What the variants below share: they differ in B, compiler and flags.
+# What the variants below share: they differ in B, compiler and flags. PROGRAM is sparse-local, where a script tests it.
+PROGRAM =
 build-tests: $(TEST_PROGRAMS) $(REPLAYS) $(PROGRAM)
 run-tests: build-tests
 	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)

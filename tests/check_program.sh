@@ -72,7 +72,10 @@ tell $? "adf of a written mesh gives the same numbers"
 gives 0 'signatures of 2 of 162 vertices at 5 times' hks sphere:2 --times 5 --at 3,4 --csv "$dir/h.csv"
 gives 0 'differ by at most' pairs sphere:2 --count 20 --svg "$dir/p.svg"
 gives 0 'patch 10 of 162' reach sphere:2 --patch 10 --png "$dir/r.png" --separators "$dir/s.png" --tree "$dir/t.svg" \
-    --pattern "$dir/q.png"
+    --pattern "$dir/q.png" --graph "$dir/g.svg"
+[ "$(grep -c '<text' "$dir/g.svg")" -eq 960 ] && grep -q '>161</text>' "$dir/g.svg"
+tell $? "the graph has a number at each corner"
+gives 1 '642 vertices, no more than 500' reach sphere:3 --graph "$dir/g.svg"
 for file in p.svg r.png s.png t.svg q.png; do
     [ -s "$dir/$file" ]
     tell $? "$file was drawn"

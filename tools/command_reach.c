@@ -5,6 +5,7 @@
 #include "app.h"
 #include "command.h"
 #include "dissection.h"
+#include "draw_graph.h"
 #include "draw_tree.h"
 #include "laplacian.h"
 #include "patch.h"
@@ -22,7 +23,7 @@ static const options_usage usage = {
 enum { IN_PATCH = 0, VISITED = 1 }; /* kinds: orange and blue */
 
 typedef struct reach_question {
-    const char *center, *separators, *tree, *pattern;
+    const char *center, *separators, *tree, *pattern, *graph;
     sl_int size, levels;
 } reach_question;
 
@@ -123,6 +124,16 @@ static void draw(const reach_question *q, const app_output *output, const mesh *
         draw_vertices(q->separators, &only_png, m, view, by_level);
         free(by_level);
     }
+    if (q->graph != NULL) {
+        int *by_vertex = app_alloc((size_t)view->n, sizeof *by_vertex);
+        for (sl_int k = 0; k < view->n; k++) {
+            by_vertex[view->perm[k]] = kind[k];
+        }
+        if (!draw_graph(q->graph, m, by_vertex, message, sizeof message)) {
+            app_die("%s", message);
+        }
+        free(by_vertex);
+    }
     if (q->tree != NULL && !draw_tree(q->tree, view, kind, message, sizeof message)) {
         app_die("%s", message);
     }
@@ -157,7 +168,7 @@ static void print_reach(const sl_symbolic_view_t *view, const int *kind, const s
 
 int command_reach(int argc, char **argv) {
     const char *operand = NULL;
-    reach_question q = {"0", NULL, NULL, NULL, 500, 6};
+    reach_question q = {"0", NULL, NULL, NULL, NULL, 500, 6};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
@@ -167,6 +178,8 @@ int command_reach(int argc, char **argv) {
         {OPTION_TEXT, "separators", &q.separators, "FILE", "draw the separators: a .png"},
         {OPTION_TEXT, "tree", &q.tree, "FILE", "draw the elimination tree: an .svg"},
         {OPTION_TEXT, "pattern", &q.pattern, "FILE", "draw the entries of P A P' and L: a .png"},
+        {OPTION_TEXT, "graph", &q.graph, "FILE",
+         "draw a small mesh (up to 500 vertices) with its vertices numbered: an .svg"},
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, options, argc, argv, &operand);
@@ -176,6 +189,9 @@ int command_reach(int argc, char **argv) {
     mesh m;
     sl_matrix *L = NULL;
     app_mesh(&m, operand, true);
+    if (q.graph != NULL && m.n_vertices > 500) {
+        app_die("--graph: %d vertices, no more than 500 can be told apart", (int)m.n_vertices);
+    }
     if (!laplacian_cotangent(&L, &m)) {
         app_die("no memory for the Laplacian of %d vertices", (int)m.n_vertices);
     }

@@ -23,7 +23,7 @@ draw figure1 reach "$surface" --patch "${PATCH:-2000}" --center "${CENTER:-100}"
     --separators "$folder/figure1_separators.png" --tree "$folder/figure1_tree.svg" --csv "$folder/figure1.csv"
 draw figure2 reach grid:6x5 --center 7 --patch 3 --levels 3 --size 480x400 --png "$folder/figure2_mesh.png" \
     --separators "$folder/figure2_separators.png" --tree "$folder/figure2_tree.svg" \
-    --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
+    --graph "$folder/figure2_graph.svg" --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
 patch="--patch ${PATCH:-2000} --center ${CENTER:-100}"
 draw figure3 param "$surface" $patch --png "$folder/figure3_param.png" --layout "$folder/figure3_layout.png" \
     --close "$folder/figure3_patch.png" --out "$folder/figure3.obj" --csv "$folder/figure3.csv"
