@@ -1,0 +1,178 @@
+/* order_own.h: nested dissection of any graph: dense rows last, components one by one */
+#ifndef SLI_ORDER_OWN_H
+#define SLI_ORDER_OWN_H
+
+#include "graph.h"
+#include "order_geometric.h"
+#include "order_nest.h"
+#include "order_quality.h"
+
+/* A row with more neighbours than this many times sqrt(n) joins everything: it goes to the end. */
+#define SLI_DENSE_ROW 10.0
+
+typedef struct sli_nesting {
+    const sli_graph *G;
+    const double *xyz; /* NULL: none */
+    sl_int dimensions;
+    int by_metis;
+    sl_int *local;      /* n: a row's number in its component, -1 not yet seen, -2 dense */
+    sl_int *row;        /* n: the rows of the component */
+    sl_off *begin;      /* n + 1: its graph */
+    sl_int *to;         /* the edges of G */
+    sli_placed *placed; /* n, where there are coordinates */
+    sli_dissection d;
+} sli_nesting;
+
+static void sli_nesting_layout(sli_nesting *w, sli_block *b) {
+    const sl_int n = w->G->n;
+    const sl_off edges = w->G->begin[n];
+    w->local = SLI_TAKE(b, sl_int, n);
+    w->row = SLI_TAKE(b, sl_int, n);
+    w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
+    w->to = SLI_TAKE(b, sl_int, edges);
+    w->placed = SLI_TAKE(b, sli_placed, w->xyz != NULL ? n : 0);
+    sli_dissection_layout(&w->d, b, n, edges);
+}
+
+/* Rows reached from root, in breadth-first order, which is also what the component is numbered by:
+ * neighbours then lie close in memory, however the caller numbers them. */
+static sl_int sli_nesting_component(sli_nesting *w, sl_int root) {
+    const sli_graph *G = w->G;
+    sl_int head, tail = 0;
+    sl_off e;
+    w->local[root] = tail;
+    w->row[tail++] = root;
+    for (head = 0; head < tail; head++) {
+        for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
+            if (w->local[G->to[e]] == -1) {
+                w->local[G->to[e]] = tail;
+                w->row[tail++] = G->to[e];
+            }
+        }
+    }
+    return tail;
+}
+
+static void sli_nesting_graph(sli_nesting *w, sl_int count) {
+    const sli_graph *G = w->G;
+    sl_off e, edges = 0;
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        w->begin[k] = edges;
+        for (e = G->begin[w->row[k]]; e < G->begin[w->row[k] + 1]; e++) {
+            if (w->local[G->to[e]] >= 0) {
+                w->to[edges++] = w->local[G->to[e]];
+            }
+        }
+    }
+    w->begin[count] = edges;
+    w->d.levels[0].n = count;
+    w->d.levels[0].begin = w->begin;
+    w->d.levels[0].to = w->to;
+}
+
+/* Labels and separators of the component whose graph is there. */
+static sl_status sli_nesting_dissect(sli_nesting *w) {
+    sli_dissection *d = &w->d;
+    sl_status status;
+    d->l = 0;
+    if (d->levels[0].n <= SLI_DISSECT_LEAF) {
+        sli_dissect_start(d);
+        return SL_OK;
+    }
+    if (w->by_metis) {
+#if !defined(SL_NO_METIS)
+        status = sli_dissect_metis(d);
+#else
+        status = SL_ERR_UNSUPPORTED;
+#endif
+    } else if (w->xyz != NULL) {
+        sli_points points;
+        points.xyz = w->xyz;
+        points.dimensions = w->dimensions;
+        points.row = w->row;
+        status = sli_dissect_geometric(d, &points, w->placed);
+    } else {
+        status = sli_dissect_multilevel(d);
+    }
+    if (status == SL_OK) {
+        sli_dissect_cut(d);
+        status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+    }
+    return status;
+}
+
+/* Marks dense rows and appends them to the order, from the end; how many there are. */
+static sl_int sli_nesting_dense(sli_nesting *w, sl_int *perm) {
+    const sli_graph *G = w->G;
+    const double most = SLI_DENSE_ROW * sqrt((double)G->n);
+    sl_int v, count = 0;
+    for (v = G->n - 1; v >= 0; v--) {
+        w->local[v] = -1;
+        if ((double)(G->begin[v + 1] - G->begin[v]) > most) {
+            w->local[v] = -2;
+            perm[G->n - ++count] = v;
+        }
+    }
+    return count;
+}
+
+static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
+    const sl_int n = w->G->n, dense = sli_nesting_dense(w, perm);
+    sl_int v, k, at = 0;
+    sl_status status = SL_OK;
+    nest->count = 0;
+    for (v = 0; v < n; v++) {
+        w->d.part.place[v] = -1;
+    }
+    for (v = 0; v < n && status == SL_OK; v++) {
+        if (w->local[v] == -1) {
+            const sl_int count = sli_nesting_component(w, v);
+            sli_nesting_graph(w, count);
+            status = sli_nesting_dissect(w);
+            if (status == SL_OK) {
+                sli_nest_append(&w->d, w->row, perm, at, nest);
+                at += count;
+            }
+        }
+    }
+    if (dense > 0 && status == SL_OK) {
+        for (k = 0; k < nest->count; k++) {
+            nest->parent[k] = nest->parent[k] == -1 ? nest->count : nest->parent[k];
+        }
+        for (k = n - dense; k < n; k++) {
+            nest->of[perm[k]] = nest->count;
+        }
+        nest->parent[nest->count++] = -1;
+    }
+    return status;
+}
+
+/* The order of a graph without repeated edges, and its tree. */
+static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *xyz,
+                               sl_int dimensions, sl_int *perm, sli_nest *nest,
+                               const sl_allocator *a) {
+    sli_nesting w;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&w, 0, sizeof w);
+    w.G = G;
+    w.xyz = xyz;
+    w.dimensions = dimensions;
+    w.by_metis = by_metis;
+    w.d.a = a;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_nesting_layout(&w, &b);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_borders_init(&w.d.borders, a);
+        status = sli_nesting_run(&w, perm, nest);
+        sli_free(a, w.d.borders.block);
+        sli_free(a, b.base);
+    }
+    return status;
+}
+
+#endif
