@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: b7f8f84868bfd55d
+ * FNV-1a of all that follows this comment, license aside: cc945f16b197b8d7
  *
  * Contents
  *         (what a user reads)
@@ -54,40 +54,40 @@
  *  12744  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
  *  12992  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
  *  13280  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
- *  13423  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13675  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  13851  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  13920  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14084  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14183  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14358  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  14562  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  14647  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  14720  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  14886  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  14962  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15003  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15196  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15506  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  13479  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  13735  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  13911  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  13980  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14144  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14243  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14419  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  14623  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  14708  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  14781  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  14947  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15023  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15064  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15257  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15567  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  15739  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  15871  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  15957  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16217  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16304  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  16598  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  16713  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16773  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17010  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17052  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  15800  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  15932  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16018  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16278  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16365  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  16659  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  16774  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  16834  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17071  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17113  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17350  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17590  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17909  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18136  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18290  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17411  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17651  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  17970  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18197  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18351  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  18734  impl/leave.h               takes every internal macro away again
+ *  18795  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13283,83 +13283,131 @@ static void sli_piece_cut_vertices(sli_piece *p, unsigned char *end, sl_int *scr
 #define SLI_ORDER_LEAVES_H
 
 #define SLI_LEAF_MAX 1024 /* vertices of a leaf that is ordered; larger ones keep their order */
+#define SLI_LEAF_GONE UINT32_MAX
 
 /* A leaf with its halo: the vertices of separators round it, which are eliminated later and so
  * count in every degree. */
 typedef struct sli_leaf {
-    sl_int n;       /* own vertices: bits 0..n-1; halo bits follow */
-    size_t words;   /* 64-bit words a row */
-    uint64_t *rows; /* n x words: the graph of what is left */
-    sl_int *degree; /* n; -1 once eliminated */
-    size_t room;    /* words in rows */
+    sl_int n;                          /* own vertices: bits 0..n-1; halo bits follow */
+    size_t words;                      /* 64-bit words a row */
+    uint64_t *rows;                    /* n x words: the graph of what is left, with its diagonal */
+    uint32_t *key;                     /* n: degree, then number; SLI_LEAF_GONE once eliminated */
+    size_t room;                       /* words in rows */
+    uint64_t alive[SLI_LEAF_MAX / 64]; /* own vertices that are not eliminated */
+    int has_popcnt;                    /* any processor with AVX2 has that instruction */
 } sli_leaf;
 
-SLI_INLINE sl_int sli_bits(uint64_t w) {
-#if defined(__GNUC__) && defined(__POPCNT__)
-    return (sl_int)__builtin_popcountll(w);
+/* Bits of a word: one instruction in functions compiled for it, see below. */
+SLI_ALWAYS_INLINE uint32_t sli_bits(uint64_t w) {
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_popcountll(w);
 #else
     w -= w >> 1 & 0x5555555555555555u;
     w = (w & 0x3333333333333333u) + (w >> 2 & 0x3333333333333333u);
     w = (w + (w >> 4)) & 0x0f0f0f0f0f0f0f0fu;
-    return (sl_int)(w * 0x0101010101010101u >> 56);
+    return (uint32_t)(w * 0x0101010101010101u >> 56);
 #endif
 }
 
-SLI_INLINE sl_int sli_lowest_bit(uint64_t w) {
+SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
 #if defined(__GNUC__)
     return (sl_int)__builtin_ctzll(w);
 #else
-    return sli_bits((w & (0 - w)) - 1);
+    return (sl_int)sli_bits((w & (0 - w)) - 1);
 #endif
 }
 
-SLI_INLINE sl_int sli_leaf_degree(const sli_leaf *l, sl_int v) {
-    const uint64_t *row = l->rows + (size_t)v * l->words;
-    sl_int degree = 0;
+/* other |= row without bit v; the degree, of which row v is part. */
+SLI_ALWAYS_INLINE uint32_t sli_leaf_join(uint64_t *other, const uint64_t *row, size_t words,
+                                         sl_int v) {
+    uint32_t degree = 0;
     size_t k;
-    for (k = 0; k < l->words; k++) {
-        degree += sli_bits(row[k]);
+    other[v / 64] &= ~((uint64_t)1 << (v % 64));
+    for (k = 0; k < words; k++) {
+        other[k] |= row[k];
+        degree += sli_bits(other[k]);
     }
-    return degree;
+    return degree - 1;
 }
 
-/* Takes v out: its neighbours become neighbours of each other. */
-static void sli_leaf_eliminate(sli_leaf *l, sl_int v) {
-    const uint64_t *row = l->rows + (size_t)v * l->words;
-    size_t k, own = ((size_t)l->n + 63) / 64, w;
-    l->degree[v] = -1;
+/* Takes v out, and with it all that have no other neighbours than v has: the neighbours of v become
+ * neighbours of each other. Appends them to order[at] on; where that ends. */
+SLI_ALWAYS_INLINE sl_int sli_leaf_eliminate(sli_leaf *l, sl_int v, sl_int *order, sl_int at) {
+    const uint32_t degree = l->key[v] / SLI_LEAF_MAX;
+    const size_t own = ((size_t)l->n + 63) / 64;
+    uint64_t *row = l->rows + (size_t)v * l->words, gone[SLI_LEAF_MAX / 64];
+    const sl_int first = at;
+    size_t k, w;
+    memset(gone, 0, own * sizeof(uint64_t));
+    row[v / 64] &= ~((uint64_t)1 << (v % 64));
+    l->key[v] = SLI_LEAF_GONE;
+    order[at++] = v;
     for (k = 0; k < own; k++) {
-        uint64_t bits = row[k];
-        while (bits != 0) {
+        uint64_t bits = row[k] & l->alive[k];
+        for (; bits != 0; bits &= bits - 1) {
+            const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
+            const uint32_t now = sli_leaf_join(l->rows + (size_t)u * l->words, row, l->words, v);
+            l->key[u] = now * SLI_LEAF_MAX + (uint32_t)u;
+            if (now + 1 == degree) { /* the clique of v, and nothing else */
+                l->key[u] = SLI_LEAF_GONE;
+                gone[k] |= (uint64_t)1 << (u % 64);
+                order[at++] = u;
+            }
+        }
+    }
+    l->alive[v / 64] &= ~((uint64_t)1 << (v % 64));
+    for (k = 0; k < own && at > first + 1; k++) {
+        uint64_t bits = row[k] & l->alive[k] & ~gone[k];
+        for (; bits != 0; bits &= bits - 1) {
             const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
             uint64_t *other = l->rows + (size_t)u * l->words;
-            bits &= bits - 1;
-            if (u >= l->n) {
-                break;
+            for (w = 0; w < own; w++) {
+                other[w] &= ~gone[w];
             }
-            for (w = 0; w < l->words; w++) {
-                other[w] |= row[w];
-            }
-            other[(size_t)u / 64] &= ~((uint64_t)1 << (u % 64));
-            other[(size_t)v / 64] &= ~((uint64_t)1 << (v % 64));
-            l->degree[u] = sli_leaf_degree(l, u);
+            l->key[u] -= (uint32_t)(at - first - 1) * SLI_LEAF_MAX;
         }
+    }
+    for (k = 0; k < own; k++) {
+        l->alive[k] &= ~gone[k];
+    }
+    return at;
+}
+
+/* The first vertex of the fewest neighbours. */
+SLI_INLINE sl_int sli_leaf_best(const sli_leaf *l) {
+    uint32_t least[4] = {SLI_LEAF_GONE, SLI_LEAF_GONE, SLI_LEAF_GONE, SLI_LEAF_GONE};
+    sl_int v = 0, k;
+    for (; v <= l->n - 4; v += 4) {
+        for (k = 0; k < 4; k++) {
+            least[k] = l->key[v + k] < least[k] ? l->key[v + k] : least[k];
+        }
+    }
+    for (; v < l->n; v++) {
+        least[0] = l->key[v] < least[0] ? l->key[v] : least[0];
+    }
+    for (k = 1; k < 4; k++) {
+        least[0] = least[k] < least[0] ? least[k] : least[0];
+    }
+    return (sl_int)(least[0] % SLI_LEAF_MAX);
+}
+
+/* order: the vertices in the order of elimination. */
+SLI_ALWAYS_INLINE void sli_leaf_run_body(sli_leaf *l, sl_int *order) {
+    sl_int at = 0;
+    while (at < l->n) {
+        at = sli_leaf_eliminate(l, sli_leaf_best(l), order, at);
     }
 }
 
-/* The first vertex of the fewest neighbours, which are no fewer than bound. */
-static sl_int sli_leaf_best(const sli_leaf *l, sl_int bound) {
-    sl_int v, best = -1;
-    for (v = 0; v < l->n; v++) {
-        if (l->degree[v] >= 0 && (best == -1 || l->degree[v] < l->degree[best])) {
-            best = v;
-            if (l->degree[v] <= bound) {
-                break;
-            }
-        }
-    }
-    return best;
+static void sli_leaf_run(sli_leaf *l, sl_int *order) {
+    sli_leaf_run_body(l, order);
 }
+
+#if defined(SLI_X86)
+SLI_TARGET("popcnt") static void sli_leaf_run_popcnt(sli_leaf *l, sl_int *order) {
+    sli_leaf_run_body(l, order);
+}
+#endif
 
 /* The graph of a leaf as rows of bits; whether there is room for it. place: for each vertex of g -1
  * on entry and on return. */
@@ -13382,6 +13430,7 @@ static int sli_leaf_fill(sli_leaf *l, const sli_level *g, const sl_int *vertices
     l->words = ((size_t)bits + 63) / 64;
     fits = count <= SLI_LEAF_MAX && l->words * (size_t)count <= l->room;
     if (fits) {
+        memset(l->alive, 0, sizeof l->alive);
         memset(l->rows, 0, l->words * (size_t)count * sizeof(uint64_t));
     }
     for (k = 0; k < count && fits; k++) {
@@ -13390,7 +13439,9 @@ static int sli_leaf_fill(sli_leaf *l, const sli_level *g, const sl_int *vertices
             const sl_int b = place[g->to[e]];
             row[b / 64] |= (uint64_t)1 << (b % 64);
         }
-        l->degree[k] = sli_leaf_degree(l, k);
+        l->key[k] = (sli_leaf_join(row, row, l->words, k) + 1) * SLI_LEAF_MAX + (uint32_t)k;
+        row[k / 64] |= (uint64_t)1 << (k % 64);
+        l->alive[k / 64] |= (uint64_t)1 << (k % 64);
     }
     for (k = 0; k < count; k++) {
         for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
@@ -13405,15 +13456,20 @@ static int sli_leaf_fill(sli_leaf *l, const sli_level *g, const sl_int *vertices
  * order: count of scratch. */
 static void sli_leaf_order(sli_leaf *l, const sli_level *g, sl_int *vertices, sl_int count,
                            sl_int *place, sl_int *order) {
-    sl_int k, least = 0;
+    sl_int k;
     if (!sli_leaf_fill(l, g, vertices, count, place)) {
         return;
     }
+#if defined(SLI_X86)
+    if (l->has_popcnt) {
+        sli_leaf_run_popcnt(l, order);
+    } else
+#endif
+    {
+        sli_leaf_run(l, order);
+    }
     for (k = 0; k < count; k++) {
-        const sl_int best = sli_leaf_best(l, k == 0 ? 0 : least - 1);
-        least = l->degree[best];
-        order[k] = vertices[best];
-        sli_leaf_eliminate(l, best);
+        order[k] = vertices[order[k]];
     }
     memcpy(vertices, order, (size_t)count * sizeof(sl_int));
 }
@@ -13433,7 +13489,7 @@ static void sli_leaf_order(sli_leaf *l, const sli_level *g, sl_int *vertices, sl
 #define SLI_DISSECT_SHRINK 7
 /* Growing tries for the first cuts, which decide most, and for all others. */
 #define SLI_DISSECT_FIRST 64
-#define SLI_DISSECT_TRIES_FIRST 16
+#define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
 /* Layers on either side of a border that may change sides, on coarse levels and at last. */
 #define SLI_DISSECT_LAYERS 3
@@ -13469,7 +13525,7 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     d->order = SLI_TAKE(b, sl_int, n);
     d->nodes = SLI_TAKE(b, sl_int, room);
     d->next = SLI_TAKE(b, sl_off, n);
-    d->leaf.degree = SLI_TAKE(b, sl_int, SLI_LEAF_MAX);
+    d->leaf.key = SLI_TAKE(b, uint32_t, SLI_LEAF_MAX);
     d->leaf.room = (size_t)SLI_LEAF_MAX * SLI_LEAF_MAX / 32;
     d->leaf.rows = SLI_TAKE(b, uint64_t, d->leaf.room);
 }
@@ -13531,7 +13587,11 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
             d->tree.weight[node] > SLI_DISSECT_LEAF && d->tree.count < d->tree.room - 1) {
             const int few = d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_PART;
             sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node], count);
-            sli_piece_bisect(&d->part, few ? SLI_DISSECT_TRIES_FIRST : SLI_DISSECT_TRIES, 2);
+            sli_piece_bisect(&d->part,
+                             few          ? SLI_DISSECT_TRIES_FIRST
+                             : count > 50 ? SLI_DISSECT_TRIES
+                                          : 1,
+                             2);
             sli_dissect_divide(d, node);
             sli_piece_clear(&d->part);
             split++;
@@ -13575,7 +13635,7 @@ static void sli_dissect_cut(sli_dissection *d) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers++;
+            layers += 2;
         }
         sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
         sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
@@ -14340,6 +14400,7 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
     w.dimensions = dimensions;
     w.by_metis = by_metis;
     w.d.a = a;
+    w.d.leaf.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_nesting_layout(&w, &b);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
@@ -18784,6 +18845,7 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_FLOW_END
 #undef SLI_FLOW_ROUNDS
 #undef SLI_LEAF_MAX
+#undef SLI_LEAF_GONE
 #undef SLI_DISSECT_LEAF
 #undef SLI_DISSECT_PART
 #undef SLI_DISSECT_SHRINK

@@ -13,7 +13,7 @@
 #define SLI_DISSECT_SHRINK 7
 /* Growing tries for the first cuts, which decide most, and for all others. */
 #define SLI_DISSECT_FIRST 64
-#define SLI_DISSECT_TRIES_FIRST 16
+#define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
 /* Layers on either side of a border that may change sides, on coarse levels and at last. */
 #define SLI_DISSECT_LAYERS 3
@@ -49,7 +49,7 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     d->order = SLI_TAKE(b, sl_int, n);
     d->nodes = SLI_TAKE(b, sl_int, room);
     d->next = SLI_TAKE(b, sl_off, n);
-    d->leaf.degree = SLI_TAKE(b, sl_int, SLI_LEAF_MAX);
+    d->leaf.key = SLI_TAKE(b, uint32_t, SLI_LEAF_MAX);
     d->leaf.room = (size_t)SLI_LEAF_MAX * SLI_LEAF_MAX / 32;
     d->leaf.rows = SLI_TAKE(b, uint64_t, d->leaf.room);
 }
@@ -111,7 +111,11 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
             d->tree.weight[node] > SLI_DISSECT_LEAF && d->tree.count < d->tree.room - 1) {
             const int few = d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_PART;
             sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node], count);
-            sli_piece_bisect(&d->part, few ? SLI_DISSECT_TRIES_FIRST : SLI_DISSECT_TRIES, 2);
+            sli_piece_bisect(&d->part,
+                             few          ? SLI_DISSECT_TRIES_FIRST
+                             : count > 50 ? SLI_DISSECT_TRIES
+                                          : 1,
+                             2);
             sli_dissect_divide(d, node);
             sli_piece_clear(&d->part);
             split++;
@@ -155,7 +159,7 @@ static void sli_dissect_cut(sli_dissection *d) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers++;
+            layers += 2;
         }
         sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
         sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);

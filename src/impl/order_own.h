@@ -162,6 +162,7 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
     w.dimensions = dimensions;
     w.by_metis = by_metis;
     w.d.a = a;
+    w.d.leaf.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_nesting_layout(&w, &b);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
