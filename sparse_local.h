@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: cc945f16b197b8d7
+ * FNV-1a of all that follows this comment, license aside: 1f46afbc42627def
  *
  * Contents
  *         (what a user reads)
@@ -55,39 +55,39 @@
  *  12992  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
  *  13280  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
  *  13479  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13735  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  13911  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  13980  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14144  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14243  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14419  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  14623  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  14708  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  14781  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  14947  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  15023  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15064  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15257  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15567  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  13762  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  13938  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  14007  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14171  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14270  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14459  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  14663  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  14748  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  14821  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  14987  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15063  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15104  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15297  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15607  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  15800  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  15932  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  16018  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16278  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16365  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  16659  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  16774  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16834  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17071  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17113  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  15840  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  15972  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16058  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16318  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16405  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  16699  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  16814  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  16874  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17111  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17153  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17411  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17651  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17970  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18197  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18351  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17451  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17691  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  18010  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18237  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18391  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  18795  impl/leave.h               takes every internal macro away again
+ *  18835  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12455,7 +12455,7 @@ static void sli_borders_fill(sli_borders *l, const sli_tree *t, const sli_level 
             if (other != own && other != last) {
                 const sl_int node = sli_tree_meet(t, own, other);
                 last = other;
-                if (node != listed) {
+                if (node != listed && node != own && node != other) {
                     listed = node;
                     sli_borders_add(l, node, v);
                 }
@@ -12577,7 +12577,7 @@ static void sli_piece_band(sli_piece *p, const sli_level *g, const sli_tree *t, 
         }
         for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
             const sl_int other = label[g->to[e]];
-            crosses = sli_tree_is_below(t, node, other) && (other > node) != side;
+            crosses = other != node && sli_tree_is_below(t, node, other) && (other > node) != side;
         }
         if (crosses) {
             sli_piece_add(p, v, 0);
@@ -13495,6 +13495,8 @@ static void sli_leaf_order(sli_leaf *l, const sli_level *g, sl_int *vertices, sl
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
+/* Most of the weight that one side of a separator may get: the last step may lose some balance. */
+#define SLI_CUT_BALANCE 0.7
 
 /* Everything that is needed while one graph after the other is dissected; all have room for the
  * largest. */
@@ -13620,8 +13622,27 @@ static void sli_dissect_refine(sli_dissection *d) {
     }
 }
 
+/* Whether the sides of the piece, now with a separator, are balanced, or no less than before. */
+static int sli_dissect_is_even(const sli_dissection *d) {
+    const sli_piece *p = &d->part;
+    int64_t total[2], sum, before = p->total[0] > p->total[1] ? p->total[0] : p->total[1];
+    sl_int v;
+    total[0] = p->total[0];
+    total[1] = p->total[1];
+    for (v = 0; v < p->n; v++) {
+        total[p->home[v]] -= p->weight[v];
+        if (p->side[v] != 2) {
+            total[p->side[v]] += p->weight[v];
+        }
+    }
+    sum = total[0] + total[1];
+    total[0] = total[0] > total[1] ? total[0] : total[1];
+    return (double)total[0] <= SLI_CUT_BALANCE * (double)sum || total[0] <= before;
+}
+
 /* Puts a smallest vertex cut of the band at each border into the separators, the root's first. The
- * larger a part, the wider its band: the first cuts decide most, and there are few of them. */
+ * larger a part, the wider its band: the first cuts decide most, and there are few of them. Where
+ * the cut is out of balance a narrower band is taken, at last the border alone. */
 static void sli_dissect_cut(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int k;
@@ -13637,8 +13658,14 @@ static void sli_dissect_cut(sli_dissection *d) {
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
             layers += 2;
         }
-        sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
-        sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
+        for (;; layers /= 2) {
+            sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
+            sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
+            if (layers == 0 || sli_dissect_is_even(d)) {
+                break;
+            }
+            sli_piece_clear(&d->part);
+        }
         sli_piece_apply(&d->part, g, &d->tree, node, d->label, &d->borders);
         sli_piece_clear(&d->part);
     }
@@ -14248,6 +14275,10 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
 /* A row with more neighbours than this many times sqrt(n) joins everything: it goes to the end. */
 #define SLI_DENSE_ROW 10.0
 
+/* A leaf that is twice as large as it should be, after its borders have moved, is cut again, and so
+ * may its halves. */
+#define SLI_REPAIRS 12
+
 typedef struct sli_nesting {
     const sli_graph *G;
     const double *xyz; /* NULL: none */
@@ -14334,7 +14365,10 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
         status = sli_dissect_multilevel(d);
     }
     if (status == SL_OK) {
-        sli_dissect_cut(d);
+        int rounds = SLI_REPAIRS;
+        do {
+            sli_dissect_cut(d);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
         status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;
@@ -14366,6 +14400,12 @@ static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
     for (v = 0; v < n && status == SL_OK; v++) {
         if (w->local[v] == -1) {
             const sl_int count = sli_nesting_component(w, v);
+            if (count == 1) { /* nothing to do, and there may be very many */
+                perm[at++] = v;
+                nest->of[v] = nest->count;
+                nest->parent[nest->count++] = -1;
+                continue;
+            }
             sli_nesting_graph(w, count);
             status = sli_nesting_dissect(w);
             if (status == SL_OK) {
@@ -18857,6 +18897,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_FLAT_ENOUGH
 #undef SLI_DENSE_ROW
+#undef SLI_CUT_BALANCE
+#undef SLI_REPAIRS
 #undef SLI_CLIMB
 #undef SLI_LANES_MAX
 #undef SLI_REQUESTS_MAX

@@ -19,6 +19,8 @@
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
+/* Most of the weight that one side of a separator may get: the last step may lose some balance. */
+#define SLI_CUT_BALANCE 0.7
 
 /* Everything that is needed while one graph after the other is dissected; all have room for the
  * largest. */
@@ -144,8 +146,27 @@ static void sli_dissect_refine(sli_dissection *d) {
     }
 }
 
+/* Whether the sides of the piece, now with a separator, are balanced, or no less than before. */
+static int sli_dissect_is_even(const sli_dissection *d) {
+    const sli_piece *p = &d->part;
+    int64_t total[2], sum, before = p->total[0] > p->total[1] ? p->total[0] : p->total[1];
+    sl_int v;
+    total[0] = p->total[0];
+    total[1] = p->total[1];
+    for (v = 0; v < p->n; v++) {
+        total[p->home[v]] -= p->weight[v];
+        if (p->side[v] != 2) {
+            total[p->side[v]] += p->weight[v];
+        }
+    }
+    sum = total[0] + total[1];
+    total[0] = total[0] > total[1] ? total[0] : total[1];
+    return (double)total[0] <= SLI_CUT_BALANCE * (double)sum || total[0] <= before;
+}
+
 /* Puts a smallest vertex cut of the band at each border into the separators, the root's first. The
- * larger a part, the wider its band: the first cuts decide most, and there are few of them. */
+ * larger a part, the wider its band: the first cuts decide most, and there are few of them. Where
+ * the cut is out of balance a narrower band is taken, at last the border alone. */
 static void sli_dissect_cut(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int k;
@@ -161,8 +182,14 @@ static void sli_dissect_cut(sli_dissection *d) {
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
             layers += 2;
         }
-        sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
-        sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
+        for (;; layers /= 2) {
+            sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
+            sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
+            if (layers == 0 || sli_dissect_is_even(d)) {
+                break;
+            }
+            sli_piece_clear(&d->part);
+        }
         sli_piece_apply(&d->part, g, &d->tree, node, d->label, &d->borders);
         sli_piece_clear(&d->part);
     }

@@ -10,6 +10,10 @@
 /* A row with more neighbours than this many times sqrt(n) joins everything: it goes to the end. */
 #define SLI_DENSE_ROW 10.0
 
+/* A leaf that is twice as large as it should be, after its borders have moved, is cut again, and so
+ * may its halves. */
+#define SLI_REPAIRS 12
+
 typedef struct sli_nesting {
     const sli_graph *G;
     const double *xyz; /* NULL: none */
@@ -96,7 +100,10 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
         status = sli_dissect_multilevel(d);
     }
     if (status == SL_OK) {
-        sli_dissect_cut(d);
+        int rounds = SLI_REPAIRS;
+        do {
+            sli_dissect_cut(d);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
         status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;
@@ -128,6 +135,12 @@ static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
     for (v = 0; v < n && status == SL_OK; v++) {
         if (w->local[v] == -1) {
             const sl_int count = sli_nesting_component(w, v);
+            if (count == 1) { /* nothing to do, and there may be very many */
+                perm[at++] = v;
+                nest->of[v] = nest->count;
+                nest->parent[nest->count++] = -1;
+                continue;
+            }
             sli_nesting_graph(w, count);
             status = sli_nesting_dissect(w);
             if (status == SL_OK) {

@@ -110,7 +110,7 @@ static void sli_piece_band(sli_piece *p, const sli_level *g, const sli_tree *t, 
         }
         for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
             const sl_int other = label[g->to[e]];
-            crosses = sli_tree_is_below(t, node, other) && (other > node) != side;
+            crosses = other != node && sli_tree_is_below(t, node, other) && (other > node) != side;
         }
         if (crosses) {
             sli_piece_add(p, v, 0);

@@ -198,7 +198,7 @@ static void sli_borders_fill(sli_borders *l, const sli_tree *t, const sli_level 
             if (other != own && other != last) {
                 const sl_int node = sli_tree_meet(t, own, other);
                 last = other;
-                if (node != listed) {
+                if (node != listed && node != own && node != other) {
                     listed = node;
                     sli_borders_add(l, node, v);
                 }
