@@ -16,6 +16,8 @@ typedef struct question {
 static const question questions[] = {
     {"scaling", "ordering, analysis, factorization and nnz(L) against n (paper: Figure 6)",
      bench_scaling},
+    {"ordering", "time, fill and path weights of the orderings beside METIS_NodeND",
+     bench_ordering},
     {"factor", "methods, instruction sets and threads of the factorization against the limits",
      bench_factor},
     {"kernels", "the dense kernels by shape, against registers alone", bench_kernels},
