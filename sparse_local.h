@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 1f46afbc42627def
+ * FNV-1a of all that follows this comment, license aside: 3d8df419656bd43d
  *
  * Contents
  *         (what a user reads)
@@ -55,39 +55,39 @@
  *  12992  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
  *  13280  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
  *  13479  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13762  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  13938  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  14007  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14171  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14270  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14459  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  14663  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  14748  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  14821  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  14987  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  15063  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15104  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15297  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15607  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  13795  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  13992  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  14061  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14225  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14341  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14538  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  14742  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  14827  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  14900  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  15066  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15142  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15183  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15376  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15686  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  15840  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  15972  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  16058  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16318  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16405  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  16699  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  16814  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16874  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17111  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17153  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  15919  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  16051  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16137  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16397  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16484  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  16778  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  16893  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  16953  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17190  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17232  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17451  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17691  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  18010  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18237  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18391  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17530  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17770  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  18089  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18316  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18470  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  18835  impl/leave.h               takes every internal macro away again
+ *  18914  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13504,6 +13504,7 @@ typedef struct sli_dissection {
     const sl_allocator *a;
     sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
     int n_levels, l;                  /* l: the level that labels are of */
+    int widening; /* layers more of a band for each four times of a part's size */
     sli_tree tree;
     sli_borders borders;
     sli_piece part;
@@ -13656,7 +13657,7 @@ static void sli_dissect_cut(sli_dissection *d) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers += 2;
+            layers += d->widening;
         }
         for (;; layers /= 2) {
             sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
@@ -13757,6 +13758,38 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
     return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
+/* What a tree of parts will cost in path weight, in a measure of its own: half of a part's vertices
+ * pass its separator, whose columns are about as many as they are long, so each node counts its
+ * weight times the square of its border. *flat: the same for a flat square of as many vertices. */
+static double sli_dissect_cost(sli_dissection *d, double *flat) {
+    const sli_level *g = &d->levels[0];
+    sl_int *border = d->nodes, v, k;
+    sl_off e;
+    double cost = 0.0;
+    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
+    for (v = 0; v < g->n; v++) {
+        const sl_int own = d->label[v];
+        sl_int last = -1;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int other = d->label[g->to[e]];
+            if (own < other && other != last) {
+                const sl_int node = sli_tree_meet(&d->tree, own, other);
+                border[node] += last == -1 || node != sli_tree_meet(&d->tree, own, last);
+                last = other;
+            }
+        }
+    }
+    *flat = 0.0;
+    for (k = 0; k < d->tree.count; k++) {
+        const double weight = d->tree.weight[k];
+        if (!sli_tree_is_leaf(&d->tree, k)) {
+            cost += weight * (double)border[k] * (double)border[k];
+            *flat += weight * weight;
+        }
+    }
+    return cost;
+}
+
 #endif
 /* end src/impl/order_dissect.h */
 /* begin src/impl/order_geometric.h */
@@ -13771,24 +13804,42 @@ typedef struct sli_points {
     const sl_int *row;
 } sli_points;
 
-SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, sl_int axis) {
-    return p->xyz[(size_t)p->row[v] * (size_t)p->dimensions + (size_t)axis];
+/* Directions to cut across: axes, then diagonals of two of them, as sums of coordinates. */
+static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
+                                                 {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
+                                                 {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+
+/* The larger parts look for their direction on so many of their points. */
+#define SLI_POINTS_MANY 16384
+#define SLI_POINTS_TRIED 256
+
+/* How far v lies along a direction. */
+SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
+    const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
+    const signed char *along = sli_directions[direction];
+    /* coordinates may be as large as a double can be, and a sum of two must not be infinite */
+    const double sum = along[0] * (0.5 * x[0]) + along[1] * (0.5 * x[1]) +
+                       (p->dimensions == 3 ? along[2] * (0.5 * x[2]) : 0.0);
+    return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
 }
 
-/* The axis along which some vertices spread most. */
-static sl_int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count) {
-    sl_int axis, k, best = 0;
-    double most = -1.0;
+/* The axis along which some vertices spread most, and how far. */
+static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
+                           double *spread) {
+    static const int axes[3] = {0, 1, 4};
+    sl_int axis, k;
+    int best = 0;
+    *spread = -1.0;
     for (axis = 0; axis < p->dimensions; axis++) {
-        double low = sli_point_along(p, vertices[0], axis), high = low;
+        double low = sli_point_along(p, vertices[0], axes[axis]), high = low;
         for (k = 1; k < count; k++) {
-            const double x = sli_point_along(p, vertices[k], axis);
+            const double x = sli_point_along(p, vertices[k], axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
         }
-        if (high - low > most) {
-            most = high - low;
-            best = axis;
+        if (high - low > *spread) {
+            *spread = high - low;
+            best = axes[axis];
         }
     }
     return best;
@@ -13837,6 +13888,39 @@ static void sli_placed_halve(sli_placed *a, sl_int count) {
     }
 }
 
+/* The direction in which fewest points lie close to the median: the narrowest place of a part. */
+static int sli_points_narrow(const sli_points *p, const sl_int *vertices, sl_int count,
+                             sli_placed *placed) {
+    double spread;
+    const int axis = sli_points_axis(p, vertices, count, &spread);
+    int direction, best = axis;
+    const int directions = p->dimensions == 3 ? 9 : 4;
+    sl_int fewest = INT32_MAX, k;
+    if (count < SLI_POINTS_MANY) {
+        return best;
+    }
+    for (direction = 0; direction < directions; direction++) {
+        sl_int near = 0;
+        double middle;
+        for (k = 0; k < SLI_POINTS_TRIED; k++) {
+            const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
+            placed[k].x = sli_point_along(p, v, direction);
+            placed[k].v = v;
+        }
+        sli_placed_halve(placed, SLI_POINTS_TRIED);
+        middle = placed[SLI_POINTS_TRIED / 2].x;
+        for (k = 0; k < SLI_POINTS_TRIED; k++) {
+            near += fabs(placed[k].x - middle) < 0.05 * spread;
+        }
+        near -= direction == axis ? SLI_POINTS_TRIED / 64 : 0; /* chance must not decide */
+        if (near < fewest) {
+            fewest = near;
+            best = direction;
+        }
+    }
+    return best;
+}
+
 /* Labels by halves of space, down to the size of leaves. order holds the vertices of a node side by
  * side; placed: n of scratch. */
 static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_placed *placed) {
@@ -13851,7 +13935,8 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
     end[0] = n;
     for (node = 0; node < d->tree.count; node++) { /* which grows */
         const sl_int first = begin[node], count = end[node] - first;
-        sl_int *vertices = d->order + first, axis;
+        sl_int *vertices = d->order + first;
+        int direction;
         d->tree.weight[node] = count;
         if (count <= SLI_DISSECT_LEAF || d->tree.count >= d->tree.room - 1) {
             for (k = 0; k < count; k++) {
@@ -13859,9 +13944,9 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
             }
             continue;
         }
-        axis = sli_points_axis(points, vertices, count);
+        direction = sli_points_narrow(points, vertices, count, placed);
         for (k = 0; k < count; k++) {
-            placed[k].x = sli_point_along(points, vertices[k], axis);
+            placed[k].x = sli_point_along(points, vertices[k], direction);
             placed[k].v = vertices[k];
         }
         sli_placed_halve(placed, count);
@@ -13876,41 +13961,9 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
     sli_tree_number(&d->tree, n, d->label);
 }
 
-/* What a tree of parts will cost in path weight, in a measure of its own: half of a part's vertices
- * pass its separator, whose columns are about as many as they are long, so each node counts its
- * weight times the square of its border. *flat: the same for a flat square of as many vertices. */
-static double sli_dissect_cost(sli_dissection *d, double *flat) {
-    const sli_level *g = &d->levels[0];
-    sl_int *border = d->nodes, v, k;
-    sl_off e;
-    double cost = 0.0;
-    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
-    for (v = 0; v < g->n; v++) {
-        const sl_int own = d->label[v];
-        sl_int last = -1;
-        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-            const sl_int other = d->label[g->to[e]];
-            if (own < other && other != last) {
-                const sl_int node = sli_tree_meet(&d->tree, own, other);
-                border[node] += last == -1 || node != sli_tree_meet(&d->tree, own, last);
-                last = other;
-            }
-        }
-    }
-    *flat = 0.0;
-    for (k = 0; k < d->tree.count; k++) {
-        const double weight = d->tree.weight[k];
-        if (!sli_tree_is_leaf(&d->tree, k)) {
-            cost += weight * (double)border[k] * (double)border[k];
-            *flat += weight * weight;
-        }
-    }
-    return cost;
-}
-
-/* A cost this many times that of a flat square is not worth a comparison: 0.7 to 1.0 are usual on
- * flat meshes, 2 and more on surfaces, where a plane cuts several sheets. */
-#define SLI_FLAT_ENOUGH 1.3
+/* A cost up to this many times that of a flat square needs no comparison: 0.9 to 1.06 are usual on
+ * flat grids, 2 and more on surfaces, where a plane cuts several sheets. */
+#define SLI_FLAT_ENOUGH 1.1
 
 /* Parts by coordinates where their estimated cost is that of a flat mesh, or less than that of the
  * parts that the graph alone gives; else the latter. */
@@ -13921,6 +13974,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
     sli_dissect_points(d, points, placed);
     cost = sli_dissect_cost(d, &flat);
     if (cost <= SLI_FLAT_ENOUGH * flat) {
+        d->widening = 0;
         return SL_OK;
     }
     status = sli_dissect_multilevel(d);
@@ -14263,6 +14317,23 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     return SL_OK;
 }
 
+/* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
+ * and then: one of METIS's trees scatters as any other does. */
+static sl_status sli_dissect_quality(sli_dissection *d) {
+    double ours, flat;
+    sl_status status = sli_dissect_multilevel(d);
+    if (status != SL_OK) {
+        return status;
+    }
+    ours = sli_dissect_cost(d, &flat);
+    status = sli_dissect_metis(d);
+    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+        d->widening = 2;
+        status = sli_dissect_multilevel(d);
+    }
+    return status;
+}
+
 #endif
 
 #endif
@@ -14340,32 +14411,40 @@ static void sli_nesting_graph(sli_nesting *w, sl_int count) {
     w->d.levels[0].to = w->to;
 }
 
-/* Labels and separators of the component whose graph is there. */
+/* Labels of the component whose graph is there, by the cheaper of two trees where there are two. The
+ * cruder the borders, the wider the bands in which they are refined. */
+static sl_status sli_nesting_label(sli_nesting *w) {
+    sli_dissection *d = &w->d;
+    d->widening = w->by_metis ? 1 : 2;
+    if (w->by_metis) {
+#if !defined(SL_NO_METIS)
+        return sli_dissect_quality(d);
+#else
+        return SL_ERR_UNSUPPORTED;
+#endif
+    }
+    if (w->xyz != NULL) {
+        sli_points points;
+        points.xyz = w->xyz;
+        points.dimensions = w->dimensions;
+        points.row = w->row;
+        return sli_dissect_geometric(d, &points, w->placed);
+    }
+    return sli_dissect_multilevel(d);
+}
+
+/* Labels and separators of that component. */
 static sl_status sli_nesting_dissect(sli_nesting *w) {
     sli_dissection *d = &w->d;
+    int rounds = SLI_REPAIRS;
     sl_status status;
     d->l = 0;
     if (d->levels[0].n <= SLI_DISSECT_LEAF) {
         sli_dissect_start(d);
         return SL_OK;
     }
-    if (w->by_metis) {
-#if !defined(SL_NO_METIS)
-        status = sli_dissect_metis(d);
-#else
-        status = SL_ERR_UNSUPPORTED;
-#endif
-    } else if (w->xyz != NULL) {
-        sli_points points;
-        points.xyz = w->xyz;
-        points.dimensions = w->dimensions;
-        points.row = w->row;
-        status = sli_dissect_geometric(d, &points, w->placed);
-    } else {
-        status = sli_dissect_multilevel(d);
-    }
+    status = sli_nesting_label(w);
     if (status == SL_OK) {
-        int rounds = SLI_REPAIRS;
         do {
             sli_dissect_cut(d);
         } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
@@ -18896,6 +18975,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_DISSECT_BAND
 #undef SLI_DISSECT_BAND_FROM
 #undef SLI_FLAT_ENOUGH
+#undef SLI_POINTS_MANY
+#undef SLI_POINTS_TRIED
 #undef SLI_DENSE_ROW
 #undef SLI_CUT_BALANCE
 #undef SLI_REPAIRS

@@ -28,6 +28,7 @@ typedef struct sli_dissection {
     const sl_allocator *a;
     sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
     int n_levels, l;                  /* l: the level that labels are of */
+    int widening; /* layers more of a band for each four times of a part's size */
     sli_tree tree;
     sli_borders borders;
     sli_piece part;
@@ -180,7 +181,7 @@ static void sli_dissect_cut(sli_dissection *d) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers += 2;
+            layers += d->widening;
         }
         for (;; layers /= 2) {
             sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
@@ -279,6 +280,38 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
     }
     sli_dissect_free_levels(d);
     return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+}
+
+/* What a tree of parts will cost in path weight, in a measure of its own: half of a part's vertices
+ * pass its separator, whose columns are about as many as they are long, so each node counts its
+ * weight times the square of its border. *flat: the same for a flat square of as many vertices. */
+static double sli_dissect_cost(sli_dissection *d, double *flat) {
+    const sli_level *g = &d->levels[0];
+    sl_int *border = d->nodes, v, k;
+    sl_off e;
+    double cost = 0.0;
+    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
+    for (v = 0; v < g->n; v++) {
+        const sl_int own = d->label[v];
+        sl_int last = -1;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int other = d->label[g->to[e]];
+            if (own < other && other != last) {
+                const sl_int node = sli_tree_meet(&d->tree, own, other);
+                border[node] += last == -1 || node != sli_tree_meet(&d->tree, own, last);
+                last = other;
+            }
+        }
+    }
+    *flat = 0.0;
+    for (k = 0; k < d->tree.count; k++) {
+        const double weight = d->tree.weight[k];
+        if (!sli_tree_is_leaf(&d->tree, k)) {
+            cost += weight * (double)border[k] * (double)border[k];
+            *flat += weight * weight;
+        }
+    }
+    return cost;
 }
 
 #endif

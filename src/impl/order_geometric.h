@@ -11,24 +11,42 @@ typedef struct sli_points {
     const sl_int *row;
 } sli_points;
 
-SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, sl_int axis) {
-    return p->xyz[(size_t)p->row[v] * (size_t)p->dimensions + (size_t)axis];
+/* Directions to cut across: axes, then diagonals of two of them, as sums of coordinates. */
+static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
+                                                 {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
+                                                 {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+
+/* The larger parts look for their direction on so many of their points. */
+#define SLI_POINTS_MANY 16384
+#define SLI_POINTS_TRIED 512
+
+/* How far v lies along a direction. */
+SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
+    const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
+    const signed char *along = sli_directions[direction];
+    /* coordinates may be as large as a double can be, and a sum of two must not be infinite */
+    const double sum = along[0] * (0.5 * x[0]) + along[1] * (0.5 * x[1]) +
+                       (p->dimensions == 3 ? along[2] * (0.5 * x[2]) : 0.0);
+    return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
 }
 
-/* The axis along which some vertices spread most. */
-static sl_int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count) {
-    sl_int axis, k, best = 0;
-    double most = -1.0;
+/* The axis along which some vertices spread most, and how far. */
+static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
+                           double *spread) {
+    static const int axes[3] = {0, 1, 4};
+    sl_int axis, k;
+    int best = 0;
+    *spread = -1.0;
     for (axis = 0; axis < p->dimensions; axis++) {
-        double low = sli_point_along(p, vertices[0], axis), high = low;
+        double low = sli_point_along(p, vertices[0], axes[axis]), high = low;
         for (k = 1; k < count; k++) {
-            const double x = sli_point_along(p, vertices[k], axis);
+            const double x = sli_point_along(p, vertices[k], axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
         }
-        if (high - low > most) {
-            most = high - low;
-            best = axis;
+        if (high - low > *spread) {
+            *spread = high - low;
+            best = axes[axis];
         }
     }
     return best;
@@ -77,6 +95,39 @@ static void sli_placed_halve(sli_placed *a, sl_int count) {
     }
 }
 
+/* The direction in which fewest points lie close to the median: the narrowest place of a part. */
+static int sli_points_narrow(const sli_points *p, const sl_int *vertices, sl_int count,
+                             sli_placed *placed) {
+    double spread;
+    const int axis = sli_points_axis(p, vertices, count, &spread);
+    int direction, best = axis;
+    const int directions = p->dimensions == 3 ? 9 : 4;
+    sl_int fewest = INT32_MAX, k;
+    if (count < SLI_POINTS_MANY) {
+        return best;
+    }
+    for (direction = 0; direction < directions; direction++) {
+        sl_int near = 0;
+        double middle;
+        for (k = 0; k < SLI_POINTS_TRIED; k++) {
+            const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
+            placed[k].x = sli_point_along(p, v, direction);
+            placed[k].v = v;
+        }
+        sli_placed_halve(placed, SLI_POINTS_TRIED);
+        middle = placed[SLI_POINTS_TRIED / 2].x;
+        for (k = 0; k < SLI_POINTS_TRIED; k++) {
+            near += fabs(placed[k].x - middle) < 0.1 * spread;
+        }
+        near += direction == axis ? 0 : near / 3; /* chance must not decide against an axis */
+        if (near < fewest) {
+            fewest = near;
+            best = direction;
+        }
+    }
+    return best;
+}
+
 /* Labels by halves of space, down to the size of leaves. order holds the vertices of a node side by
  * side; placed: n of scratch. */
 static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_placed *placed) {
@@ -91,7 +142,8 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
     end[0] = n;
     for (node = 0; node < d->tree.count; node++) { /* which grows */
         const sl_int first = begin[node], count = end[node] - first;
-        sl_int *vertices = d->order + first, axis;
+        sl_int *vertices = d->order + first;
+        int direction;
         d->tree.weight[node] = count;
         if (count <= SLI_DISSECT_LEAF || d->tree.count >= d->tree.room - 1) {
             for (k = 0; k < count; k++) {
@@ -99,9 +151,9 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
             }
             continue;
         }
-        axis = sli_points_axis(points, vertices, count);
+        direction = sli_points_narrow(points, vertices, count, placed);
         for (k = 0; k < count; k++) {
-            placed[k].x = sli_point_along(points, vertices[k], axis);
+            placed[k].x = sli_point_along(points, vertices[k], direction);
             placed[k].v = vertices[k];
         }
         sli_placed_halve(placed, count);
@@ -116,41 +168,9 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
     sli_tree_number(&d->tree, n, d->label);
 }
 
-/* What a tree of parts will cost in path weight, in a measure of its own: half of a part's vertices
- * pass its separator, whose columns are about as many as they are long, so each node counts its
- * weight times the square of its border. *flat: the same for a flat square of as many vertices. */
-static double sli_dissect_cost(sli_dissection *d, double *flat) {
-    const sli_level *g = &d->levels[0];
-    sl_int *border = d->nodes, v, k;
-    sl_off e;
-    double cost = 0.0;
-    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
-    for (v = 0; v < g->n; v++) {
-        const sl_int own = d->label[v];
-        sl_int last = -1;
-        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-            const sl_int other = d->label[g->to[e]];
-            if (own < other && other != last) {
-                const sl_int node = sli_tree_meet(&d->tree, own, other);
-                border[node] += last == -1 || node != sli_tree_meet(&d->tree, own, last);
-                last = other;
-            }
-        }
-    }
-    *flat = 0.0;
-    for (k = 0; k < d->tree.count; k++) {
-        const double weight = d->tree.weight[k];
-        if (!sli_tree_is_leaf(&d->tree, k)) {
-            cost += weight * (double)border[k] * (double)border[k];
-            *flat += weight * weight;
-        }
-    }
-    return cost;
-}
-
-/* A cost this many times that of a flat square is not worth a comparison: 0.7 to 1.0 are usual on
- * flat meshes, 2 and more on surfaces, where a plane cuts several sheets. */
-#define SLI_FLAT_ENOUGH 1.3
+/* A cost up to this many times that of a flat square needs no comparison: 0.9 to 1.06 are usual on
+ * flat grids, 2 and more on surfaces, where a plane cuts several sheets. */
+#define SLI_FLAT_ENOUGH 1.1
 
 /* Parts by coordinates where their estimated cost is that of a flat mesh, or less than that of the
  * parts that the graph alone gives; else the latter. */
@@ -161,6 +181,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
     sli_dissect_points(d, points, placed);
     cost = sli_dissect_cost(d, &flat);
     if (cost <= SLI_FLAT_ENOUGH * flat) {
+        d->widening = 0;
         return SL_OK;
     }
     status = sli_dissect_multilevel(d);

@@ -75,32 +75,40 @@ static void sli_nesting_graph(sli_nesting *w, sl_int count) {
     w->d.levels[0].to = w->to;
 }
 
-/* Labels and separators of the component whose graph is there. */
+/* Labels of the component whose graph is there, by the cheaper of two trees where there are two. The
+ * cruder the borders, the wider the bands in which they are refined. */
+static sl_status sli_nesting_label(sli_nesting *w) {
+    sli_dissection *d = &w->d;
+    d->widening = w->by_metis ? 1 : 2;
+    if (w->by_metis) {
+#if !defined(SL_NO_METIS)
+        return sli_dissect_quality(d);
+#else
+        return SL_ERR_UNSUPPORTED;
+#endif
+    }
+    if (w->xyz != NULL) {
+        sli_points points;
+        points.xyz = w->xyz;
+        points.dimensions = w->dimensions;
+        points.row = w->row;
+        return sli_dissect_geometric(d, &points, w->placed);
+    }
+    return sli_dissect_multilevel(d);
+}
+
+/* Labels and separators of that component. */
 static sl_status sli_nesting_dissect(sli_nesting *w) {
     sli_dissection *d = &w->d;
+    int rounds = SLI_REPAIRS;
     sl_status status;
     d->l = 0;
     if (d->levels[0].n <= SLI_DISSECT_LEAF) {
         sli_dissect_start(d);
         return SL_OK;
     }
-    if (w->by_metis) {
-#if !defined(SL_NO_METIS)
-        status = sli_dissect_metis(d);
-#else
-        status = SL_ERR_UNSUPPORTED;
-#endif
-    } else if (w->xyz != NULL) {
-        sli_points points;
-        points.xyz = w->xyz;
-        points.dimensions = w->dimensions;
-        points.row = w->row;
-        status = sli_dissect_geometric(d, &points, w->placed);
-    } else {
-        status = sli_dissect_multilevel(d);
-    }
+    status = sli_nesting_label(w);
     if (status == SL_OK) {
-        int rounds = SLI_REPAIRS;
         do {
             sli_dissect_cut(d);
         } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);

@@ -95,6 +95,23 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     return SL_OK;
 }
 
+/* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
+ * and then: one of METIS's trees scatters as any other does. */
+static sl_status sli_dissect_quality(sli_dissection *d) {
+    double ours, flat;
+    sl_status status = sli_dissect_multilevel(d);
+    if (status != SL_OK) {
+        return status;
+    }
+    ours = sli_dissect_cost(d, &flat);
+    status = sli_dissect_metis(d);
+    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+        d->widening = 2;
+        status = sli_dissect_multilevel(d);
+    }
+    return status;
+}
+
 #endif
 
 #endif
