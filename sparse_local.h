@@ -1,93 +1,93 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 3d8df419656bd43d
+ * FNV-1a of all that follows this comment, license aside: 46c26d28433cb1d7
  *
  * Contents
  *         (what a user reads)
  *     95  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    146  public/config.h            what a user may set before including the header, the version, and the integer types
- *    195  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    394  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    514  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    591  public/factor.h            the numbers: P A P' = L D L'
- *    697  public/solve.h             full solves, and the workspace that every solve writes to
- *    766  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    852  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    931  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    968  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    149  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    198  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    397  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    517  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    594  public/factor.h            the numbers: P A P' = L D L'
+ *    700  public/solve.h             full solves, and the workspace that every solve writes to
+ *    769  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    855  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    934  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    971  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1075  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1166  impl/status.h              status codes in words, and the error fields of stats
- *   1222  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1347  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1422  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1459  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1078  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1169  impl/status.h              status codes in words, and the error fields of stats
+ *   1225  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1350  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1425  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1462  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1493  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1758  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1896  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1926  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3097  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3143  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3280  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3495  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3761  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3923  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4195  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4246  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4391  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5204  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6483  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8656  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10886  impl/select.h              the kernel table for an instruction set
+ *   1496  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1761  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1899  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1929  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3100  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3146  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3283  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3498  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3764  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3926  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4198  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4249  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4394  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5207  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6486  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8659  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10889  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10919  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11347  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11420  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10922  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11350  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11423  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11774  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11816  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11989  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
- *  12259  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
- *  12469  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
- *  12677  impl/order_heap.h          a queue of vertices by gain, the largest first
- *  12744  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
- *  12992  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
- *  13280  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
- *  13479  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13795  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  13992  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  14061  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14225  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14341  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14538  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  14742  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  14827  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  14900  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  15066  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  15142  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15183  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15376  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15686  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11777  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11819  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11992  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
+ *  12262  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
+ *  12472  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
+ *  12680  impl/order_heap.h          a queue of vertices by gain, the largest first
+ *  12747  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
+ *  12995  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
+ *  13283  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
+ *  13482  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  13798  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  13996  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  14065  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14229  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14345  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14542  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  14746  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  14831  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  14904  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  15070  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15146  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15187  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15380  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15690  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  15919  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  16051  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  16137  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16397  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16484  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  16778  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  16893  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16953  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17190  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17232  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  15923  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  16055  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16141  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16401  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16488  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  16782  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  16897  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  16957  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17194  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17236  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17530  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17770  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  18089  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18316  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18470  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17534  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17774  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  18093  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18320  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18474  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  18914  impl/leave.h               takes every internal macro away again
+ *  18918  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -130,6 +130,9 @@
  *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry processing, 2017.
  *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
  *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [FF56]    Ford, Fulkerson: Maximal flow through a network, 1956.
+ *  [George73] George: Nested dissection of a regular finite element mesh, 1973.
+ *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
@@ -155,7 +158,7 @@
  *
  *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include: the bodies go there.
  *  SL_STATIC                     everything static: private copy of the library in one source file.
- *  SL_NO_METIS                   build without METIS: natural and given orderings only.
+ *  SL_NO_METIS                   build without METIS: all but SL_ORDERING_METIS and _QUALITY.
  *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
  *
  * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity
@@ -13811,7 +13814,7 @@ static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0
 
 /* The larger parts look for their direction on so many of their points. */
 #define SLI_POINTS_MANY 16384
-#define SLI_POINTS_TRIED 256
+#define SLI_POINTS_TRIED 512
 
 /* How far v lies along a direction. */
 SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
@@ -13823,16 +13826,17 @@ SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) 
     return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
 }
 
-/* The axis along which some vertices spread most, and how far. */
+/* The axis along which some vertices spread most, and how far, by about SLI_POINTS_TRIED of them. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                            double *spread) {
     static const int axes[3] = {0, 1, 4};
+    const sl_int step = count / SLI_POINTS_TRIED + 1;
     sl_int axis, k;
     int best = 0;
     *spread = -1.0;
     for (axis = 0; axis < p->dimensions; axis++) {
         double low = sli_point_along(p, vertices[0], axes[axis]), high = low;
-        for (k = 1; k < count; k++) {
+        for (k = step; k < count; k = k < count - step ? k + step : count) {
             const double x = sli_point_along(p, vertices[k], axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
@@ -13910,9 +13914,9 @@ static int sli_points_narrow(const sli_points *p, const sl_int *vertices, sl_int
         sli_placed_halve(placed, SLI_POINTS_TRIED);
         middle = placed[SLI_POINTS_TRIED / 2].x;
         for (k = 0; k < SLI_POINTS_TRIED; k++) {
-            near += fabs(placed[k].x - middle) < 0.05 * spread;
+            near += fabs(placed[k].x - middle) < 0.1 * spread;
         }
-        near -= direction == axis ? SLI_POINTS_TRIED / 64 : 0; /* chance must not decide */
+        near += direction == axis ? 0 : near / 3; /* chance must not decide against an axis */
         if (near < fewest) {
             fewest = near;
             best = direction;

@@ -30,16 +30,17 @@ SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) 
     return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
 }
 
-/* The axis along which some vertices spread most, and how far. */
+/* The axis along which some vertices spread most, and how far, by about SLI_POINTS_TRIED of them. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                            double *spread) {
     static const int axes[3] = {0, 1, 4};
+    const sl_int step = count / SLI_POINTS_TRIED + 1;
     sl_int axis, k;
     int best = 0;
     *spread = -1.0;
     for (axis = 0; axis < p->dimensions; axis++) {
         double low = sli_point_along(p, vertices[0], axes[axis]), high = low;
-        for (k = 1; k < count; k++) {
+        for (k = step; k < count; k = k < count - step ? k + step : count) {
             const double x = sli_point_along(p, vertices[k], axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
