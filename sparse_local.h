@@ -1,93 +1,94 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 46c26d28433cb1d7
+ * FNV-1a of all that follows this comment, license aside: 5be4b4c47e389c97
  *
  * Contents
  *         (what a user reads)
- *     95  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    149  public/config.h            what a user may set before including the header, the version, and the integer types
- *    198  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    397  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    517  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    594  public/factor.h            the numbers: P A P' = L D L'
- *    700  public/solve.h             full solves, and the workspace that every solve writes to
- *    769  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    855  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    934  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    971  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *     96  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    150  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    199  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    398  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    518  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    595  public/factor.h            the numbers: P A P' = L D L'
+ *    701  public/solve.h             full solves, and the workspace that every solve writes to
+ *    770  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    856  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    935  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    972  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1078  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1169  impl/status.h              status codes in words, and the error fields of stats
- *   1225  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1350  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1425  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1462  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1079  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1170  impl/status.h              status codes in words, and the error fields of stats
+ *   1226  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1351  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1426  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1463  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1496  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1761  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1899  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1929  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3100  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3146  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3283  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3498  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3764  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3926  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4198  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4249  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4394  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5207  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6486  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8659  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10889  impl/select.h              the kernel table for an instruction set
+ *   1497  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1762  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1900  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1930  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3101  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3147  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3284  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3499  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3765  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3927  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4199  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4250  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4395  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5208  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6487  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8660  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10890  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10922  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11350  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11423  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10923  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11351  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11424  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11777  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11819  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11992  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
- *  12262  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
- *  12472  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
- *  12680  impl/order_heap.h          a queue of vertices by gain, the largest first
- *  12747  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
- *  12995  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
- *  13283  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
- *  13482  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13798  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  13996  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  14065  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14229  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14345  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14542  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  14746  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  14831  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  14904  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  15070  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  15146  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15187  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15380  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15690  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11778  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11820  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11993  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
+ *  12263  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
+ *  12473  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
+ *  12681  impl/order_heap.h          a queue of vertices by gain, the largest first
+ *  12748  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
+ *  12996  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
+ *  13284  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
+ *  13483  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  13799  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
+ *  13928  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  14126  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  14195  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14359  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14475  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14672  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  14876  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  14961  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  15034  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  15200  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15276  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15317  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15510  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15820  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  15923  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  16055  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  16141  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16401  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16488  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  16782  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  16897  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16957  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17194  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17236  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  16053  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  16185  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16271  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16531  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16618  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  16912  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  17027  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  17087  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17324  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17366  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17534  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17774  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  18093  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18320  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18474  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17664  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  17904  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  18223  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18450  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18604  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  18918  impl/leave.h               takes every internal macro away again
+ *  19048  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13660,7 +13661,7 @@ static void sli_dissect_cut(sli_dissection *d) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers += d->widening;
+            layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->widening : sli_min(d->widening, 1);
         }
         for (;; layers /= 2) {
             sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
@@ -13795,6 +13796,135 @@ static double sli_dissect_cost(sli_dissection *d, double *flat) {
 
 #endif
 /* end src/impl/order_dissect.h */
+/* begin src/impl/order_layers.h */
+/* order_layers.h: parts cut between the layers of a breadth-first search: what grids of three dimensions want */
+#ifndef SLI_ORDER_LAYERS_H
+#define SLI_ORDER_LAYERS_H
+
+/* A cut is looked for where either side has at least this share. */
+#define SLI_LAYERS_SHARE 0.35
+
+/* Distances from a vertex, what it does not reach following at a distance; the vertices in that
+ * order. Returns the number of distances, at most 2 n. */
+static sl_int sli_layers_search(const sli_piece *p, sl_int from, sl_int *order, sl_int *distance) {
+    sl_int v, head = 0, tail = 0, unseen = 0;
+    sl_off e;
+    for (v = 0; v < p->n; v++) {
+        distance[v] = -1;
+    }
+    distance[from] = 0;
+    order[tail++] = from;
+    for (;;) {
+        for (; head < tail; head++) {
+            for (e = p->begin[order[head]]; e < p->begin[order[head] + 1]; e++) {
+                if (distance[p->to[e]] == -1) {
+                    distance[p->to[e]] = distance[order[head]] + 1;
+                    order[tail++] = p->to[e];
+                }
+            }
+        }
+        if (tail == p->n) {
+            return distance[order[tail - 1]] + 1;
+        }
+        while (distance[unseen] != -1) {
+            unseen++;
+        }
+        distance[unseen] = distance[order[tail - 1]] + 2; /* nothing lies between */
+        order[tail++] = unseen;
+    }
+}
+
+/* Sides by layers from a vertex far from others: of the layers near the middle the smallest becomes
+ * the border. */
+static void sli_layers_bisect(sli_piece *p) {
+    const sl_int n = p->n;
+    sl_int *order = p->scratch, *distance = p->scratch + (size_t)n,
+           *size = p->scratch + 2 * (size_t)n;
+    const sl_int low = (sl_int)(SLI_LAYERS_SHARE * n), high = n - low;
+    sl_int k, layers, before = 0, best = -1;
+    double cost = 0.0;
+    const sl_int far = sli_piece_far(p, 0, order, p->locked);
+    layers = sli_layers_search(p, sli_piece_far(p, far, order, p->locked), order, distance);
+    memset(size, 0, (size_t)layers * sizeof(sl_int));
+    for (k = 0; k < n; k++) {
+        size[distance[k]]++;
+    }
+    for (k = 0; k < layers; before += size[k++]) {
+        const double skew = fabs((double)(n - size[k] - 2 * (int64_t)before)) / n;
+        const double here = (1.0 + skew) * size[k];
+        if (before >= low && before + size[k] <= high && (best == -1 || here < cost)) {
+            best = k;
+            cost = here;
+        }
+    }
+    for (k = 0; k < n; k++) { /* where all is in a few layers, by halves of the search */
+        p->side[order[k]] = (unsigned char)(best == -1 ? k >= n / 2 : distance[order[k]] >= best);
+    }
+}
+
+static void sli_dissect_layers(sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
+    sl_int node, nodes;
+    d->l = 0;
+    sli_dissect_start(d);
+    do {
+        nodes = d->tree.count;
+        sli_dissect_sort(d);
+        for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
+            const sl_int count = d->begin[node + 1] - d->begin[node];
+            if (count > SLI_DISSECT_LEAF) {
+                sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node],
+                               count);
+                sli_layers_bisect(&d->part);
+                sli_dissect_divide(d, node);
+                sli_piece_clear(&d->part);
+            }
+        }
+        sli_tree_number(&d->tree, g->n, d->label);
+    } while (d->tree.count > nodes);
+}
+
+/* Vertices at the left of the root's border. */
+static sl_int sli_dissect_border(const sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
+    const sl_int root = d->tree.root;
+    sl_int v, count = 0;
+    sl_off e;
+    for (v = 0; v < g->n; v++) {
+        int crosses = 0;
+        for (e = g->begin[v]; e < g->begin[v + 1] && d->label[v] < root; e++) {
+            crosses |= d->label[g->to[e]] > root;
+        }
+        count += crosses;
+    }
+    return count;
+}
+
+/* A border of so many times the root of the vertices is none of a surface. */
+#define SLI_VOLUME_BORDER 2.5
+
+/* Labels by levels of coarser graphs; of what may be a volume by layers, where those are estimated
+ * to be the cheaper parts: in a grid of seven points they are diagonal planes of three quarters the
+ * size of a straight one. */
+static sl_status sli_dissect_graph(sli_dissection *d) {
+    double levels, layers, flat;
+    sl_status status = sli_dissect_multilevel(d);
+    if (status != SL_OK ||
+        (double)sli_dissect_border(d) < SLI_VOLUME_BORDER * sqrt((double)d->levels[0].n)) {
+        return status;
+    }
+    levels = sli_dissect_cost(d, &flat);
+    sli_dissect_layers(d);
+    layers = sli_dissect_cost(d, &flat);
+    if (layers < levels) {
+        d->widening = 0;
+        return SL_OK;
+    }
+    return sli_dissect_multilevel(d);
+}
+
+#endif
+/* end src/impl/order_layers.h */
 /* begin src/impl/order_geometric.h */
 /* order_geometric.h: nested dissection by coordinates: halves of space, and when they are the better parts */
 #ifndef SLI_ORDER_GEOMETRIC_H
@@ -13829,21 +13959,21 @@ SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) 
 /* The axis along which some vertices spread most, and how far, by about SLI_POINTS_TRIED of them. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                            double *spread) {
-    static const int axes[3] = {0, 1, 4};
+    static const int sli_axes[3] = {0, 1, 4};
     const sl_int step = count / SLI_POINTS_TRIED + 1;
     sl_int axis, k;
     int best = 0;
     *spread = -1.0;
     for (axis = 0; axis < p->dimensions; axis++) {
-        double low = sli_point_along(p, vertices[0], axes[axis]), high = low;
+        double low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
         for (k = step; k < count; k = k < count - step ? k + step : count) {
-            const double x = sli_point_along(p, vertices[k], axes[axis]);
+            const double x = sli_point_along(p, vertices[k], sli_axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
         }
         if (high - low > *spread) {
             *spread = high - low;
-            best = axes[axis];
+            best = sli_axes[axis];
         }
     }
     return best;
@@ -13981,7 +14111,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
         d->widening = 0;
         return SL_OK;
     }
-    status = sli_dissect_multilevel(d);
+    status = sli_dissect_graph(d);
     if (status == SL_OK) {
         other = sli_dissect_cost(d, &flat);
         if (cost < other) {
@@ -14434,7 +14564,7 @@ static sl_status sli_nesting_label(sli_nesting *w) {
         points.row = w->row;
         return sli_dissect_geometric(d, &points, w->placed);
     }
-    return sli_dissect_multilevel(d);
+    return sli_dissect_graph(d);
 }
 
 /* Labels and separators of that component. */
@@ -18984,6 +19114,8 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_DENSE_ROW
 #undef SLI_CUT_BALANCE
 #undef SLI_REPAIRS
+#undef SLI_LAYERS_SHARE
+#undef SLI_VOLUME_BORDER
 #undef SLI_CLIMB
 #undef SLI_LANES_MAX
 #undef SLI_REQUESTS_MAX

@@ -54,6 +54,7 @@ extern "C" {
 #include "impl/order_cut.h"
 #include "impl/order_leaves.h"
 #include "impl/order_dissect.h"
+#include "impl/order_layers.h"
 #include "impl/order_geometric.h"
 #include "impl/order_nest.h"
 #include "impl/order_metis.h"

@@ -181,7 +181,7 @@ static void sli_dissect_cut(sli_dissection *d) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers += d->widening;
+            layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->widening : sli_min(d->widening, 1);
         }
         for (;; layers /= 2) {
             sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);

@@ -2,7 +2,7 @@
 #ifndef SLI_ORDER_GEOMETRIC_H
 #define SLI_ORDER_GEOMETRIC_H
 
-#include "order_dissect.h"
+#include "order_layers.h"
 
 /* Points of a graph's vertices: vertex v lies at xyz[dimensions row[v]] .. */
 typedef struct sli_points {
@@ -33,21 +33,21 @@ SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) 
 /* The axis along which some vertices spread most, and how far, by about SLI_POINTS_TRIED of them. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                            double *spread) {
-    static const int axes[3] = {0, 1, 4};
+    static const int sli_axes[3] = {0, 1, 4};
     const sl_int step = count / SLI_POINTS_TRIED + 1;
     sl_int axis, k;
     int best = 0;
     *spread = -1.0;
     for (axis = 0; axis < p->dimensions; axis++) {
-        double low = sli_point_along(p, vertices[0], axes[axis]), high = low;
+        double low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
         for (k = step; k < count; k = k < count - step ? k + step : count) {
-            const double x = sli_point_along(p, vertices[k], axes[axis]);
+            const double x = sli_point_along(p, vertices[k], sli_axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
         }
         if (high - low > *spread) {
             *spread = high - low;
-            best = axes[axis];
+            best = sli_axes[axis];
         }
     }
     return best;
@@ -185,7 +185,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
         d->widening = 0;
         return SL_OK;
     }
-    status = sli_dissect_multilevel(d);
+    status = sli_dissect_graph(d);
     if (status == SL_OK) {
         other = sli_dissect_cost(d, &flat);
         if (cost < other) {

@@ -94,7 +94,7 @@ static sl_status sli_nesting_label(sli_nesting *w) {
         points.row = w->row;
         return sli_dissect_geometric(d, &points, w->placed);
     }
-    return sli_dissect_multilevel(d);
+    return sli_dissect_graph(d);
 }
 
 /* Labels and separators of that component. */
