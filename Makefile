@@ -58,7 +58,7 @@ REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	figures format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp
+	figures format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis
 
 all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -210,6 +210,9 @@ test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 
 test-cxx: deps deps-cxx sparse_local.h ## the tests, over bodies compiled as C++11
 	@$(MAKE) --no-print-directory run-tests B=build/cxx LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
+
+test-no-metis: deps sparse_local.h ## the tests, built with -DSL_NO_METIS and not linked with METIS
+	@$(MAKE) --no-print-directory run-tests B=build/no_metis CFLAGS='-DSL_NO_METIS $(CFLAGS)' LIBS='-lz -lm'
 
 test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, emulated and so without DATA
 	@mkdir -p build/aarch64/include

@@ -1,102 +1,115 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: c2e93e9e624f66aa
+ * FNV-1a of all that follows this comment, license aside: e70fcb2241cbc237
  *
  * Contents
  *         (what a user reads)
- *    104  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    157  public/config.h            what a user may set before including the header, the version, and the integer types
- *    206  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    446  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    566  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    628  public/factor.h            the numbers: P A P' = L D L'
- *    766  public/solve.h             full solves, and the workspace that every solve writes to
- *    836  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    927  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
- *   1019  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1113  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
- *   1157  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
- *   1324  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1423  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *    117  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    173  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    222  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    480  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    600  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    677  public/factor.h            the numbers: P A P' = L D L'
+ *    815  public/solve.h             full solves, and the workspace that every solve writes to
+ *    885  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    976  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *   1068  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1162  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *   1206  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1373  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1472  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1513  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1606  impl/status.h              status codes in words, and the error fields of stats
- *   1664  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1789  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1864  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1901  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1562  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1655  impl/status.h              status codes in words, and the error fields of stats
+ *   1713  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1838  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1913  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1950  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1942  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   2288  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2426  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2456  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3627  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3673  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3810  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   4027  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   4324  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4486  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4759  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4810  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4955  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5768  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   7081  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   9288  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11552  impl/select.h              the kernel table for an instruction set
+ *   1991  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   2337  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2475  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2505  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3676  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3722  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3859  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   4076  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   4373  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4535  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4808  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4859  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   5004  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5817  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   7130  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   9337  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11601  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11585  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
- *  11896  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
- *  12020  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  12093  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
- *  12183  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11634  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11945  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  12069  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  12142  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  12232  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12537  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12576  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12723  impl/order_metis.h         nested dissection of one connected component by METIS_NodeND
- *  12837  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection by component
- *  12981  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  13066  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  13139  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  13305  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  13381  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  13411  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  13452  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  13663  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  13949  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12586  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12628  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12801  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
+ *  13071  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
+ *  13281  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
+ *  13489  impl/order_heap.h          a queue of vertices by gain, the largest first
+ *  13556  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
+ *  13804  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
+ *  14092  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
+ *  14291  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  14607  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
+ *  14736  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  14934  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  15003  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  15167  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  15283  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  15480  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  15684  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  15769  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  15842  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  16008  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  16084  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  16114  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  16155  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  16366  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  16676  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  14259  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  14460  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  14629  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  14711  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  14959  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  15059  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  15401  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  15817  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  15951  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  16072  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  16131  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  16243  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  16562  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  16604  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  16986  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  17187  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  17356  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  17438  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  17686  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  17786  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  18128  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  18544  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  18678  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  18799  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  18858  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  18970  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  19289  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  19331  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17006  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  17270  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  17442  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17690  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  17894  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  18198  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18440  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  18617  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  18807  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  18983  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  19200  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  19398  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  19542  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  19762  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  19862  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
- *  20112  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
+ *  19733  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  19997  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  20169  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  20417  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  20621  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  20925  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  21167  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  21344  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  21534  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  21710  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  21927  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  22125  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  22269  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  22489  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  22589  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
+ *  22839  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
  *         (last: takes every internal macro away again)
- *  20349  impl/leave.h               takes every internal macro away again
+ *  23076  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -139,6 +152,9 @@
  *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry processing, 2017.
  *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
  *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [FF56]    Ford, Fulkerson: Maximal flow through a network, 1956.
+ *  [George73] George: Nested dissection of a regular finite element mesh, 1973.
+ *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
@@ -166,7 +182,7 @@
  *
  *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include: the bodies go there.
  *  SL_STATIC                     everything static: private copy of the library in one source file.
- *  SL_NO_METIS                   build without METIS: natural and given orderings only.
+ *  SL_NO_METIS                   build without METIS: all but SL_ORDERING_METIS and _QUALITY.
  *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
  *
  * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity
@@ -256,10 +272,13 @@ typedef enum sl_reading {
 } sl_reading;
 
 typedef enum sl_ordering {
-    SL_ORDERING_DEFAULT = 0, /* METIS where compiled in, else natural */
+    SL_ORDERING_DEFAULT = 0, /* SL_ORDERING_FAST */
     SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_GIVEN,       /* options.perm */
-    SL_ORDERING_NATURAL      /* 0, 1, 2, ... */
+    SL_ORDERING_NATURAL,     /* 0, 1, 2, ... */
+    SL_ORDERING_FAST,        /* the quickest set-up: today SL_ORDERING_BUILTIN */
+    SL_ORDERING_BUILTIN,     /* nested dissection of this header's own; needs no library */
+    SL_ORDERING_QUALITY      /* for very many local solves: METIS's separators, improved by ours */
 } sl_ordering;
 
 /** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
@@ -319,27 +338,34 @@ typedef struct sl_allocator {
 
 /** Wishes, the same struct for every call. All zero (or a NULL pointer) = defaults. */
 typedef struct sl_options {
+    /* sl_symbolic_create */
+
     sl_ordering ordering;
-    const sl_int
-        *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
-    const sl_int *
-        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default;
-                          its numbering and debug level are not read */
+    /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *perm;
+    /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default; its numbering and debug level are not
+     * read */
+    const sl_int *metis_options;
     sl_relaxation relaxation;
+    /* n / block_size x dimensions (2 or 3), row-major: where each row lies, for FAST and BUILTIN: parts are halves of space
+     * where that is the better cut; NULL: not known */
+    const double *coordinates;
+    sl_int dimensions;
+    /* rows that stay together in the order, such as x, y, z of a vertex: rows k block_size .. (k + 1) block_size - 1
+     * each; divides n; 0 or 1: none */
+    sl_int block_size;
+
+    /* sl_factor_create */
+
     sl_isa isa;
     sl_method method;
-    sl_threads threads;
+    sl_threads threads; /* of whatever a factor, or a call, can share out */
     sl_definiteness definiteness;
-    double
-        null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
-                               it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
-    sl_allocator allocator;
-    const struct sl_region *
-        region; /* of sl_plan_create: where its sweeps may end; borrowed, must outlive the plan; NULL: none */
-    size_t
-        region_bytes; /* of sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
+    /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made it); 0: (64 + n/8) epsilon;
+     * negative: only an exact zero is null */
+    double null_tolerance;
 
-    /* SL_SEMIDEFINITE, sl_factor_create: which of many solutions is meant, and when there is none */
+    /* the same with SL_SEMIDEFINITE: which of many solutions is meant, and when there is none */
 
     /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and b is made consistent by a
      * multiple of m; NULL: x is 0 in the null rows */
@@ -348,13 +374,21 @@ typedef struct sl_options {
      * 1 in its null row; 0: 1e-6, which lets pass what single precision loses; negative: nothing is refused */
     double consistency_tolerance;
 
-    /* SL_DEFINITE, sl_factor_create: signed regularization */
+    /* the same with SL_DEFINITE: signed regularization */
 
     /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|, regularization * the sum of the magnitudes
      * that made it, 1 where that is 0); 1e-8 suits refinement; 0: none */
     double regularization;
     /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do; copied; NULL: all 1 */
     const sl_int *signs;
+
+    /* sl_plan_create: where sweeps may end; borrowed, must outlive the plan; NULL: at the roots alone */
+    const struct sl_region *region;
+    /* sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
+    size_t region_bytes;
+
+    /* every call that makes an object */
+    sl_allocator allocator;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -575,18 +609,25 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   ordering, perm, metis_options, relaxation, allocator; may be NULL.
+ *  opt    [in]   ordering, perm, metis_options, coordinates, dimensions, block_size, relaxation, allocator; may be
+ *                NULL. block_size and coordinates are not read with SL_ORDERING_GIVEN and _NATURAL, coordinates not
+ *                with _METIS and _QUALITY either; but what is wrong in them is refused with any ordering.
  *  stats  [out]  the symbolic group; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm not a permutation (error_row is the first offending position),
- *           an unknown ordering or relaxation, metis_options that METIS would refuse; SL_ERR_PATTERN;
- *           SL_ERR_UNSUPPORTED: METIS asked for and not compiled in; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           an unknown ordering or relaxation, metis_options that METIS would refuse, a block_size that does not
+ *           divide n, coordinates of other than 2 or 3 dimensions; SL_ERR_NOT_FINITE: a coordinate, error_row is the
+ *           first row of its block; SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS asked for and not compiled in;
+ *           SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
- *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS, or the default with it) it resets
- *           rand() of the C library by srand() and draws from it, traps SIGABRT and SIGTERM of the whole process, and
- *           prints a line if it runs out of memory. Calls in several threads at once are safe only if rand() is, and
- *           may then order differently from run to run. Other orderings do nothing of this and run in any number of
- *           threads.
- *  Source   [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes; [KK98] METIS.
+ *  Threads  METIS is not as quiet as this library. While it runs (SL_ORDERING_METIS and SL_ORDERING_QUALITY only) it
+ *           resets rand() of the C library by srand() and draws from it, and prints a line if it runs out of memory.
+ *           With SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process meanwhile; with
+ *           SL_ORDERING_QUALITY it does not, and raises SIGABRT if it runs out of memory, which ends a process that
+ *           has no handler. Calls in several threads at once are safe only if rand() is, and may then order
+ *           differently from run to run. All other orderings do nothing of this, run in any number of threads, and
+ *           give the same order for the same pattern, on any machine, with METIS compiled in or not.
+ *  Source   [George73] nested dissection, [KK98] on levels of coarser graphs, [FM82] moving vertices across a cut, [FF56]
+ *           smallest vertex cuts; [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -605,6 +646,10 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  The numbers of supernode s stand in a panel of row tiles, [tile][column][8], from position panel_begin[s] of
  *  sl_factor_view's L: tile t holds local rows 8t..8t+7 of the columns 0..min(width, 8(t+1))-1; the unit diagonal and
  *  what is above it are stored as 0.
+ *
+ *  SL_ORDERING_FAST, _BUILTIN and _QUALITY leave their tree of separators (others: n_parts = 0 and NULL): a node is a
+ *  separator, or a part that was not cut further. No entry of A joins two nodes unless one of them is above the
+ *  other; nodes are numbered in the order of elimination, so that a parent comes after all that it parts.
  */
 typedef struct sl_symbolic_view_t {
     sl_int n;
@@ -619,6 +664,10 @@ typedef struct sl_symbolic_view_t {
     const sl_off *rows_begin;   /* n_supers + 1 */
     const sl_int *rows;         /* rows_begin[n_supers] */
     const sl_off *panel_begin;  /* n_supers + 1 */
+    sl_int n_parts;             /* nodes of the tree of separators */
+    const sl_int *part_of;      /* n: the node of column k */
+    const sl_int *part_parent;  /* n_parts: the separator round a node, -1 at a root */
+    const sl_int *part_level;   /* n_parts: separators round it: 0 at a root */
 } sl_symbolic_view_t;
 
 SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S);
@@ -12562,6 +12611,9 @@ struct sl_symbolic {
     sl_off *map_begin; /* n_supers + 1 */
     sl_int *map_from;  /* map_begin[n_supers]: positions in A, grouped by supernode */
     sl_off *map_to;    /* the same: positions in L; several may share one (duplicates) */
+    sl_int n_parts;    /* nodes of the tree of separators; 0: the order has none */
+    sl_int *part_of;   /* n: the node of each column */
+    sl_int *part_parent, *part_level; /* n_parts */
 };
 
 /* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */
@@ -12585,16 +12637,20 @@ typedef struct sli_graph {
     sl_int *to;    /* begin[n] neighbours */
 } sli_graph;
 
-/* G has room for n + 1 positions and twice A's entries. */
-SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
+/* G has room for n + 1 positions and twice A's entries; n is A's rows over block, as many of which
+ * side by side are one vertex. */
+SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle, sl_int block) {
+    const sl_int columns = A->n_cols;
     sl_int j, p;
     sl_off total = 0;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
-    for (j = 0; j < G->n; j++) {
+    for (j = 0; j < columns; j++) {
+        const sl_int v = block == 1 ? j : j / block;
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const int is_edge = A->i[p] != j && sli_is_read(triangle, A->i[p], j);
-            G->begin[A->i[p]] += is_edge;
-            G->begin[j] += is_edge;
+            const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+            const int is_edge = u != v && sli_is_read(triangle, A->i[p], j);
+            G->begin[u] += is_edge;
+            G->begin[v] += is_edge;
         }
     }
     for (j = 0; j <= G->n; j++) {
@@ -12602,26 +12658,30 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
         G->begin[j] = total;
         total += here;
     }
-    for (j = 0; j < G->n; j++) { /* every begin moves to its end, and back afterwards */
+    for (j = 0; j < columns; j++) { /* every begin moves to its end, and back afterwards */
+        const sl_int v = block == 1 ? j : j / block;
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int i = A->i[p];
-            if (i != j && sli_is_read(triangle, i, j)) {
-                G->to[G->begin[j]++] = i;
-                G->to[G->begin[i]++] = j;
+            const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+            if (u != v && sli_is_read(triangle, A->i[p], j)) {
+                G->to[G->begin[v]++] = u;
+                G->to[G->begin[u]++] = v;
             }
         }
     }
-    memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
+    if (G->n > 0) {
+        memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
+    }
     G->begin[0] = 0;
 }
 
-/* Whether every list of neighbours ascends, as it does when the rows of A do. */
+/* Whether every list of neighbours ascends, as it does when the rows of A do and none is given
+ * twice. */
 SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
     sl_int v;
     sl_off e;
     for (v = 0; v < G->n; v++) {
         for (e = G->begin[v] + 1; e < G->begin[v + 1]; e++) {
-            if (G->to[e - 1] > G->to[e]) {
+            if (G->to[e - 1] >= G->to[e]) {
                 return 0;
             }
         }
@@ -12640,6 +12700,24 @@ SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
             to[at[G->to[e]]++] = v;
         }
     }
+}
+
+/* Takes repeated edges out of sorted lists. */
+SLI_INLINE void sli_graph_unite(sli_graph *G) {
+    sl_int v;
+    sl_off e, count = 0, first = 0;
+    for (v = 0; v < G->n; v++) {
+        const sl_off end = G->begin[v + 1];
+        const sl_off kept = count;
+        for (e = first; e < end; e++) {
+            if (count == kept || G->to[count - 1] != G->to[e]) {
+                G->to[count++] = G->to[e];
+            }
+        }
+        first = end;
+        G->begin[v] = kept;
+    }
+    G->begin[G->n] = count;
 }
 
 /* Counts to starting positions. */
@@ -12720,8 +12798,2210 @@ static uint64_t sli_fingerprint(const sl_csc *A) {
 
 #endif
 /* end src/impl/graph.h */
+/* begin src/impl/order_coarsen.h */
+/* order_coarsen.h: ever smaller graphs, each made of the one before by joining vertices two by two */
+#ifndef SLI_ORDER_COARSEN_H
+#define SLI_ORDER_COARSEN_H
+
+/* A graph without loops or repeated edges. A vertex of a coarser level stands for some of the
+ * finest, an edge for the finest edges between two of them. */
+typedef struct sli_level {
+    sl_int n;
+    sl_off *begin;  /* n + 1 */
+    sl_int *to;     /* begin[n] */
+    sl_int *edge;   /* begin[n]: finest edges; NULL: 1 each */
+    sl_int *weight; /* n: finest vertices; NULL: 1 each */
+    sl_int *coarse; /* n: vertex of the next coarser level */
+    void *block;    /* that all this is cut from */
+} sli_level;
+
+/* A level that keeps more than this share of its vertices is not worth its pass. */
+#define SLI_COARSEN_STALL 0.95
+#define SLI_LEVELS_MAX 64
+
+SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
+    return g->weight == NULL ? 1 : g->weight[v];
+}
+
+SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
+    return g->edge == NULL ? 1 : g->edge[e];
+}
+
+/* A number that looks random, the same for the same v. */
+SLI_INLINE uint32_t sli_scatter(uint32_t v) {
+    v ^= v >> 16;
+    v *= 0x7feb352du;
+    v ^= v >> 15;
+    v *= 0x846ca68bu;
+    return v ^ v >> 16;
+}
+
+/* The free neighbour of v with the most edges a vertex, or -1. The search starts anywhere in the
+ * list, so that pairs do not all lie in one direction. */
+static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, const sl_int *mate) {
+    const sl_off first = g->begin[v], degree = g->begin[v + 1] - first;
+    const sl_int own = sli_level_weight(g, v);
+    sl_int best = -1, best_edge = 0, best_weight = 1;
+    sl_off k, e = degree > 0 ? first + (sl_off)(sli_scatter((uint32_t)v) % (uint64_t)degree) : 0;
+    for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
+        const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
+        if (mate[u] == -1 && weight <= heaviest - own &&
+            (int64_t)edge * best_weight > (int64_t)best_edge * weight) {
+            best = u;
+            best_edge = edge;
+            best_weight = weight;
+        }
+    }
+    return best;
+}
+
+/* mate[v] := the vertex that v joins, v itself if none. Vertices are visited in a scattered order,
+ * but only within windows, which keeps memory close. Returns the number of pairs. */
+static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
+    const sl_int window = 512;
+    sl_int first, k, v, pairs = 0;
+    for (v = 0; v < g->n; v++) {
+        mate[v] = -1;
+    }
+    for (first = 0; first < g->n; first += window) {
+        const uint32_t turn = sli_scatter((uint32_t)first);
+        for (k = 0; k < window; k++) {
+            sl_int u;
+            v = first + (sl_int)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
+            if (v >= g->n || mate[v] != -1) {
+                continue;
+            }
+            u = sli_match_best(g, v, heaviest, mate);
+            if (u != -1) {
+                mate[v] = u;
+                mate[u] = v;
+                pairs++;
+            }
+        }
+        if (first > INT32_MAX - window) {
+            break;
+        }
+    }
+    return pairs;
+}
+
+/* Joins what is still alone through a common neighbour: the leaves of a star. */
+static sl_int sli_match_over(const sli_level *g, sl_int heaviest, sl_int *mate) {
+    sl_int v, pairs = 0;
+    for (v = 0; v < g->n; v++) {
+        sl_int waiting = -1;
+        sl_off e;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int u = g->to[e];
+            if (mate[u] != -1) {
+                continue;
+            }
+            if (waiting != -1 &&
+                sli_level_weight(g, u) <= heaviest - sli_level_weight(g, waiting)) {
+                mate[u] = waiting;
+                mate[waiting] = u;
+                waiting = -1;
+                pairs++;
+            } else {
+                waiting = u;
+            }
+        }
+    }
+    return pairs;
+}
+
+/* Numbers the pairs in the order of their first members; returns how many there are. */
+static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
+    sl_int v, count = 0;
+    for (v = 0; v < g->n; v++) {
+        const sl_int u = mate[v];
+        g->coarse[v] = u == -1 || v <= u ? count++ : g->coarse[u];
+    }
+    return count;
+}
+
+/* Fills c, which has room, with the graph of the pairs. at: c->n of scratch. */
+static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, sl_off *at) {
+    sl_int v, k, member[2];
+    sl_off e, count = 0;
+    for (k = 0; k < c->n; k++) {
+        at[k] = -1;
+    }
+    for (v = 0, k = 0; v < g->n; v++) {
+        const sl_off first = count;
+        int m;
+        if (mate[v] != -1 && mate[v] < v) {
+            continue;
+        }
+        member[0] = v;
+        member[1] = mate[v];
+        c->begin[k] = first;
+        c->weight[k] = 0;
+        for (m = 0; m < 2 && member[m] != -1; m++) {
+            c->weight[k] += sli_level_weight(g, member[m]);
+            for (e = g->begin[member[m]]; e < g->begin[member[m] + 1]; e++) {
+                const sl_int u = g->coarse[g->to[e]];
+                if (u == k) {
+                    continue;
+                }
+                if (at[u] < first) {
+                    at[u] = count;
+                    c->to[count] = u;
+                    c->edge[count++] = sli_level_edge(g, e);
+                } else {
+                    c->edge[at[u]] += sli_level_edge(g, e);
+                }
+            }
+        }
+        k++;
+    }
+    c->begin[k] = count;
+}
+
+/* Makes the next level. scratch: g->n. *shrunk: whether there is one worth having. */
+static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
+                             sl_off *at, int *shrunk, const sl_allocator *a) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    sl_int pairs = sli_match(g, heaviest, mate);
+    if (pairs < g->n / 4) {
+        pairs += sli_match_over(g, heaviest, mate);
+    }
+    memset(c, 0, sizeof *c);
+    *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
+    if (!*shrunk) {
+        return SL_OK;
+    }
+    c->n = sli_number_pairs(g, mate);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c->begin = SLI_TAKE(&b, sl_off, (size_t)c->n + 1);
+        c->weight = SLI_TAKE(&b, sl_int, c->n);
+        c->coarse = SLI_TAKE(&b, sl_int, c->n);
+        c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+        c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    c->block = b.base;
+    if (status == SL_OK) {
+        sli_contract(g, mate, c, at);
+    }
+    return status;
+}
+
+/* What weighing a level needs: to, count: room for the finest edges; the others: n. */
+typedef struct sli_weighing {
+    sl_int *cluster, *member, *start, *seen, *to, *count; /* start: n + 1 */
+    sl_off *at;
+} sli_weighing;
+
+/* Finest vertices by the vertex of level l that they are in. */
+static void sli_weigh_members(const sli_level *levels, int l, sli_weighing *w) {
+    const sl_int n = levels[0].n, clusters = levels[l].n;
+    sl_int v, k;
+    int m;
+    memset(w->start, 0, ((size_t)clusters + 1) * sizeof(sl_int));
+    for (v = 0; v < n; v++) {
+        sl_int c = v;
+        for (m = 0; m < l; m++) {
+            c = levels[m].coarse[c];
+        }
+        w->cluster[v] = c;
+        w->start[c + 1]++;
+    }
+    for (k = 0; k < clusters; k++) {
+        w->start[k + 1] += w->start[k];
+    }
+    for (v = 0; v < n; v++) {
+        w->member[w->start[w->cluster[v]]++] = v;
+    }
+    memmove(w->start + 1, w->start, (size_t)clusters * sizeof(sl_int));
+    w->start[0] = 0;
+}
+
+/* Makes the weight of an edge of level l the number of finest vertices at that border, of both
+ * sides: what a separator takes. Finest edges would count a slanting border in a square grid twice
+ * and a straight one once. */
+static void sli_weigh_level(sli_level *levels, int l, sli_weighing *w) {
+    const sli_level *finest = &levels[0];
+    sli_level *g = &levels[l];
+    sl_int k, i;
+    sl_off e;
+    sli_weigh_members(levels, l, w);
+    for (k = 0; k < g->n; k++) {
+        w->seen[k] = -1;
+    }
+    for (k = 0; k < g->n; k++) {
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            w->at[g->to[e]] = e;
+            g->edge[e] = 0;
+        }
+        for (i = w->start[k]; i < w->start[k + 1]; i++) {
+            const sl_int v = w->member[i];
+            for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
+                const sl_int c = w->cluster[finest->to[e]];
+                if (c != k && w->seen[c] != v) {
+                    w->seen[c] = v;
+                    g->edge[w->at[c]]++;
+                }
+            }
+        }
+    }
+    /* so far the vertices of one side; the other side's come from the transposed lists */
+    memcpy(w->at, g->begin, (size_t)g->n * sizeof(sl_off));
+    for (k = 0; k < g->n; k++) {
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            const sl_off there = w->at[g->to[e]]++;
+            w->to[there] = k;
+            w->count[there] = g->edge[e];
+        }
+    }
+    for (k = 0; k < g->n; k++) {
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            w->at[g->to[e]] = e;
+        }
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            g->edge[w->at[w->to[e]]] += w->count[e];
+        }
+    }
+}
+
+#endif
+/* end src/impl/order_coarsen.h */
+/* begin src/impl/order_tree.h */
+/* order_tree.h: the tree of separators over one graph: a label a vertex, and who stands at which border */
+#ifndef SLI_ORDER_TREE_H
+#define SLI_ORDER_TREE_H
+
+/* A node is a separator, a leaf a part without one. After sli_tree_number nodes are numbered from
+ * left to right, so that a subtree is an interval: whether a vertex is below t, and on which side,
+ * is seen from its label alone, in the one graph that all nodes share. */
+typedef struct sli_tree {
+    sl_int count, room;
+    sl_int root;
+    sl_int *parent;       /* -1 at the root */
+    sl_int *left, *right; /* -1 at a leaf */
+    sl_int *low, *high;   /* the subtree is low..high */
+    sl_int *weight;       /* finest vertices in the subtree */
+    sl_int *scratch;      /* 2 room */
+} sli_tree;
+
+static void sli_tree_layout(sli_tree *t, sli_block *b, sl_int room) {
+    t->room = room;
+    t->parent = SLI_TAKE(b, sl_int, room);
+    t->left = SLI_TAKE(b, sl_int, room);
+    t->right = SLI_TAKE(b, sl_int, room);
+    t->low = SLI_TAKE(b, sl_int, room);
+    t->high = SLI_TAKE(b, sl_int, room);
+    t->weight = SLI_TAKE(b, sl_int, room);
+    t->scratch = SLI_TAKE(b, sl_int, 2 * (size_t)room);
+}
+
+static sl_int sli_tree_add(sli_tree *t, sl_int parent) {
+    const sl_int node = t->count++;
+    t->parent[node] = parent;
+    t->left[node] = t->right[node] = -1;
+    t->weight[node] = 0;
+    return node;
+}
+
+/* Splits a leaf in two. */
+static void sli_tree_split(sli_tree *t, sl_int leaf) {
+    t->left[leaf] = sli_tree_add(t, leaf);
+    t->right[leaf] = sli_tree_add(t, leaf);
+}
+
+SLI_INLINE int sli_tree_is_leaf(const sli_tree *t, sl_int node) {
+    return t->left[node] == -1;
+}
+
+SLI_INLINE int sli_tree_is_below(const sli_tree *t, sl_int node, sl_int label) {
+    return t->low[node] <= label && label <= t->high[node];
+}
+
+/* The node that parts a from b, neither of which is above the other. */
+SLI_INLINE sl_int sli_tree_meet(const sli_tree *t, sl_int a, sl_int b) {
+    while (!sli_tree_is_below(t, a, b)) {
+        a = t->parent[a];
+    }
+    return a;
+}
+
+/* The next node after one in postorder, whose subtree is done. */
+SLI_INLINE sl_int sli_tree_next(const sli_tree *t, sl_int node) {
+    const sl_int up = t->parent[node];
+    if (up == -1 || t->right[up] == node) {
+        return up;
+    }
+    node = t->right[up];
+    while (t->left[node] != -1) {
+        node = t->left[node];
+    }
+    return node;
+}
+
+SLI_INLINE sl_int sli_tree_first(const sli_tree *t) {
+    sl_int node = t->root;
+    while (t->left[node] != -1) {
+        node = t->left[node];
+    }
+    return node;
+}
+
+static void sli_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
+                              sl_int *scratch) {
+    sl_int k;
+    memcpy(scratch, a, (size_t)count * sizeof(sl_int));
+    for (k = 0; k < count; k++) {
+        a[number[k]] = values && scratch[k] != -1 ? number[scratch[k]] : scratch[k];
+    }
+}
+
+/* Numbers the nodes from left to right, and the labels of n vertices with them. */
+static void sli_tree_number(sli_tree *t, sl_int n, sl_int *label) {
+    sl_int *number = t->scratch, *keep = t->scratch + t->room, node, k, next = 0;
+    /* in a postorder walk a node is numbered when its left subtree is done */
+    for (node = sli_tree_first(t); node != -1; node = sli_tree_next(t, node)) {
+        const sl_int up = t->parent[node];
+        if (t->left[node] == -1) {
+            number[node] = next++;
+        }
+        if (up != -1 && t->left[up] == node) {
+            number[up] = next++;
+        }
+    }
+    t->root = number[t->root];
+    sli_tree_renumber(t->parent, number, t->count, 1, keep);
+    sli_tree_renumber(t->left, number, t->count, 1, keep);
+    sli_tree_renumber(t->right, number, t->count, 1, keep);
+    sli_tree_renumber(t->weight, number, t->count, 0, keep);
+    for (k = 0; k < n; k++) {
+        label[k] = number[label[k]];
+    }
+    for (node = sli_tree_first(t); node != -1; node = sli_tree_next(t, node)) {
+        t->low[node] = t->left[node] == -1 ? node : t->low[t->left[node]];
+        t->high[node] = t->left[node] == -1 ? node : t->high[t->right[node]];
+    }
+}
+
+/* order[k] := the nodes, parents first, level by level. */
+static void sli_tree_levels(const sli_tree *t, sl_int *order) {
+    sl_int head, tail = 0;
+    order[tail++] = t->root;
+    for (head = 0; head < tail; head++) {
+        if (!sli_tree_is_leaf(t, order[head])) {
+            order[tail++] = t->left[order[head]];
+            order[tail++] = t->right[order[head]];
+        }
+    }
+}
+
+/* ---- borders: for each node a list of vertices that may have a neighbour across it ---- */
+
+typedef struct sli_borders {
+    sl_int *head; /* a node: the first entry, -1 if none */
+    sl_int count, room;
+    sl_int *vertex, *next; /* room */
+    void *block;
+    int failed; /* there was no memory for more */
+    const sl_allocator *a;
+} sli_borders;
+
+SLI_INLINE void sli_borders_init(sli_borders *l, const sl_allocator *a) {
+    l->count = l->room = 0;
+    l->vertex = l->next = NULL;
+    l->block = NULL;
+    l->failed = 0;
+    l->a = a;
+}
+
+static void sli_borders_grow(sli_borders *l) {
+    sli_block b = {NULL, 0, 0};
+    sl_int *vertex = NULL, *next = NULL;
+    const sl_int room = l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX;
+    int pass;
+    for (pass = 0; pass < 2 && !l->failed; pass++) {
+        vertex = SLI_TAKE(&b, sl_int, room);
+        next = SLI_TAKE(&b, sl_int, room);
+        l->failed = pass == 0 && (room == l->room || sli_block_alloc(&b, l->a) != SL_OK);
+    }
+    if (!l->failed) {
+        if (l->count > 0) {
+            memcpy(vertex, l->vertex, (size_t)l->count * sizeof(sl_int));
+            memcpy(next, l->next, (size_t)l->count * sizeof(sl_int));
+        }
+        sli_free(l->a, l->block);
+        l->vertex = vertex;
+        l->next = next;
+        l->room = room;
+        l->block = b.base;
+    }
+}
+
+static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
+    if (l->count == l->room) {
+        sli_borders_grow(l);
+        if (l->failed) {
+            return;
+        }
+    }
+    l->vertex[l->count] = v;
+    l->next[l->count] = l->head[node];
+    l->head[node] = l->count++;
+}
+
+/* Lists every vertex of a level at the nodes that part it from a neighbour. */
+static void sli_borders_fill(sli_borders *l, const sli_tree *t, const sli_level *g,
+                             const sl_int *label) {
+    sl_int v, k;
+    sl_off e;
+    for (k = 0; k < t->count; k++) {
+        l->head[k] = -1;
+    }
+    l->count = 0;
+    for (v = 0; v < g->n; v++) {
+        const sl_int own = label[v];
+        sl_int last = own, listed = -1;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int other = label[g->to[e]];
+            if (other != own && other != last) {
+                const sl_int node = sli_tree_meet(t, own, other);
+                last = other;
+                if (node != listed && node != own && node != other) {
+                    listed = node;
+                    sli_borders_add(l, node, v);
+                }
+            }
+        }
+    }
+}
+
+#endif
+/* end src/impl/order_tree.h */
+/* begin src/impl/order_piece.h */
+/* order_piece.h: a piece of a graph in a numbering of its own: a whole part, or a band along a border */
+#ifndef SLI_ORDER_PIECE_H
+#define SLI_ORDER_PIECE_H
+
+/* Vertices of one side of a node, of both, or a few layers of each along the border between them.
+ * Edges to what lies outside but on the same side are counted in anchor. */
+typedef struct sli_piece {
+    sl_int n;
+    sl_int *vertex; /* n: number in the level */
+    sl_off *begin;  /* n + 1 */
+    sl_int *to, *edge;
+    sl_int *weight;
+    sl_int *anchor;               /* n */
+    unsigned char *side;          /* n: 0 left, 1 right, 2 separator */
+    unsigned char *home;          /* n: the side that anchor holds to */
+    unsigned char *layer;         /* n: distance to the border */
+    int64_t total[2];             /* weight of each side, with what lies outside */
+    sl_int *place;                /* a vertex of the level: its number here, -1 if it is not here */
+    unsigned char *locked, *best; /* n: of the search for a cut */
+    sl_int *scratch;              /* 6 n */
+} sli_piece;
+
+static void sli_piece_layout(sli_piece *p, sli_block *b, sl_int n, sl_off edges) {
+    p->vertex = SLI_TAKE(b, sl_int, n);
+    p->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
+    p->to = SLI_TAKE(b, sl_int, edges);
+    p->edge = SLI_TAKE(b, sl_int, edges);
+    p->weight = SLI_TAKE(b, sl_int, n);
+    p->anchor = SLI_TAKE(b, sl_int, n);
+    p->side = SLI_TAKE(b, unsigned char, n);
+    p->home = SLI_TAKE(b, unsigned char, n);
+    p->layer = SLI_TAKE(b, unsigned char, n);
+    p->place = SLI_TAKE(b, sl_int, n);
+    p->locked = SLI_TAKE(b, unsigned char, n);
+    p->best = SLI_TAKE(b, unsigned char, n);
+    p->scratch = SLI_TAKE(b, sl_int, 6 * (uint64_t)n);
+}
+
+SLI_INLINE void sli_piece_add(sli_piece *p, sl_int v, int layer) {
+    p->place[v] = p->n;
+    p->layer[p->n] = (unsigned char)layer;
+    p->vertex[p->n++] = v;
+}
+
+static void sli_piece_clear(sli_piece *p) {
+    sl_int k;
+    for (k = 0; k < p->n; k++) {
+        p->place[p->vertex[k]] = -1;
+    }
+    p->n = 0;
+}
+
+/* The edges between the vertices that were added; all of them below node. */
+static void sli_piece_edges(sli_piece *p, const sli_level *g, const sli_tree *t, sl_int node,
+                            const sl_int *label) {
+    sl_int k;
+    sl_off e, count = 0;
+    for (k = 0; k < p->n; k++) {
+        const sl_int v = p->vertex[k];
+        p->begin[k] = count;
+        p->weight[k] = sli_level_weight(g, v);
+        p->anchor[k] = 0;
+        p->side[k] = p->home[k] = label[v] > node;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int u = g->to[e];
+            if (p->place[u] != -1) {
+                p->to[count] = p->place[u];
+                p->edge[count++] = sli_level_edge(g, e);
+            } else if (sli_tree_is_below(t, node, label[u])) {
+                p->anchor[k] += sli_level_edge(g, e);
+            }
+        }
+    }
+    p->begin[p->n] = count;
+}
+
+/* The vertices of a leaf. */
+static void sli_piece_leaf(sli_piece *p, const sli_level *g, const sli_tree *t, sl_int node,
+                           const sl_int *label, const sl_int *vertices, sl_int count) {
+    sl_int k;
+    p->n = 0;
+    for (k = 0; k < count; k++) {
+        sli_piece_add(p, vertices[k], 0);
+    }
+    sli_piece_edges(p, g, t, node, label);
+    p->total[0] = t->weight[node];
+    p->total[1] = 0;
+}
+
+/* Share of a part that its band may have before another layer is added, on the finest level. In a volume two or three
+ * layers are most of a small part, and a cut anywhere in it would not balance. */
+#define SLI_BAND_SHARE 0.3
+
+/* The vertices at the border of a node, and up to so many layers on either side of them. */
+static void sli_piece_band(sli_piece *p, const sli_level *g, const sli_tree *t, sl_int node,
+                           const sl_int *label, const sli_borders *l, int layers) {
+    const sl_int most = (sl_int)(SLI_BAND_SHARE * (double)t->weight[node]);
+    sl_int entry, head = 0;
+    sl_off e;
+    int layer;
+    p->n = 0;
+    for (entry = l->head[node]; entry != -1; entry = l->next[entry]) {
+        const sl_int v = l->vertex[entry];
+        const int side = label[v] > node;
+        int crosses = 0;
+        if (p->place[v] != -1 || label[v] == node || !sli_tree_is_below(t, node, label[v])) {
+            continue;
+        }
+        for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
+            const sl_int other = label[g->to[e]];
+            crosses = other != node && sli_tree_is_below(t, node, other) && (other > node) != side;
+        }
+        if (crosses) {
+            sli_piece_add(p, v, 0);
+        }
+    }
+    for (layer = 1; layer <= layers && (layer == 1 || p->n < most); layer++) {
+        const sl_int end = p->n;
+        for (; head < end; head++) {
+            for (e = g->begin[p->vertex[head]]; e < g->begin[p->vertex[head] + 1]; e++) {
+                const sl_int u = g->to[e];
+                if (p->place[u] == -1 && sli_tree_is_below(t, node, label[u])) {
+                    sli_piece_add(p, u, layer);
+                }
+            }
+        }
+    }
+    sli_piece_edges(p, g, t, node, label);
+    p->total[0] = t->weight[t->left[node]];
+    p->total[1] = t->weight[t->right[node]];
+}
+
+/* Moves a vertex from one leaf to another below node, or (to == node) into the separator. */
+static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g, sli_tree *t,
+                               sl_int *label, sli_borders *l) {
+    const sl_int from = label[v], weight = sli_level_weight(g, v);
+    sl_int up, last = to;
+    sl_off e;
+    for (up = from; up != node; up = t->parent[up]) {
+        t->weight[up] -= weight;
+    }
+    for (up = to; up != node; up = t->parent[up]) {
+        t->weight[up] += weight;
+    }
+    label[v] = to;
+    if (to == node) {
+        return;
+    }
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int other = label[g->to[e]];
+        if (other != to && other != last && other != node && (other > node) == (to > node) &&
+            sli_tree_is_below(t, node, other)) {
+            const sl_int border = sli_tree_meet(t, to, other);
+            sli_borders_add(l, border, v);
+            sli_borders_add(l, border, g->to[e]);
+        }
+    }
+}
+
+/* The leaf on v's new side that has most edges to it, or -1. */
+static sl_int sli_piece_leaf_near(const sli_level *g, const sli_tree *t, sl_int node, sl_int v,
+                                  int side, const sl_int *label) {
+    sl_int best = -1, most = 0;
+    sl_off e;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int other = label[g->to[e]];
+        if (other != node && sli_tree_is_below(t, node, other) && (other > node) == side &&
+            sli_level_edge(g, e) > most) {
+            most = sli_level_edge(g, e);
+            best = other;
+        }
+    }
+    return best;
+}
+
+/* Writes the sides of a band into the labels. A vertex that has no neighbour on its new side stays
+ * where it was: it borders on nothing but the separator. */
+static void sli_piece_apply(sli_piece *p, const sli_level *g, sli_tree *t, sl_int node,
+                            sl_int *label, sli_borders *l) {
+    sl_int *moved = p->scratch, count = 0, k, left;
+    for (k = 0; k < p->n; k++) {
+        if (p->side[k] == 2) {
+            sli_relabel_vertex(p->vertex[k], node, node, g, t, label, l);
+        } else if (p->side[k] != p->home[k]) {
+            moved[count++] = k;
+        }
+    }
+    do { /* in layers from the border, so that a round or two are enough */
+        left = 0;
+        for (k = 0; k < count; k++) {
+            const sl_int m = moved[k], v = p->vertex[m];
+            const sl_int leaf = sli_piece_leaf_near(g, t, node, v, p->side[m], label);
+            if (leaf != -1) {
+                sli_relabel_vertex(v, leaf, node, g, t, label, l);
+            } else {
+                moved[left++] = m;
+            }
+        }
+        if (left == count) {
+            break;
+        }
+        count = left;
+    } while (count > 0);
+}
+
+#endif
+/* end src/impl/order_piece.h */
+/* begin src/impl/order_heap.h */
+/* order_heap.h: a queue of vertices by gain, the largest first */
+#ifndef SLI_ORDER_HEAP_H
+#define SLI_ORDER_HEAP_H
+
+/* A binary heap over arrays that several heaps may share: a vertex is in one of them at most. */
+typedef struct sli_heap {
+    sl_int count;
+    sl_int *item;  /* count, item[0] has the largest key */
+    sl_int *place; /* a vertex: where it stands in item, -1 if nowhere */
+    sl_int *key;   /* a vertex: its gain */
+} sli_heap;
+
+SLI_INLINE void sli_heap_up(sli_heap *h, sl_int k, sl_int v) {
+    while (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
+        h->item[k] = h->item[(k - 1) / 2];
+        h->place[h->item[k]] = k;
+        k = (k - 1) / 2;
+    }
+    h->item[k] = v;
+    h->place[v] = k;
+}
+
+SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sl_int v) {
+    for (;;) {
+        sl_int c = 2 * k + 1;
+        if (c >= h->count) {
+            break;
+        }
+        c += c + 1 < h->count && h->key[h->item[c + 1]] > h->key[h->item[c]];
+        if (h->key[h->item[c]] <= h->key[v]) {
+            break;
+        }
+        h->item[k] = h->item[c];
+        h->place[h->item[k]] = k;
+        k = c;
+    }
+    h->item[k] = v;
+    h->place[v] = k;
+}
+
+SLI_INLINE void sli_heap_add(sli_heap *h, sl_int v) {
+    sli_heap_up(h, h->count++, v);
+}
+
+/* After key[v] has changed. */
+SLI_INLINE void sli_heap_settle(sli_heap *h, sl_int v) {
+    const sl_int k = h->place[v];
+    if (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
+        sli_heap_up(h, k, v);
+    } else {
+        sli_heap_down(h, k, v);
+    }
+}
+
+SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int v) {
+    const sl_int k = h->place[v], last = h->item[--h->count];
+    h->place[v] = -1;
+    if (last != v) {
+        h->place[last] = k;
+        h->item[k] = last;
+        sli_heap_settle(h, last);
+    }
+}
+
+#endif
+/* end src/impl/order_heap.h */
+/* begin src/impl/order_bisect.h */
+/* order_bisect.h: a part cut in two by growing one half, and a cut made lighter by moving vertices across */
+#ifndef SLI_ORDER_BISECT_H
+#define SLI_ORDER_BISECT_H
+
+#define SLI_BALANCE 0.6 /* most of the weight that one side may get */
+
+/* What a cut costs: its edges, more where the sides differ. */
+SLI_INLINE double sli_cut_cost(double cut, const int64_t *total) {
+    const double sum = (double)(total[0] + total[1]);
+    const double skew = sum > 0.0 ? fabs((double)(total[0] - total[1])) / sum : 0.0;
+    return cut * (1.0 + skew);
+}
+
+/* Edges of v across the cut minus those on its own side: what the cut loses if v moves. */
+static sl_int sli_piece_gain(const sli_piece *p, sl_int v, int *on_border) {
+    const int side = p->side[v];
+    sl_int across = side != p->home[v] ? p->anchor[v] : 0;
+    sl_int own = p->anchor[v] - across;
+    sl_off e;
+    for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
+        if (p->side[p->to[e]] != side) {
+            across += p->edge[e];
+        } else {
+            own += p->edge[e];
+        }
+    }
+    *on_border = across > 0;
+    return across - own;
+}
+
+static int64_t sli_piece_cut(const sli_piece *p) {
+    int64_t twice = 0;
+    sl_int v;
+    sl_off e;
+    for (v = 0; v < p->n; v++) {
+        for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
+            twice += p->side[p->to[e]] != p->side[v] ? p->edge[e] : 0;
+        }
+        twice += p->side[v] != p->home[v] ? 2 * (int64_t)p->anchor[v] : 0;
+    }
+    return twice / 2;
+}
+
+typedef struct sli_mover {
+    sli_piece *p;
+    sli_heap heap[2]; /* by side */
+    unsigned char *locked;
+    sl_int *moves; /* in the order in which they were made */
+    int64_t most;  /* weight of a side */
+} sli_mover;
+
+SLI_INLINE int sli_mover_may(const sli_mover *m, sl_int v) {
+    const sli_piece *p = m->p;
+    const int from = p->side[v];
+    const int64_t after = p->total[1 - from] + p->weight[v];
+    return after <= m->most || after <= p->total[from];
+}
+
+/* The side whose best vertex should move next, -1 if none may. */
+static int sli_mover_choose(const sli_mover *m) {
+    int side, best = -1;
+    for (side = 0; side < 2; side++) {
+        const sli_heap *h = &m->heap[side];
+        if (h->count > 0 && sli_mover_may(m, h->item[0])) {
+            if (best == -1 || h->key[h->item[0]] > h->key[m->heap[best].item[0]] ||
+                (h->key[h->item[0]] == h->key[m->heap[best].item[0]] &&
+                 m->p->total[side] > m->p->total[best])) {
+                best = side;
+            }
+        }
+    }
+    return best;
+}
+
+static void sli_mover_flip(sli_mover *m, sl_int v) {
+    sli_piece *p = m->p;
+    const int from = p->side[v];
+    p->side[v] = (unsigned char)(1 - from);
+    p->total[from] -= p->weight[v];
+    p->total[1 - from] += p->weight[v];
+}
+
+/* Neighbours of a vertex that has just moved. */
+static void sli_mover_update(sli_mover *m, sl_int v) {
+    sli_piece *p = m->p;
+    sl_off e;
+    for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
+        const sl_int u = p->to[e];
+        sli_heap *h = &m->heap[p->side[u]];
+        if (m->locked[u]) {
+            continue;
+        }
+        if (h->place[u] == -1) {
+            int on_border;
+            h->key[u] = sli_piece_gain(p, u, &on_border);
+            if (on_border) {
+                sli_heap_add(h, u);
+            }
+        } else {
+            h->key[u] += p->side[u] == p->side[v] ? -2 * p->edge[e] : 2 * p->edge[e];
+            sli_heap_settle(h, u);
+        }
+    }
+}
+
+/* One round: moves the best vertex again and again, for better or worse, each vertex once, and goes
+ * back to the best cut on the way. Returns whether that is better than where it started. */
+static int sli_mover_round(sli_mover *m, double *cut) {
+    sli_piece *p = m->p;
+    const sl_int patience = 20 + p->n / 20 < 100 ? 20 + p->n / 20 : 100;
+    double here = *cut, cost = sli_cut_cost(here, p->total), best_cost = cost;
+    sl_int v, made = 0, best = 0;
+    int side;
+    m->heap[0].count = m->heap[1].count = 0;
+    for (v = 0; v < p->n; v++) {
+        int on_border;
+        m->locked[v] = 0;
+        m->heap[0].place[v] = -1;
+        m->heap[0].key[v] = sli_piece_gain(p, v, &on_border);
+        if (on_border) {
+            sli_heap_add(&m->heap[p->side[v]], v);
+        }
+    }
+    while (made - best < patience && (side = sli_mover_choose(m)) != -1) {
+        v = m->heap[side].item[0];
+        sli_heap_remove(&m->heap[side], v);
+        m->locked[v] = 1;
+        here -= m->heap[side].key[v];
+        sli_mover_flip(m, v);
+        sli_mover_update(m, v);
+        m->moves[made++] = v;
+        cost = sli_cut_cost(here, p->total);
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = made;
+            *cut = here;
+        }
+    }
+    while (made > best) {
+        sli_mover_flip(m, m->moves[--made]);
+    }
+    return best > 0;
+}
+
+static sli_mover sli_mover_of(sli_piece *p) {
+    sli_mover m;
+    m.p = p;
+    m.heap[0].place = m.heap[1].place = p->scratch;
+    m.heap[0].key = m.heap[1].key = p->scratch + p->n;
+    m.heap[0].item = p->scratch + 2 * (size_t)p->n;
+    m.heap[1].item = p->scratch + 3 * (size_t)p->n;
+    m.moves = p->scratch + 4 * (size_t)p->n;
+    m.locked = p->locked;
+    m.heap[0].count = m.heap[1].count = 0;
+    m.most = (int64_t)(SLI_BALANCE * (double)(p->total[0] + p->total[1]));
+    return m;
+}
+
+/* Makes the cut of a part lighter and returns what it costs. [FM82] */
+static double sli_piece_improve(sli_piece *p, int rounds) {
+    sli_mover m = sli_mover_of(p);
+    double cut = (double)sli_piece_cut(p);
+    while (rounds-- > 0 && sli_mover_round(&m, &cut)) {
+    }
+    return sli_cut_cost(cut, p->total);
+}
+
+/* A vertex of the part far from v. queue, seen: n of scratch. */
+static sl_int sli_piece_far(const sli_piece *p, sl_int v, sl_int *queue, unsigned char *seen) {
+    sl_int head, tail = 0;
+    sl_off e;
+    memset(seen, 0, (size_t)p->n);
+    queue[tail++] = v;
+    seen[v] = 1;
+    for (head = 0; head < tail; head++) {
+        for (e = p->begin[queue[head]]; e < p->begin[queue[head] + 1]; e++) {
+            if (!seen[p->to[e]]) {
+                seen[p->to[e]] = 1;
+                queue[tail++] = p->to[e];
+            }
+        }
+    }
+    return queue[tail - 1];
+}
+
+/* Puts half of the weight on the left, starting with seed: always the vertex next that leaves the
+ * lightest cut. */
+static void sli_piece_grow(sli_piece *p, sl_int seed) {
+    sli_mover m = sli_mover_of(p);
+    sl_int v, unseen = 0;
+    p->total[1] += p->total[0];
+    p->total[0] = 0;
+    memset(p->side, 1, (size_t)p->n);
+    memset(m.locked, 0, (size_t)p->n);
+    for (v = 0; v < p->n; v++) {
+        m.heap[0].place[v] = -1;
+    }
+    v = seed;
+    for (;;) {
+        m.locked[v] = 1;
+        sli_mover_flip(&m, v);
+        if (p->total[0] >= p->total[1]) {
+            break;
+        }
+        sli_mover_update(&m, v);
+        if (m.heap[1].count > 0) {
+            v = m.heap[1].item[0];
+            sli_heap_remove(&m.heap[1], v);
+        } else { /* the part is not connected */
+            while (unseen < p->n && m.locked[unseen]) {
+                unseen++;
+            }
+            if (unseen == p->n) {
+                break;
+            }
+            v = unseen;
+        }
+    }
+}
+
+/* Cuts a part in two: the best of some tries. */
+static void sli_piece_bisect(sli_piece *p, int tries, int rounds) {
+    double best = -1.0;
+    int64_t total[2] = {0, 0};
+    int k;
+    for (k = 0; k < tries; k++) {
+        sl_int seed = (sl_int)(sli_scatter((uint32_t)k + 77u) % (uint32_t)p->n);
+        double cost;
+        if (k % 2 == 0) {
+            seed = sli_piece_far(p, seed, p->scratch, p->locked);
+        }
+        sli_piece_grow(p, seed);
+        cost = sli_piece_improve(p, rounds);
+        if (k == 0 || cost < best) {
+            best = cost;
+            memcpy(p->best, p->side, (size_t)p->n);
+            total[0] = p->total[0];
+            total[1] = p->total[1];
+        }
+    }
+    memcpy(p->side, p->best, (size_t)p->n);
+    p->total[0] = total[0];
+    p->total[1] = total[1];
+}
+
+#endif
+/* end src/impl/order_bisect.h */
+/* begin src/impl/order_cut.h */
+/* order_cut.h: the smallest set of vertices in a band whose removal parts the two sides */
+#ifndef SLI_ORDER_CUT_H
+#define SLI_ORDER_CUT_H
+
+/* A flow of vertex-disjoint paths from the left side to the right. A vertex is entered and left:
+ * state 2 v is its entrance, 2 v + 1 its exit; between them one path fits. By Menger's theorem as
+ * many paths as possible are as many as the smallest cut has vertices. A round looks for a way from
+ * every start in turn and enters no state twice. [FF56] */
+typedef struct sli_flow {
+    sli_piece *p;
+    sl_int *before, *after; /* n: the path's vertices round v; SLI_FLOW_NONE off every path */
+    sl_int *seen;           /* 2 n: the last round that entered a state */
+    sl_int *way;            /* 2 n: states of a way, from the left */
+    sl_off *next;           /* n: the edge to try next */
+    unsigned char *end;     /* n: 1 may start a path, 2 may end one */
+} sli_flow;
+
+#define SLI_FLOW_NONE (-1)
+#define SLI_FLOW_END (-2)  /* the path begins or ends here */
+#define SLI_FLOW_ROUNDS 60 /* no band met needed more than 20 */
+
+/* Vertices that touch what lies outside are ends; a side that lies in the band as a whole ends in
+ * its farthest layer. */
+static void sli_flow_ends(sli_flow *f) {
+    const sli_piece *p = f->p;
+    int far[2] = {-1, -1}, anchored[2] = {0, 0};
+    sl_int v;
+    for (v = 0; v < p->n; v++) {
+        const int s = p->side[v];
+        anchored[s] |= p->anchor[v] > 0;
+        far[s] = p->layer[v] > far[s] ? p->layer[v] : far[s];
+    }
+    for (v = 0; v < p->n; v++) {
+        const int s = p->side[v];
+        const int is_end = anchored[s] ? p->anchor[v] > 0 : p->layer[v] == far[s];
+        f->end[v] = (unsigned char)(is_end ? 1 + s : 0);
+    }
+}
+
+/* Puts the edges of every vertex that lead towards the right first, those towards the left last: a
+ * way that goes straight on leaves most room for others. */
+static void sli_flow_aim(sli_flow *f) {
+    sli_piece *p = f->p;
+    sl_int v;
+    for (v = 0; v < p->n; v++) {
+        const int own = p->side[v] == 0 ? -1 - p->layer[v] : p->layer[v];
+        sl_off e, front = p->begin[v], back = p->begin[v + 1];
+        for (e = front; e < back;) {
+            const sl_int u = p->to[e];
+            const int other = p->side[u] == 0 ? -1 - p->layer[u] : p->layer[u];
+            if (other > own) {
+                p->to[e++] = p->to[front];
+                p->to[front++] = u;
+            } else if (other < own) {
+                p->to[e] = p->to[--back];
+                p->to[back] = u;
+            } else {
+                e++;
+            }
+        }
+    }
+}
+
+/* The state to go on to from an exit, -1 if none is left. */
+static sl_int sli_flow_leave(sli_flow *f, sl_int v, sl_int round) {
+    const sli_piece *p = f->p;
+    for (; f->next[v] < p->begin[v + 1]; f->next[v]++) {
+        const sl_int u = p->to[f->next[v]];
+        if (f->seen[2 * u] != round) {
+            return 2 * u;
+        }
+    }
+    /* back through the vertex, where a path comes out of it */
+    return f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v : -1;
+}
+
+/* A way from entrance v to the right; its length, 0 if there is none. */
+static sl_int sli_flow_way(sli_flow *f, sl_int v, sl_int round) {
+    sl_int length = 0, state = 2 * v;
+    f->way[length++] = state;
+    f->seen[state] = round;
+    while (length > 0) {
+        sl_int onward = -1;
+        state = f->way[length - 1];
+        v = state / 2;
+        if (state % 2 == 1) {
+            if (f->end[v] == 2 && f->after[v] != SLI_FLOW_END) {
+                break;
+            }
+            onward = sli_flow_leave(f, v, round);
+        } else if (f->before[v] == SLI_FLOW_NONE) {
+            onward = 2 * v + 1;
+        } else if (f->before[v] >= 0) { /* back along the path that comes in here */
+            onward = 2 * f->before[v] + 1;
+        }
+        if (onward == -1 || f->seen[onward] == round) {
+            length--;
+            continue;
+        }
+        f->seen[onward] = round;
+        f->way[length++] = onward;
+        if (onward % 2 == 1) {
+            f->next[onward / 2] = f->p->begin[onward / 2];
+        }
+    }
+    return length;
+}
+
+/* Sends one path more along a way. */
+static void sli_flow_send(sli_flow *f, sl_int length) {
+    sl_int k;
+    f->before[f->way[0] / 2] = SLI_FLOW_END;
+    for (k = 0; k < length; k++) {
+        const sl_int state = f->way[k], v = state / 2;
+        if (state % 2 == 0) {
+            continue; /* in and through, or in and back: what follows says */
+        }
+        if (k + 1 == length) {
+            f->after[v] = SLI_FLOW_END;
+        } else if (f->way[k + 1] == 2 * v) {
+            f->before[v] = f->after[v] = SLI_FLOW_NONE;
+        } else {
+            f->after[v] = f->way[k + 1] / 2;
+            f->before[f->after[v]] = v;
+        }
+    }
+}
+
+/* As many paths as there can be; whether the search came to its end. Then seen == *last marks what
+ * the left can reach. */
+static int sli_flow_run(sli_flow *f, sl_int *last) {
+    const sl_int n = f->p->n;
+    sl_int v, round, found = 1;
+    for (v = 0; v < n; v++) {
+        f->before[v] = f->after[v] = SLI_FLOW_NONE;
+        f->seen[2 * v] = f->seen[2 * v + 1] = 0;
+    }
+    for (round = 1; found && round <= SLI_FLOW_ROUNDS; round++) {
+        found = 0;
+        for (v = 0; v < n; v++) {
+            if (f->end[v] == 1 && f->seen[2 * v] != round) {
+                /* where a path begins the way ends at once, and yet the entrance is reached */
+                const sl_int length = sli_flow_way(f, v, round);
+                if (length > 0) {
+                    sli_flow_send(f, length);
+                    found = 1;
+                }
+            }
+        }
+        *last = round;
+    }
+    return !found;
+}
+
+SLI_INLINE sl_int sli_flow_see(sli_flow *f, sl_int state, sl_int tail) {
+    if (f->seen[state] != -1) {
+        f->seen[state] = -1;
+        f->way[tail++] = state;
+    }
+    return tail;
+}
+
+/* Marks by -1 the states from which the right can be reached. */
+static void sli_flow_back(sli_flow *f) {
+    const sli_piece *p = f->p;
+    sl_int v, head, tail = 0;
+    sl_off e;
+    for (v = 0; v < p->n; v++) {
+        if (f->end[v] == 2) {
+            tail = sli_flow_see(f, 2 * v + 1, tail);
+        }
+    }
+    for (head = 0; head < tail; head++) {
+        v = f->way[head] / 2;
+        if (f->way[head] % 2 == 1) {
+            if (f->before[v] == SLI_FLOW_NONE) {
+                tail = sli_flow_see(f, 2 * v, tail);
+            } else if (f->after[v] >= 0) {
+                tail = sli_flow_see(f, 2 * f->after[v], tail);
+            }
+        } else {
+            if (f->before[v] != SLI_FLOW_NONE) {
+                tail = sli_flow_see(f, 2 * v + 1, tail);
+            }
+            for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
+                tail = sli_flow_see(f, 2 * p->to[e] + 1, tail);
+            }
+        }
+    }
+}
+
+/* Adds an exit and what can be reached from it to what is marked; none of it can reach the right.
+ * Returns the weight of the vertices that the left gains. */
+static int64_t sli_flow_extend(sli_flow *f, sl_int v, sl_int mark) {
+    const sli_piece *p = f->p;
+    sl_int head, tail = 0, onward;
+    int64_t gained = 0;
+    sl_off e;
+    f->seen[2 * v + 1] = mark;
+    f->way[tail++] = 2 * v + 1;
+    for (head = 0; head < tail; head++) {
+        v = f->way[head] / 2;
+        if (f->way[head] % 2 == 0) {
+            onward = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1
+                     : f->before[v] >= 0           ? 2 * f->before[v] + 1
+                                                   : -1;
+            if (onward != -1 && f->seen[onward] != mark) {
+                f->seen[onward] = mark;
+                f->way[tail++] = onward;
+            }
+            continue;
+        }
+        gained += p->weight[v];
+        if (f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != mark) {
+            f->seen[2 * v] = mark;
+            f->way[tail++] = 2 * v;
+        }
+        for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
+            onward = 2 * p->to[e];
+            if (f->seen[onward] != mark) {
+                f->seen[onward] = mark;
+                f->way[tail++] = onward;
+            }
+        }
+    }
+    return gained;
+}
+
+/* Of all smallest cuts takes one that balances: starting with the one nearest to the left, vertices
+ * from which the right cannot be reached join the left until it has half. */
+static void sli_flow_balance(sli_flow *f, sl_int mark) {
+    const sli_piece *p = f->p;
+    int64_t left = p->total[0], half = p->total[0] + p->total[1];
+    sl_int v, k;
+    for (v = 0; v < p->n; v++) {
+        const int in = f->seen[2 * v] == mark, out = f->seen[2 * v + 1] == mark;
+        left += (p->side[v] == 1 && out ? p->weight[v] : 0) -
+                (p->side[v] == 0 && !out ? p->weight[v] : 0);
+        half -= in && !out ? p->weight[v] : 0;
+    }
+    half /= 2;
+    for (k = 0; k < 2 * p->n && left < half; k++) {
+        v = k < p->n ? p->n - 1 - k : k - p->n; /* the left from far to near, then the right */
+        if (p->side[v] == (k >= p->n) && f->seen[2 * v + 1] != mark && f->seen[2 * v + 1] != -1) {
+            left += sli_flow_extend(f, v, mark);
+        }
+    }
+}
+
+/* The way out where a search takes too long: the border vertices of the lighter side. */
+static void sli_cut_cover(sli_piece *p) {
+    const int side = p->total[0] > p->total[1];
+    sl_int v;
+    for (v = 0; v < p->n; v++) {
+        p->side[v] = p->side[v] == side && p->layer[v] == 0 ? 2 : p->side[v];
+    }
+}
+
+/* Makes a smallest cut the separator of a band. end: n, scratch: 6 n, next: n of scratch. */
+static void sli_piece_cut_vertices(sli_piece *p, unsigned char *end, sl_int *scratch,
+                                   sl_off *next) {
+    const size_t n = (size_t)p->n;
+    sl_int v, last = 0;
+    sli_flow f;
+    f.p = p;
+    f.before = scratch;
+    f.after = scratch + n;
+    f.seen = scratch + 2 * n;
+    f.way = scratch + 4 * n;
+    f.next = next;
+    f.end = end;
+    sli_flow_ends(&f);
+    sli_flow_aim(&f);
+    if (p->n > INT32_MAX / 2 || !sli_flow_run(&f, &last)) {
+        sli_cut_cover(p);
+        return;
+    }
+    sli_flow_back(&f);
+    sli_flow_balance(&f, last);
+    for (v = 0; v < p->n; v++) {
+        const int in = f.seen[2 * v] == last, out = f.seen[2 * v + 1] == last;
+        p->side[v] = (unsigned char)(out ? 0 : in ? 2 : 1);
+    }
+}
+
+#endif
+/* end src/impl/order_cut.h */
+/* begin src/impl/order_leaves.h */
+/* order_leaves.h: minimum degree in the parts that are too small to dissect, on rows of bits */
+#ifndef SLI_ORDER_LEAVES_H
+#define SLI_ORDER_LEAVES_H
+
+#define SLI_LEAF_MAX 1024 /* vertices of a leaf that is ordered; larger ones keep their order */
+#define SLI_LEAF_GONE UINT32_MAX
+
+/* A leaf with its halo: the vertices of separators round it, which are eliminated later and so
+ * count in every degree. */
+typedef struct sli_leaf {
+    sl_int n;                          /* own vertices: bits 0..n-1; halo bits follow */
+    size_t words;                      /* 64-bit words a row */
+    uint64_t *rows;                    /* n x words: the graph of what is left, with its diagonal */
+    uint32_t *key;                     /* n: degree, then number; SLI_LEAF_GONE once eliminated */
+    size_t room;                       /* words in rows */
+    uint64_t alive[SLI_LEAF_MAX / 64]; /* own vertices that are not eliminated */
+    int has_popcnt;                    /* any processor with AVX2 has that instruction */
+} sli_leaf;
+
+/* Bits of a word: one instruction in functions compiled for it, see below. */
+SLI_ALWAYS_INLINE uint32_t sli_bits(uint64_t w) {
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_popcountll(w);
+#else
+    w -= w >> 1 & 0x5555555555555555u;
+    w = (w & 0x3333333333333333u) + (w >> 2 & 0x3333333333333333u);
+    w = (w + (w >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+    return (uint32_t)(w * 0x0101010101010101u >> 56);
+#endif
+}
+
+SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
+#if defined(__GNUC__)
+    return (sl_int)__builtin_ctzll(w);
+#else
+    return (sl_int)sli_bits((w & (0 - w)) - 1);
+#endif
+}
+
+/* other |= row without bit v; the degree, of which row v is part. */
+SLI_ALWAYS_INLINE uint32_t sli_leaf_join(uint64_t *other, const uint64_t *row, size_t words,
+                                         sl_int v) {
+    uint32_t degree = 0;
+    size_t k;
+    other[v / 64] &= ~((uint64_t)1 << (v % 64));
+    for (k = 0; k < words; k++) {
+        other[k] |= row[k];
+        degree += sli_bits(other[k]);
+    }
+    return degree - 1;
+}
+
+/* Takes v out, and with it all that have no other neighbours than v has: the neighbours of v become
+ * neighbours of each other. Appends them to order[at] on; where that ends. */
+SLI_ALWAYS_INLINE sl_int sli_leaf_eliminate(sli_leaf *l, sl_int v, sl_int *order, sl_int at) {
+    const uint32_t degree = l->key[v] / SLI_LEAF_MAX;
+    const size_t own = ((size_t)l->n + 63) / 64;
+    uint64_t *row = l->rows + (size_t)v * l->words, gone[SLI_LEAF_MAX / 64];
+    const sl_int first = at;
+    size_t k, w;
+    memset(gone, 0, own * sizeof(uint64_t));
+    row[v / 64] &= ~((uint64_t)1 << (v % 64));
+    l->key[v] = SLI_LEAF_GONE;
+    order[at++] = v;
+    for (k = 0; k < own; k++) {
+        uint64_t bits = row[k] & l->alive[k];
+        for (; bits != 0; bits &= bits - 1) {
+            const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
+            const uint32_t now = sli_leaf_join(l->rows + (size_t)u * l->words, row, l->words, v);
+            l->key[u] = now * SLI_LEAF_MAX + (uint32_t)u;
+            if (now + 1 == degree) { /* the clique of v, and nothing else */
+                l->key[u] = SLI_LEAF_GONE;
+                gone[k] |= (uint64_t)1 << (u % 64);
+                order[at++] = u;
+            }
+        }
+    }
+    l->alive[v / 64] &= ~((uint64_t)1 << (v % 64));
+    for (k = 0; k < own && at > first + 1; k++) {
+        uint64_t bits = row[k] & l->alive[k] & ~gone[k];
+        for (; bits != 0; bits &= bits - 1) {
+            const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
+            uint64_t *other = l->rows + (size_t)u * l->words;
+            for (w = 0; w < own; w++) {
+                other[w] &= ~gone[w];
+            }
+            l->key[u] -= (uint32_t)(at - first - 1) * SLI_LEAF_MAX;
+        }
+    }
+    for (k = 0; k < own; k++) {
+        l->alive[k] &= ~gone[k];
+    }
+    return at;
+}
+
+/* The first vertex of the fewest neighbours. */
+SLI_INLINE sl_int sli_leaf_best(const sli_leaf *l) {
+    uint32_t least[4] = {SLI_LEAF_GONE, SLI_LEAF_GONE, SLI_LEAF_GONE, SLI_LEAF_GONE};
+    sl_int v = 0, k;
+    for (; v <= l->n - 4; v += 4) {
+        for (k = 0; k < 4; k++) {
+            least[k] = l->key[v + k] < least[k] ? l->key[v + k] : least[k];
+        }
+    }
+    for (; v < l->n; v++) {
+        least[0] = l->key[v] < least[0] ? l->key[v] : least[0];
+    }
+    for (k = 1; k < 4; k++) {
+        least[0] = least[k] < least[0] ? least[k] : least[0];
+    }
+    return (sl_int)(least[0] % SLI_LEAF_MAX);
+}
+
+/* order: the vertices in the order of elimination. */
+SLI_ALWAYS_INLINE void sli_leaf_run_body(sli_leaf *l, sl_int *order) {
+    sl_int at = 0;
+    while (at < l->n) {
+        at = sli_leaf_eliminate(l, sli_leaf_best(l), order, at);
+    }
+}
+
+static void sli_leaf_run(sli_leaf *l, sl_int *order) {
+    sli_leaf_run_body(l, order);
+}
+
+#if defined(SLI_X86)
+SLI_TARGET("popcnt") static void sli_leaf_run_popcnt(sli_leaf *l, sl_int *order) {
+    sli_leaf_run_body(l, order);
+}
+#endif
+
+/* The graph of a leaf as rows of bits; whether there is room for it. place: for each vertex of g -1
+ * on entry and on return. */
+static int sli_leaf_fill(sli_leaf *l, const sli_level *g, const sl_int *vertices, sl_int count,
+                         sl_int *place) {
+    sl_int k, bits = count;
+    sl_off e;
+    int fits;
+    for (k = 0; k < count; k++) {
+        place[vertices[k]] = k;
+    }
+    for (k = 0; k < count; k++) {
+        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
+            if (place[g->to[e]] == -1) {
+                place[g->to[e]] = bits++;
+            }
+        }
+    }
+    l->n = count;
+    l->words = ((size_t)bits + 63) / 64;
+    fits = count <= SLI_LEAF_MAX && l->words * (size_t)count <= l->room;
+    if (fits) {
+        memset(l->alive, 0, sizeof l->alive);
+        memset(l->rows, 0, l->words * (size_t)count * sizeof(uint64_t));
+    }
+    for (k = 0; k < count && fits; k++) {
+        uint64_t *row = l->rows + (size_t)k * l->words;
+        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
+            const sl_int b = place[g->to[e]];
+            row[b / 64] |= (uint64_t)1 << (b % 64);
+        }
+        l->key[k] = (sli_leaf_join(row, row, l->words, k) + 1) * SLI_LEAF_MAX + (uint32_t)k;
+        row[k / 64] |= (uint64_t)1 << (k % 64);
+        l->alive[k / 64] |= (uint64_t)1 << (k % 64);
+    }
+    for (k = 0; k < count; k++) {
+        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
+            place[g->to[e]] = -1;
+        }
+        place[vertices[k]] = -1;
+    }
+    return fits;
+}
+
+/* Reorders vertices, all of one leaf, in place: always the one with the fewest neighbours next.
+ * order: count of scratch. */
+static void sli_leaf_order(sli_leaf *l, const sli_level *g, sl_int *vertices, sl_int count,
+                           sl_int *place, sl_int *order) {
+    sl_int k;
+    if (!sli_leaf_fill(l, g, vertices, count, place)) {
+        return;
+    }
+#if defined(SLI_X86)
+    if (l->has_popcnt) {
+        sli_leaf_run_popcnt(l, order);
+    } else
+#endif
+    {
+        sli_leaf_run(l, order);
+    }
+    for (k = 0; k < count; k++) {
+        order[k] = vertices[order[k]];
+    }
+    memcpy(vertices, order, (size_t)count * sizeof(sl_int));
+}
+
+#endif
+/* end src/impl/order_leaves.h */
+/* begin src/impl/order_dissect.h */
+/* order_dissect.h: nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest */
+#ifndef SLI_ORDER_DISSECT_H
+#define SLI_ORDER_DISSECT_H
+
+/* Below this many vertices minimum degree is as good as a further cut. */
+#define SLI_DISSECT_LEAF 200
+/* A part is cut on the coarsest level on which it has more vertices than this. */
+#define SLI_DISSECT_PART 100
+/* The finest level on which parts are cut has a vertex for at least so many of the graph. */
+#define SLI_DISSECT_SHRINK 7
+/* Growing tries for the first cuts, which decide most, and for all others. */
+#define SLI_DISSECT_FIRST 64
+#define SLI_DISSECT_TRIES_FIRST 8
+#define SLI_DISSECT_TRIES 2
+/* Layers on either side of a border that may change sides, on coarse levels and at last. */
+#define SLI_DISSECT_LAYERS 3
+#define SLI_DISSECT_BAND 2
+#define SLI_DISSECT_BAND_FROM 1000
+/* Most of the weight that one side of a separator may get: the last step may lose some balance. */
+#define SLI_CUT_BALANCE 0.7
+
+/* Everything that is needed while one graph after the other is dissected; all have room for the
+ * largest. */
+typedef struct sli_dissection {
+    const sl_allocator *a;
+    sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
+    int n_levels, l;                  /* l: the level that labels are of */
+    int widening; /* layers more of a band for each four times of a part's size */
+    sli_tree tree;
+    sli_borders borders;
+    sli_piece part;
+    sli_leaf leaf;
+    sl_int *label, *other; /* n: the node of each vertex; the other one is scratch */
+    sl_int *begin;         /* room + 1: where the vertices of a node begin in order */
+    sl_int *order;         /* n */
+    sl_int *nodes;         /* room */
+    sl_off *next;          /* n */
+} sli_dissection;
+
+static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
+    const sl_int room = n + 1; /* more nodes than vertices are not made */
+    d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
+    sli_tree_layout(&d->tree, b, room);
+    d->borders.head = SLI_TAKE(b, sl_int, room);
+    sli_piece_layout(&d->part, b, n, edges);
+    d->label = SLI_TAKE(b, sl_int, n);
+    d->other = SLI_TAKE(b, sl_int, n);
+    d->begin = SLI_TAKE(b, sl_int, (size_t)room + 1);
+    d->order = SLI_TAKE(b, sl_int, n);
+    d->nodes = SLI_TAKE(b, sl_int, room);
+    d->next = SLI_TAKE(b, sl_off, n);
+    d->leaf.key = SLI_TAKE(b, uint32_t, SLI_LEAF_MAX);
+    d->leaf.room = (size_t)SLI_LEAF_MAX * SLI_LEAF_MAX / 32;
+    d->leaf.rows = SLI_TAKE(b, uint64_t, d->leaf.room);
+}
+
+/* The vertices of node t become order[begin[t]] .. order[begin[t + 1] - 1]. */
+static void sli_dissect_sort(sli_dissection *d) {
+    const sli_level *g = &d->levels[d->l];
+    sl_int v, k, total = 0;
+    memset(d->begin, 0, ((size_t)d->tree.count + 1) * sizeof(sl_int));
+    for (v = 0; v < g->n; v++) {
+        d->begin[d->label[v]]++;
+    }
+    for (k = 0; k <= d->tree.count; k++) {
+        const sl_int here = d->begin[k];
+        d->begin[k] = total;
+        total += here;
+    }
+    for (v = 0; v < g->n; v++) {
+        d->order[d->begin[d->label[v]]++] = v;
+    }
+    memmove(d->begin + 1, d->begin, (size_t)d->tree.count * sizeof(sl_int));
+    d->begin[0] = 0;
+}
+
+/* One node, everything. */
+static void sli_dissect_start(sli_dissection *d) {
+    const sl_int n = d->levels[d->l].n;
+    d->tree.count = 0;
+    d->tree.root = sli_tree_add(&d->tree, -1);
+    d->tree.weight[d->tree.root] = d->levels[0].n;
+    memset(d->label, 0, (size_t)n * sizeof(sl_int));
+    sli_tree_number(&d->tree, n, d->label);
+}
+
+/* Hands the sides of the part to two new leaves below node. */
+static void sli_dissect_divide(sli_dissection *d, sl_int node) {
+    const sli_piece *p = &d->part;
+    sl_int k, weight[2] = {0, 0};
+    sli_tree_split(&d->tree, node);
+    for (k = 0; k < p->n; k++) {
+        const int side = p->side[k];
+        d->label[p->vertex[k]] = side == 0 ? d->tree.left[node] : d->tree.right[node];
+        weight[side] += p->weight[k];
+    }
+    d->tree.weight[d->tree.left[node]] = weight[0];
+    d->tree.weight[d->tree.right[node]] = weight[1];
+}
+
+/* Cuts every leaf of more than so many vertices of this level, and of more than a leaf may have of
+ * the finest. Returns how many there were. */
+static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
+    const sli_level *g = &d->levels[d->l];
+    const sl_int nodes = d->tree.count;
+    sl_int node, split = 0;
+    sli_dissect_sort(d);
+    for (node = 0; node < nodes; node++) {
+        const sl_int count = d->begin[node + 1] - d->begin[node];
+        if (sli_tree_is_leaf(&d->tree, node) && count > most &&
+            d->tree.weight[node] > SLI_DISSECT_LEAF && d->tree.count < d->tree.room - 1) {
+            const int few = d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_PART;
+            sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node], count);
+            sli_piece_bisect(&d->part,
+                             few          ? SLI_DISSECT_TRIES_FIRST
+                             : count > 50 ? SLI_DISSECT_TRIES
+                                          : 1,
+                             2);
+            sli_dissect_divide(d, node);
+            sli_piece_clear(&d->part);
+            split++;
+        }
+    }
+    if (split > 0) {
+        sli_tree_number(&d->tree, g->n, d->label);
+    }
+    return split;
+}
+
+/* Moves the borders of all nodes, the root's first, to where they cut less. */
+static void sli_dissect_refine(sli_dissection *d) {
+    const sli_level *g = &d->levels[d->l];
+    sl_int k;
+    sli_borders_fill(&d->borders, &d->tree, g, d->label);
+    sli_tree_levels(&d->tree, d->nodes);
+    for (k = 0; k < d->tree.count; k++) {
+        const sl_int node = d->nodes[k];
+        if (!sli_tree_is_leaf(&d->tree, node) && d->borders.head[node] != -1) {
+            sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, SLI_DISSECT_LAYERS);
+            sli_piece_improve(&d->part, 2);
+            sli_piece_apply(&d->part, g, &d->tree, node, d->label, &d->borders);
+            sli_piece_clear(&d->part);
+        }
+    }
+}
+
+/* Whether the sides of the piece, now with a separator, are balanced, or no less than before. */
+static int sli_dissect_is_even(const sli_dissection *d) {
+    const sli_piece *p = &d->part;
+    int64_t total[2], sum, before = p->total[0] > p->total[1] ? p->total[0] : p->total[1];
+    sl_int v;
+    total[0] = p->total[0];
+    total[1] = p->total[1];
+    for (v = 0; v < p->n; v++) {
+        total[p->home[v]] -= p->weight[v];
+        if (p->side[v] != 2) {
+            total[p->side[v]] += p->weight[v];
+        }
+    }
+    sum = total[0] + total[1];
+    total[0] = total[0] > total[1] ? total[0] : total[1];
+    return (double)total[0] <= SLI_CUT_BALANCE * (double)sum || total[0] <= before;
+}
+
+/* Puts a smallest vertex cut of the band at each border into the separators, the root's first. The
+ * larger a part, the wider its band: the first cuts decide most, and there are few of them. Where
+ * the cut is out of balance a narrower band is taken, at last the border alone. */
+static void sli_dissect_cut(sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
+    sl_int k;
+    sli_borders_fill(&d->borders, &d->tree, g, d->label);
+    sli_tree_levels(&d->tree, d->nodes);
+    for (k = 0; k < d->tree.count; k++) {
+        const sl_int node = d->nodes[k];
+        sl_int weight = d->tree.weight[node];
+        int layers = SLI_DISSECT_BAND;
+        if (sli_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
+            continue;
+        }
+        for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
+            layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->widening : sli_min(d->widening, 1);
+        }
+        for (;; layers /= 2) {
+            sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
+            sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
+            if (layers == 0 || sli_dissect_is_even(d)) {
+                break;
+            }
+            sli_piece_clear(&d->part);
+        }
+        sli_piece_apply(&d->part, g, &d->tree, node, d->label, &d->borders);
+        sli_piece_clear(&d->part);
+    }
+}
+
+/* Labels of a level to the next finer one. */
+static void sli_dissect_project(sli_dissection *d) {
+    const sli_level *g = &d->levels[--d->l];
+    sl_int v, *coarser = d->label;
+    for (v = 0; v < g->n; v++) {
+        d->other[v] = coarser[g->coarse[v]];
+    }
+    d->label = d->other;
+    d->other = coarser;
+}
+
+static void sli_dissect_weigh(sli_dissection *d, int l) {
+    sli_weighing w;
+    w.cluster = d->label;
+    w.member = d->order;
+    w.start = d->nodes;
+    w.seen = d->begin;
+    w.to = d->part.to;
+    w.count = d->part.edge;
+    w.at = d->next;
+    sli_weigh_level(d->levels, l, &w);
+}
+
+/* Coarsens; *working: the level on which parts are cut. */
+static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
+    const sl_int n = d->levels[0].n, enough = sli_min(SLI_DISSECT_PART, n / SLI_DISSECT_SHRINK);
+    int shrunk = 1;
+    sl_status status = SL_OK;
+    *working = -1;
+    d->n_levels = 1;
+    for (;;) {
+        const int last = d->n_levels - 1;
+        const sli_level *g = &d->levels[last];
+        /* three times the mean weight keeps a level even, which a cut by halves needs */
+        const sl_int heaviest = (sl_int)(3.0 * (double)n / (double)g->n) + 1;
+        if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
+            *working = last;
+            sli_dissect_weigh(d, last);
+        }
+        if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
+            break;
+        }
+        status =
+            sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, d->next, &shrunk, d->a);
+        if (status != SL_OK || !shrunk) {
+            break;
+        }
+        d->n_levels++;
+    }
+    *working = *working == -1 ? d->n_levels - 1 : *working;
+    return status;
+}
+
+static void sli_dissect_free_levels(sli_dissection *d) {
+    int k;
+    for (k = 1; k < d->n_levels; k++) {
+        sli_free(d->a, d->levels[k].block);
+    }
+    d->n_levels = 1;
+}
+
+/* The tree of parts: each is cut as soon as it is large enough on a level; its border then follows
+ * from level to level. */
+static sl_status sli_dissect_multilevel(sli_dissection *d) {
+    int working;
+    sl_status status = sli_dissect_coarsen(d, &working);
+    if (status == SL_OK) {
+        d->l = d->n_levels - 1;
+        sli_dissect_start(d);
+        for (;;) {
+            while (sli_dissect_split(d, d->l == working ? 1 : SLI_DISSECT_PART) > 0) {
+            }
+            if (d->l == working) {
+                break;
+            }
+            sli_dissect_project(d);
+            sli_dissect_refine(d);
+        }
+        while (d->l > 0) {
+            sli_dissect_project(d);
+        }
+    }
+    sli_dissect_free_levels(d);
+    return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+}
+
+/* What a tree of parts will cost in path weight, in a measure of its own: half of a part's vertices
+ * pass its separator, whose columns are about as many as they are long, so each node counts its
+ * weight times the square of its border. *flat: the same for a flat square of as many vertices. */
+static double sli_dissect_cost(sli_dissection *d, double *flat) {
+    const sli_level *g = &d->levels[0];
+    sl_int *border = d->nodes, v, k;
+    sl_off e;
+    double cost = 0.0;
+    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
+    for (v = 0; v < g->n; v++) {
+        const sl_int own = d->label[v];
+        sl_int last = -1;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int other = d->label[g->to[e]];
+            if (own < other && other != last) {
+                const sl_int node = sli_tree_meet(&d->tree, own, other);
+                border[node] += last == -1 || node != sli_tree_meet(&d->tree, own, last);
+                last = other;
+            }
+        }
+    }
+    *flat = 0.0;
+    for (k = 0; k < d->tree.count; k++) {
+        const double weight = d->tree.weight[k];
+        if (!sli_tree_is_leaf(&d->tree, k)) {
+            cost += weight * (double)border[k] * (double)border[k];
+            *flat += weight * weight;
+        }
+    }
+    return cost;
+}
+
+#endif
+/* end src/impl/order_dissect.h */
+/* begin src/impl/order_layers.h */
+/* order_layers.h: parts cut between the layers of a breadth-first search: what grids of three dimensions want */
+#ifndef SLI_ORDER_LAYERS_H
+#define SLI_ORDER_LAYERS_H
+
+/* A cut is looked for where either side has at least this share. */
+#define SLI_LAYERS_SHARE 0.35
+
+/* Distances from a vertex, what it does not reach following at a distance; the vertices in that
+ * order. Returns the number of distances, at most 2 n. */
+static sl_int sli_layers_search(const sli_piece *p, sl_int from, sl_int *order, sl_int *distance) {
+    sl_int v, head = 0, tail = 0, unseen = 0;
+    sl_off e;
+    for (v = 0; v < p->n; v++) {
+        distance[v] = -1;
+    }
+    distance[from] = 0;
+    order[tail++] = from;
+    for (;;) {
+        for (; head < tail; head++) {
+            for (e = p->begin[order[head]]; e < p->begin[order[head] + 1]; e++) {
+                if (distance[p->to[e]] == -1) {
+                    distance[p->to[e]] = distance[order[head]] + 1;
+                    order[tail++] = p->to[e];
+                }
+            }
+        }
+        if (tail == p->n) {
+            return distance[order[tail - 1]] + 1;
+        }
+        while (distance[unseen] != -1) {
+            unseen++;
+        }
+        distance[unseen] = distance[order[tail - 1]] + 2; /* nothing lies between */
+        order[tail++] = unseen;
+    }
+}
+
+/* Sides by layers from a vertex far from others: of the layers near the middle the smallest becomes
+ * the border. */
+static void sli_layers_bisect(sli_piece *p) {
+    const sl_int n = p->n;
+    sl_int *order = p->scratch, *distance = p->scratch + (size_t)n,
+           *size = p->scratch + 2 * (size_t)n;
+    const sl_int low = (sl_int)(SLI_LAYERS_SHARE * n), high = n - low;
+    sl_int k, layers, before = 0, best = -1;
+    double cost = 0.0;
+    const sl_int far = sli_piece_far(p, 0, order, p->locked);
+    layers = sli_layers_search(p, sli_piece_far(p, far, order, p->locked), order, distance);
+    memset(size, 0, (size_t)layers * sizeof(sl_int));
+    for (k = 0; k < n; k++) {
+        size[distance[k]]++;
+    }
+    for (k = 0; k < layers; before += size[k++]) {
+        const double skew = fabs((double)(n - size[k] - 2 * (int64_t)before)) / n;
+        const double here = (1.0 + skew) * size[k];
+        if (before >= low && before + size[k] <= high && (best == -1 || here < cost)) {
+            best = k;
+            cost = here;
+        }
+    }
+    for (k = 0; k < n; k++) { /* where all is in a few layers, by halves of the search */
+        p->side[order[k]] = (unsigned char)(best == -1 ? k >= n / 2 : distance[order[k]] >= best);
+    }
+}
+
+static void sli_dissect_layers(sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
+    sl_int node, nodes;
+    d->l = 0;
+    sli_dissect_start(d);
+    do {
+        nodes = d->tree.count;
+        sli_dissect_sort(d);
+        for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
+            const sl_int count = d->begin[node + 1] - d->begin[node];
+            if (count > SLI_DISSECT_LEAF) {
+                sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node],
+                               count);
+                sli_layers_bisect(&d->part);
+                sli_dissect_divide(d, node);
+                sli_piece_clear(&d->part);
+            }
+        }
+        sli_tree_number(&d->tree, g->n, d->label);
+    } while (d->tree.count > nodes);
+}
+
+/* Vertices at the left of the root's border. */
+static sl_int sli_dissect_border(const sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
+    const sl_int root = d->tree.root;
+    sl_int v, count = 0;
+    sl_off e;
+    for (v = 0; v < g->n; v++) {
+        int crosses = 0;
+        for (e = g->begin[v]; e < g->begin[v + 1] && d->label[v] < root; e++) {
+            crosses |= d->label[g->to[e]] > root;
+        }
+        count += crosses;
+    }
+    return count;
+}
+
+/* A border of so many times the root of the vertices is none of a surface. */
+#define SLI_VOLUME_BORDER 2.5
+
+/* Labels by levels of coarser graphs; of what may be a volume by layers, where those are estimated
+ * to be the cheaper parts: in a grid of seven points they are diagonal planes of three quarters the
+ * size of a straight one. */
+static sl_status sli_dissect_graph(sli_dissection *d) {
+    double levels, layers, flat;
+    sl_status status = sli_dissect_multilevel(d);
+    if (status != SL_OK ||
+        (double)sli_dissect_border(d) < SLI_VOLUME_BORDER * sqrt((double)d->levels[0].n)) {
+        return status;
+    }
+    levels = sli_dissect_cost(d, &flat);
+    sli_dissect_layers(d);
+    layers = sli_dissect_cost(d, &flat);
+    if (layers < levels) {
+        d->widening = 0;
+        return SL_OK;
+    }
+    return sli_dissect_multilevel(d);
+}
+
+#endif
+/* end src/impl/order_layers.h */
+/* begin src/impl/order_geometric.h */
+/* order_geometric.h: nested dissection by coordinates: halves of space, and when they are the better parts */
+#ifndef SLI_ORDER_GEOMETRIC_H
+#define SLI_ORDER_GEOMETRIC_H
+
+/* Points of a graph's vertices: vertex v lies at xyz[dimensions row[v]] .. */
+typedef struct sli_points {
+    const double *xyz;
+    sl_int dimensions;
+    const sl_int *row;
+} sli_points;
+
+/* Directions to cut across: axes, then diagonals of two of them, as sums of coordinates. */
+static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
+                                                 {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
+                                                 {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+
+/* The larger parts look for their direction on so many of their points. */
+#define SLI_POINTS_MANY 16384
+#define SLI_POINTS_TRIED 512
+
+/* How far v lies along a direction. */
+SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
+    const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
+    const signed char *along = sli_directions[direction];
+    /* coordinates may be as large as a double can be, and a sum of two must not be infinite */
+    const double sum = along[0] * (0.5 * x[0]) + along[1] * (0.5 * x[1]) +
+                       (p->dimensions == 3 ? along[2] * (0.5 * x[2]) : 0.0);
+    return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
+}
+
+/* The axis along which some vertices spread most, and how far, by about SLI_POINTS_TRIED of them. */
+static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
+                           double *spread) {
+    static const int sli_axes[3] = {0, 1, 4};
+    const sl_int step = count / SLI_POINTS_TRIED + 1;
+    sl_int axis, k;
+    int best = 0;
+    *spread = -1.0;
+    for (axis = 0; axis < p->dimensions; axis++) {
+        double low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
+        for (k = step; k < count; k = k < count - step ? k + step : count) {
+            const double x = sli_point_along(p, vertices[k], sli_axes[axis]);
+            low = x < low ? x : low;
+            high = x > high ? x : high;
+        }
+        if (high - low > *spread) {
+            *spread = high - low;
+            best = sli_axes[axis];
+        }
+    }
+    return best;
+}
+
+/* A pair of a place and a vertex, ordered by both, so that no two are equal. */
+typedef struct sli_placed {
+    double x;
+    sl_int v;
+} sli_placed;
+
+SLI_INLINE int sli_placed_before(const sli_placed *a, const sli_placed *b) {
+    return a->x < b->x || (a->x == b->x && a->v < b->v);
+}
+
+/* Reorders so that the first half are those before the median. Each round draws its pivot from the
+ * middle of three; the ranges that are left halve on average, whatever the order of the input. */
+static void sli_placed_halve(sli_placed *a, sl_int count) {
+    sl_int low = 0, high = count - 1;
+    const sl_int half = count / 2;
+    uint32_t turn = 1;
+    while (low < high) {
+        const uint32_t span = (uint32_t)(high - low) + 1u;
+        const sli_placed pivot = a[low + (sl_int)(sli_scatter(turn++) % span)];
+        sl_int i = low, j = high;
+        while (i <= j) {
+            while (sli_placed_before(&a[i], &pivot)) {
+                i++;
+            }
+            while (sli_placed_before(&pivot, &a[j])) {
+                j--;
+            }
+            if (i <= j) {
+                const sli_placed keep = a[i];
+                a[i++] = a[j];
+                a[j--] = keep;
+            }
+        }
+        if (half <= j) {
+            high = j;
+        } else if (half >= i) {
+            low = i;
+        } else {
+            break;
+        }
+    }
+}
+
+/* The direction in which fewest points lie close to the median: the narrowest place of a part. */
+static int sli_points_narrow(const sli_points *p, const sl_int *vertices, sl_int count,
+                             sli_placed *placed) {
+    double spread;
+    const int axis = sli_points_axis(p, vertices, count, &spread);
+    int direction, best = axis;
+    const int directions = p->dimensions == 3 ? 9 : 4;
+    sl_int fewest = INT32_MAX, k;
+    if (count < SLI_POINTS_MANY) {
+        return best;
+    }
+    for (direction = 0; direction < directions; direction++) {
+        sl_int near = 0;
+        double middle;
+        for (k = 0; k < SLI_POINTS_TRIED; k++) {
+            const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
+            placed[k].x = sli_point_along(p, v, direction);
+            placed[k].v = v;
+        }
+        sli_placed_halve(placed, SLI_POINTS_TRIED);
+        middle = placed[SLI_POINTS_TRIED / 2].x;
+        for (k = 0; k < SLI_POINTS_TRIED; k++) {
+            near += fabs(placed[k].x - middle) < 0.1 * spread;
+        }
+        near += direction == axis ? 0 : near / 3; /* chance must not decide against an axis */
+        if (near < fewest) {
+            fewest = near;
+            best = direction;
+        }
+    }
+    return best;
+}
+
+/* Labels by halves of space, down to the size of leaves. order holds the vertices of a node side by
+ * side; placed: n of scratch. */
+static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_placed *placed) {
+    const sl_int n = d->levels[0].n;
+    sl_int *begin = d->begin, *end = d->nodes, node, k;
+    d->l = 0;
+    sli_dissect_start(d);
+    for (k = 0; k < n; k++) {
+        d->order[k] = k;
+    }
+    begin[0] = 0;
+    end[0] = n;
+    for (node = 0; node < d->tree.count; node++) { /* which grows */
+        const sl_int first = begin[node], count = end[node] - first;
+        sl_int *vertices = d->order + first;
+        int direction;
+        d->tree.weight[node] = count;
+        if (count <= SLI_DISSECT_LEAF || d->tree.count >= d->tree.room - 1) {
+            for (k = 0; k < count; k++) {
+                d->label[vertices[k]] = node;
+            }
+            continue;
+        }
+        direction = sli_points_narrow(points, vertices, count, placed);
+        for (k = 0; k < count; k++) {
+            placed[k].x = sli_point_along(points, vertices[k], direction);
+            placed[k].v = vertices[k];
+        }
+        sli_placed_halve(placed, count);
+        for (k = 0; k < count; k++) {
+            vertices[k] = placed[k].v;
+        }
+        sli_tree_split(&d->tree, node);
+        begin[d->tree.left[node]] = first;
+        end[d->tree.left[node]] = begin[d->tree.right[node]] = first + count / 2;
+        end[d->tree.right[node]] = first + count;
+    }
+    sli_tree_number(&d->tree, n, d->label);
+}
+
+/* A cost up to this many times that of a flat square needs no comparison: 0.9 to 1.06 are usual on
+ * flat grids, 2 and more on surfaces, where a plane cuts several sheets. */
+#define SLI_FLAT_ENOUGH 1.1
+
+/* Parts by coordinates where their estimated cost is that of a flat mesh, or less than that of the
+ * parts that the graph alone gives; else the latter. */
+static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
+                                       sli_placed *placed) {
+    double cost, other, flat;
+    sl_status status;
+    sli_dissect_points(d, points, placed);
+    cost = sli_dissect_cost(d, &flat);
+    if (cost <= SLI_FLAT_ENOUGH * flat) {
+        d->widening = 0;
+        return SL_OK;
+    }
+    status = sli_dissect_graph(d);
+    if (status == SL_OK) {
+        other = sli_dissect_cost(d, &flat);
+        if (cost < other) {
+            sli_dissect_points(d, points, placed);
+        }
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/order_geometric.h */
+/* begin src/impl/order_nest.h */
+/* order_nest.h: from labels to an order: parts before the separators round them, leaves by minimum degree */
+#ifndef SLI_ORDER_NEST_H
+#define SLI_ORDER_NEST_H
+
+/* The tree of separators over all rows: node by node in the order of elimination, none empty. */
+typedef struct sli_nest {
+    sl_int count; /* 0: the order has no such tree */
+    sl_int *of;   /* a row: its node */
+    sl_int *
+        parent; /* a node: the separator round it, which has a higher number; -1 if there is none */
+} sli_nest;
+
+/* Puts the vertices of a separator in the order of what they touch on the left: rows of L that go
+ * together in one supernode then lie together in the others, in longer runs. */
+static void sli_nest_separator(sli_dissection *d, sl_int node, sl_int *vertices, sl_int count) {
+    const sli_level *g = &d->levels[0];
+    uint64_t *list = (uint64_t *)(void *)d->next, *scratch = (uint64_t *)(void *)d->part.begin;
+    sl_int k;
+    sl_off e;
+    for (k = 0; k < count; k++) {
+        int64_t sum = 0, touched = 0;
+        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
+            const sl_int other = d->label[g->to[e]];
+            if (other < node && sli_tree_is_below(&d->tree, node, other)) {
+                sum += other;
+                touched++;
+            }
+        }
+        list[k] = sli_keyed(touched == 0 ? 0 : (sl_int)(sum / touched), vertices[k]);
+    }
+    sli_sort(list, count, scratch);
+    for (k = 0; k < count; k++) {
+        vertices[k] = sli_value(list[k]);
+    }
+}
+
+/* Appends a dissected graph to an order, perm[at] on; row[v] is the row of its vertex v. */
+static void sli_nest_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
+                            sli_nest *nest) {
+    const sli_tree *t = &d->tree;
+    sl_int node, k, up, *number = d->nodes;
+    sli_dissect_sort(d);
+    for (node = sli_tree_first(t); node != -1; node = sli_tree_next(t, node)) {
+        const sl_int count = d->begin[node + 1] - d->begin[node];
+        sl_int *mine = d->order + d->begin[node];
+        if (!sli_tree_is_leaf(t, node)) {
+            sli_nest_separator(d, node, mine, count);
+        } else if (count > 1) {
+            sli_leaf_order(&d->leaf, &d->levels[0], mine, count, d->part.place, d->other);
+        }
+        number[node] = count > 0 ? nest->count++ : -1;
+        for (k = 0; k < count; k++) {
+            perm[at++] = row[mine[k]];
+            nest->of[row[mine[k]]] = number[node];
+        }
+    }
+    for (node = 0; node < t->count; node++) {
+        if (number[node] != -1) {
+            for (up = t->parent[node]; up != -1 && number[up] == -1;) {
+                up = t->parent[up];
+            }
+            nest->parent[number[node]] = up == -1 ? -1 : number[up];
+        }
+    }
+}
+
+#endif
+/* end src/impl/order_nest.h */
 /* begin src/impl/order_metis.h */
-/* order_metis.h: nested dissection of one connected component by METIS_NodeND */
+/* order_metis.h: what METIS is asked: the order of a connected component, and its nested separators */
 #ifndef SLI_ORDER_METIS_H
 #define SLI_ORDER_METIS_H
 
@@ -12830,12 +15110,375 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
                                           : SL_ERR_ORDERING;
 }
 
+/* Separators of a graph, nested down to so many parts, a power of two. order: the vertices, parts
+ * before the separators round them; sizes: 2 parts - 1, of the parts, then of the separators level
+ * by level, the outermost last. */
+static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *order, sl_int *sizes,
+                                  const sl_allocator *a) {
+    const sl_off edges = g->begin[g->n];
+    idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
+                                   *size = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_off e;
+    sl_int k;
+    int pass, result;
+    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        xadj = SLI_TAKE(&b, idx_t, (size_t)g->n + 1);
+        adjncy = SLI_TAKE(&b, idx_t, edges);
+        perm = SLI_TAKE(&b, idx_t, g->n);
+        iperm = SLI_TAKE(&b, idx_t, g->n);
+        size = SLI_TAKE(&b, idx_t, 2 * (size_t)parts);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k <= g->n; k++) {
+        xadj[k] = (idx_t)g->begin[k];
+    }
+    for (e = 0; e < edges; e++) {
+        adjncy[e] = g->to[e];
+    }
+    METIS_SetDefaultOptions(options);
+    result =
+        METIS_NodeNDP((idx_t)g->n, xadj, adjncy, NULL, (idx_t)parts, options, perm, iperm, size);
+    if (result == METIS_OK) {
+        for (k = 0; k < g->n; k++) {
+            order[k] = (sl_int)perm[k];
+        }
+        for (k = 0; k < 2 * parts - 1; k++) {
+            sizes[k] = (sl_int)size[k];
+        }
+    }
+    sli_free(a, b.base);
+    return result == METIS_OK             ? SL_OK
+           : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
+                                          : SL_ERR_ORDERING;
+}
+
 #endif
 
 #endif
 /* end src/impl/order_metis.h */
+/* begin src/impl/order_quality.h */
+/* order_quality.h: parts from METIS's vertex separators of the whole graph */
+#ifndef SLI_ORDER_QUALITY_H
+#define SLI_ORDER_QUALITY_H
+
+#if !defined(SL_NO_METIS)
+
+/* A full tree of so many leaves, level by level: the children of node k are 2 k + 1 and 2 k + 2. */
+static void sli_quality_tree(sli_dissection *d, sl_int leaves) {
+    sl_int node;
+    for (node = 0; node < leaves - 1; node++) {
+        sli_tree_split(&d->tree, node);
+    }
+}
+
+/* The label of a leaf below node next to v, -1 if there is none. */
+static sl_int sli_quality_near(const sli_dissection *d, sl_int node, sl_int v) {
+    const sli_level *g = &d->levels[0];
+    sl_off e;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int other = d->label[g->to[e]];
+        if (sli_tree_is_leaf(&d->tree, other) && sli_tree_is_below(&d->tree, node, other)) {
+            return other;
+        }
+    }
+    return -1;
+}
+
+/* Hands the vertices of a separator to leaves beside it; those of deeper separators are already
+ * there. The border between its sides then runs along it. */
+static void sli_quality_dissolve(sli_dissection *d, sl_int node, sl_int *vertices, sl_int count) {
+    sl_int k, left;
+    do {
+        left = 0;
+        for (k = 0; k < count; k++) {
+            const sl_int v = vertices[k], leaf = sli_quality_near(d, node, v);
+            if (leaf != -1) {
+                d->label[v] = leaf;
+            } else {
+                vertices[left++] = v;
+            }
+        }
+        if (left == count) { /* what touches nothing may go anywhere */
+            for (k = 0; k < count; k++) {
+                d->label[vertices[k]] = d->tree.low[node];
+            }
+            return;
+        }
+        count = left;
+    } while (count > 0);
+}
+
+/* Labels by METIS. */
+static sl_status sli_dissect_metis(sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
+    sl_int leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
+    sl_status status;
+    while (g->n / leaves > SLI_DISSECT_LEAF) {
+        leaves *= 2;
+    }
+    d->l = 0;
+    status = sli_metis_nested(g, leaves, d->order, sizes, d->a);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_dissect_start(d);
+    sli_quality_tree(d, leaves);
+    /* METIS lists the sizes of the leaves, then of the separators of each level, the root's last */
+    for (k = leaves, v = 0; k > 0; v += k, k /= 2) {
+        for (node = 0; node < k; node++) {
+            size[k - 1 + node] = sizes[v + node];
+        }
+    }
+    for (node = sli_tree_first(&d->tree); node != -1; node = sli_tree_next(&d->tree, node)) {
+        for (k = 0; k < size[node]; k++) {
+            d->label[d->order[at++]] = node;
+        }
+    }
+    memset(d->tree.weight, 0, (size_t)d->tree.count * sizeof(sl_int));
+    sli_tree_number(&d->tree, g->n, d->label);
+    sli_dissect_sort(d);
+    for (node = sli_tree_first(&d->tree); node != -1; node = sli_tree_next(&d->tree, node)) {
+        if (!sli_tree_is_leaf(&d->tree, node)) {
+            sli_quality_dissolve(d, node, d->order + d->begin[node],
+                                 d->begin[node + 1] - d->begin[node]);
+        }
+    }
+    for (v = 0; v < g->n; v++) {
+        for (node = d->label[v]; node != -1; node = d->tree.parent[node]) {
+            d->tree.weight[node]++;
+        }
+    }
+    return SL_OK;
+}
+
+/* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
+ * and then: one of METIS's trees scatters as any other does. */
+static sl_status sli_dissect_quality(sli_dissection *d) {
+    double ours, flat;
+    sl_status status = sli_dissect_multilevel(d);
+    if (status != SL_OK) {
+        return status;
+    }
+    ours = sli_dissect_cost(d, &flat);
+    status = sli_dissect_metis(d);
+    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+        d->widening = 2;
+        status = sli_dissect_multilevel(d);
+    }
+    return status;
+}
+
+#endif
+
+#endif
+/* end src/impl/order_quality.h */
+/* begin src/impl/order_own.h */
+/* order_own.h: nested dissection of any graph: dense rows last, components one by one */
+#ifndef SLI_ORDER_OWN_H
+#define SLI_ORDER_OWN_H
+
+/* A row with more neighbours than this many times sqrt(n) joins everything: it goes to the end. */
+#define SLI_DENSE_ROW 10.0
+
+/* A leaf that is twice as large as it should be, after its borders have moved, is cut again, and so
+ * may its halves. */
+#define SLI_REPAIRS 12
+
+typedef struct sli_nesting {
+    const sli_graph *G;
+    const double *xyz; /* NULL: none */
+    sl_int dimensions;
+    int by_metis;
+    sl_int *local;      /* n: a row's number in its component, -1 not yet seen, -2 dense */
+    sl_int *row;        /* n: the rows of the component */
+    sl_off *begin;      /* n + 1: its graph */
+    sl_int *to;         /* the edges of G */
+    sli_placed *placed; /* n, where there are coordinates */
+    sli_dissection d;
+} sli_nesting;
+
+static void sli_nesting_layout(sli_nesting *w, sli_block *b) {
+    const sl_int n = w->G->n;
+    const sl_off edges = w->G->begin[n];
+    w->local = SLI_TAKE(b, sl_int, n);
+    w->row = SLI_TAKE(b, sl_int, n);
+    w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
+    w->to = SLI_TAKE(b, sl_int, edges);
+    w->placed = SLI_TAKE(b, sli_placed, w->xyz != NULL ? n : 0);
+    sli_dissection_layout(&w->d, b, n, edges);
+}
+
+/* Rows reached from root, in breadth-first order, which is also what the component is numbered by:
+ * neighbours then lie close in memory, however the caller numbers them. */
+static sl_int sli_nesting_component(sli_nesting *w, sl_int root) {
+    const sli_graph *G = w->G;
+    sl_int head, tail = 0;
+    sl_off e;
+    w->local[root] = tail;
+    w->row[tail++] = root;
+    for (head = 0; head < tail; head++) {
+        for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
+            if (w->local[G->to[e]] == -1) {
+                w->local[G->to[e]] = tail;
+                w->row[tail++] = G->to[e];
+            }
+        }
+    }
+    return tail;
+}
+
+static void sli_nesting_graph(sli_nesting *w, sl_int count) {
+    const sli_graph *G = w->G;
+    sl_off e, edges = 0;
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        w->begin[k] = edges;
+        for (e = G->begin[w->row[k]]; e < G->begin[w->row[k] + 1]; e++) {
+            if (w->local[G->to[e]] >= 0) {
+                w->to[edges++] = w->local[G->to[e]];
+            }
+        }
+    }
+    w->begin[count] = edges;
+    w->d.levels[0].n = count;
+    w->d.levels[0].begin = w->begin;
+    w->d.levels[0].to = w->to;
+}
+
+/* Labels of the component whose graph is there, by the cheaper of two trees where there are two. The
+ * cruder the borders, the wider the bands in which they are refined. */
+static sl_status sli_nesting_label(sli_nesting *w) {
+    sli_dissection *d = &w->d;
+    d->widening = w->by_metis ? 1 : 2;
+    if (w->by_metis) {
+#if !defined(SL_NO_METIS)
+        return sli_dissect_quality(d);
+#else
+        return SL_ERR_UNSUPPORTED;
+#endif
+    }
+    if (w->xyz != NULL) {
+        sli_points points;
+        points.xyz = w->xyz;
+        points.dimensions = w->dimensions;
+        points.row = w->row;
+        return sli_dissect_geometric(d, &points, w->placed);
+    }
+    return sli_dissect_graph(d);
+}
+
+/* Labels and separators of that component. */
+static sl_status sli_nesting_dissect(sli_nesting *w) {
+    sli_dissection *d = &w->d;
+    int rounds = SLI_REPAIRS;
+    sl_status status;
+    d->l = 0;
+    if (d->levels[0].n <= SLI_DISSECT_LEAF) {
+        sli_dissect_start(d);
+        return SL_OK;
+    }
+    status = sli_nesting_label(w);
+    if (status == SL_OK) {
+        do {
+            sli_dissect_cut(d);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
+        status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+    }
+    return status;
+}
+
+/* Marks dense rows and appends them to the order, from the end; how many there are. */
+static sl_int sli_nesting_dense(sli_nesting *w, sl_int *perm) {
+    const sli_graph *G = w->G;
+    const double most = SLI_DENSE_ROW * sqrt((double)G->n);
+    sl_int v, count = 0;
+    for (v = G->n - 1; v >= 0; v--) {
+        w->local[v] = -1;
+        if ((double)(G->begin[v + 1] - G->begin[v]) > most) {
+            w->local[v] = -2;
+            perm[G->n - ++count] = v;
+        }
+    }
+    return count;
+}
+
+static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
+    const sl_int n = w->G->n, dense = sli_nesting_dense(w, perm);
+    sl_int v, k, at = 0;
+    sl_status status = SL_OK;
+    nest->count = 0;
+    for (v = 0; v < n; v++) {
+        w->d.part.place[v] = -1;
+    }
+    for (v = 0; v < n && status == SL_OK; v++) {
+        if (w->local[v] == -1) {
+            const sl_int count = sli_nesting_component(w, v);
+            if (count == 1) { /* nothing to do, and there may be very many */
+                perm[at++] = v;
+                nest->of[v] = nest->count;
+                nest->parent[nest->count++] = -1;
+                continue;
+            }
+            sli_nesting_graph(w, count);
+            status = sli_nesting_dissect(w);
+            if (status == SL_OK) {
+                sli_nest_append(&w->d, w->row, perm, at, nest);
+                at += count;
+            }
+        }
+    }
+    if (dense > 0 && status == SL_OK) {
+        for (k = 0; k < nest->count; k++) {
+            nest->parent[k] = nest->parent[k] == -1 ? nest->count : nest->parent[k];
+        }
+        for (k = n - dense; k < n; k++) {
+            nest->of[perm[k]] = nest->count;
+        }
+        nest->parent[nest->count++] = -1;
+    }
+    return status;
+}
+
+/* The order of a graph without repeated edges, and its tree. */
+static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *xyz,
+                               sl_int dimensions, sl_int *perm, sli_nest *nest,
+                               const sl_allocator *a) {
+    sli_nesting w;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&w, 0, sizeof w);
+    w.G = G;
+    w.xyz = xyz;
+    w.dimensions = dimensions;
+    w.by_metis = by_metis;
+    w.d.a = a;
+    w.d.leaf.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_nesting_layout(&w, &b);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_borders_init(&w.d.borders, a);
+        status = sli_nesting_run(&w, perm, nest);
+        sli_free(a, w.d.borders.block);
+        sli_free(a, b.base);
+    }
+    return status;
+}
+
+#endif
+/* end src/impl/order_own.h */
 /* begin src/impl/order.h */
-/* order.h: the fill-reducing order of the rows: natural, given, or nested dissection by component */
+/* order.h: the fill-reducing order of the rows: natural, given, or nested dissection */
 #ifndef SLI_ORDER_H
 #define SLI_ORDER_H
 
@@ -12898,8 +15541,10 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
     return status;
 }
 
-/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is
- * stored. */
+#endif
+
+/* Puts the lists of an unsorted graph in order and takes repeated edges out, so that a matrix has one
+ * order however it is stored. */
 static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     const sl_off edges = G->begin[G->n];
     sli_block b = {NULL, 0, 0};
@@ -12918,62 +15563,120 @@ static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     if (status == SL_OK) {
         sli_graph_sort(G, to, at);
         memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+        sli_graph_unite(G);
         sli_free(a, b.base);
     }
     return status;
 }
 
-static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-                                      sl_int *perm, sl_int *local, const sl_allocator *a) {
+/* An order of blocks of rows to one of rows; the same for the tree. */
+static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_nest *nest) {
+    sl_int k, c;
+    for (k = blocks - 1; k >= 0; k--) {
+        const sl_int v = perm[k], node = nest->count > 0 ? nest->of[k] : 0;
+        for (c = block - 1; c >= 0; c--) {
+            perm[k * block + c] = v * block + c;
+            nest->of[k * block + c] = node;
+        }
+    }
+}
+
+/* By the graph of A, whose rows come in blocks. */
+static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
+                                    const sl_options *opt, sl_int *perm, sl_int *scratch,
+                                    sli_nest *nest, const sl_allocator *a) {
+    const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     sli_graph G;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
-    if (!sli_metis_options_are_sound(opt != NULL ? opt->metis_options : NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
     memset(&G, 0, sizeof G);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        G.n = A->n_cols;
+        G.n = A->n_cols / block;
         G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
         G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(A));
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
-    if (status == SL_OK) {
-        sli_graph_fill(&G, A, triangle);
-        status = sli_order_canonical(&G, a);
-        if (status == SL_OK) {
-            status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, local, a);
-        }
-        sli_free(a, b.base);
+    if (status != SL_OK) {
+        return status;
     }
-    return status;
-}
-#endif
-
-/* perm: n, the order of a checked symmetric pattern. scratch: n. */
-static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-                           sl_int *perm, sl_int *scratch, const sl_allocator *a, sl_stats *stats) {
-    sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
-#if defined(SL_NO_METIS)
-    (void)a;
-    (void)triangle;
-    if (ordering == SL_ORDERING_DEFAULT) {
-        ordering = SL_ORDERING_NATURAL;
+    sli_graph_fill(&G, A, triangle, block);
+    status = sli_order_canonical(&G, a);
+    if (status == SL_OK && ordering != SL_ORDERING_METIS) {
+        status = sli_order_own(&G, ordering == SL_ORDERING_QUALITY,
+                               opt != NULL ? opt->coordinates : NULL,
+                               opt != NULL ? opt->dimensions : 0, perm, nest, a);
+    }
+#if !defined(SL_NO_METIS)
+    if (status == SL_OK && ordering == SL_ORDERING_METIS) {
+        status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
     }
 #else
-    if (ordering == SL_ORDERING_DEFAULT || ordering == SL_ORDERING_METIS) {
-        return sli_order_dissection(A, triangle, opt, perm, scratch, a);
-    }
+    (void)scratch;
 #endif
-    if (ordering == SL_ORDERING_GIVEN) {
-        return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
+    if (status == SL_OK && block > 1) {
+        sli_order_expand(G.n, block, perm, nest);
     }
-    if (ordering == SL_ORDERING_NATURAL) {
+    sli_free(a, b.base);
+    return status;
+}
+
+/* Whether blocks and points are what n rows can have; *bad: the row of a point that is not finite,
+ * -1 otherwise. */
+static int sli_order_wishes_are_sound(const sl_options *opt, sl_int n, sl_int *bad) {
+    sl_int v, k;
+    *bad = -1;
+    if (opt == NULL) {
+        return 1;
+    }
+    if (opt->block_size < 0 || (opt->block_size > 1 && n % opt->block_size != 0) ||
+        (opt->coordinates != NULL && opt->dimensions != 2 && opt->dimensions != 3)) {
+        return 0;
+    }
+    for (v = 0; opt->coordinates != NULL && v < n / sli_max(opt->block_size, 1); v++) {
+        for (k = 0; k < opt->dimensions; k++) {
+            if (!sli_is_finite(opt->coordinates[(size_t)v * (size_t)opt->dimensions + (size_t)k])) {
+                *bad = v * sli_max(opt->block_size, 1);
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* perm: n, the order of a checked symmetric pattern; nest: its tree, n each, where it has one.
+ * scratch: n. */
+static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
+                           sl_int *perm, sl_int *scratch, sli_nest *nest, const sl_allocator *a,
+                           sl_stats *stats) {
+    const sl_ordering wished = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
+    const sl_ordering ordering = wished == SL_ORDERING_DEFAULT ? SL_ORDERING_FAST : wished;
+    sl_int bad;
+    nest->count = 0;
+    if (!sli_order_wishes_are_sound(opt, A->n_cols, &bad)) {
+        return bad == -1 ? SL_ERR_ARGUMENT : sli_fail_at(stats, SL_ERR_NOT_FINITE, bad, -1, 0.0);
+    }
+    switch (ordering) {
+    case SL_ORDERING_GIVEN:
+        return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
+    case SL_ORDERING_NATURAL:
         sli_order_natural(A->n_cols, perm);
         return SL_OK;
+    case SL_ORDERING_FAST:
+    case SL_ORDERING_BUILTIN:
+        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, nest, a);
+    case SL_ORDERING_METIS:
+    case SL_ORDERING_QUALITY:
+#if defined(SL_NO_METIS)
+        return SL_ERR_UNSUPPORTED;
+#else
+        return ordering == SL_ORDERING_METIS && !sli_metis_options_are_sound(opt->metis_options)
+                   ? SL_ERR_ARGUMENT
+                   : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, nest, a);
+#endif
+    default:
+        return SL_ERR_ARGUMENT;
     }
-    return ordering == SL_ORDERING_METIS ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT;
 }
 
 #endif
@@ -13677,6 +16380,7 @@ typedef struct sli_analysis {
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
     uint64_t *list;                     /* 2n */
+    sli_nest nest;                      /* n each: the tree of separators, by rows of A */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
@@ -13701,6 +16405,8 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->groups.zeros = SLI_TAKE(b, double, n);
     w->groups.group = SLI_TAKE(b, sl_int, n);
     w->list = SLI_TAKE(b, uint64_t, 2 * n);
+    w->nest.of = SLI_TAKE(b, sl_int, n);
+    w->nest.parent = SLI_TAKE(b, sl_int, n + 1);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
@@ -13722,6 +16428,9 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->map_from = SLI_TAKE(b, sl_int, entries);
     S->map_to = SLI_TAKE(b, sl_off, entries);
+    S->part_of = SLI_TAKE(b, sl_int, S->n_parts > 0 ? n : 0);
+    S->part_parent = SLI_TAKE(b, sl_int, S->n_parts);
+    S->part_level = SLI_TAKE(b, sl_int, S->n_parts);
 }
 
 /* Tree, counts and supernodes in their final numbering. */
@@ -13766,6 +16475,18 @@ static void sli_analyse_stats(const sl_symbolic *S, sl_int *depth, sl_stats *sta
     }
 }
 
+/* The tree of separators, whose nodes stand below their parents, by columns of L. */
+static void sli_fill_parts(sl_symbolic *S, const sli_nest *nest) {
+    sl_int k;
+    for (k = 0; k < S->n && S->n_parts > 0; k++) {
+        S->part_of[k] = nest->of[S->perm[k]];
+    }
+    for (k = S->n_parts - 1; k >= 0; k--) {
+        S->part_parent[k] = nest->parent[k];
+        S->part_level[k] = nest->parent[k] == -1 ? 0 : S->part_level[nest->parent[k]] + 1;
+    }
+}
+
 /* Copies the tree out of the workspace and fills everything that hangs on it. */
 static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
@@ -13793,6 +16514,7 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_fill_steps(S);
     sli_fill_descendants(S);
     sli_fill_places(S, w->scratch);
+    sli_fill_parts(S, &w->nest);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
@@ -13806,7 +16528,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     int pass;
     sl_status status;
     started = sli_seconds();
-    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, a, stats);
+    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, &w->nest, a, stats);
     stats->seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
@@ -13824,6 +16546,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     draft.allocator = *a;
     draft.n = A->n_cols;
     draft.n_supers = w->groups.count;
+    draft.n_parts = w->nest.count;
     draft.nnz_input = sli_nnz(A);
     draft.fingerprint = sli_fingerprint(A);
     for (s = 0; s < w->groups.count; s++) {
@@ -13940,6 +16663,10 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S) {
         v.rows_begin = S->rows_begin;
         v.rows = S->rows;
         v.panel_begin = S->panel_begin;
+        v.n_parts = S->n_parts;
+        v.part_of = S->n_parts > 0 ? S->part_of : NULL;
+        v.part_parent = S->n_parts > 0 ? S->part_parent : NULL;
+        v.part_level = S->n_parts > 0 ? S->part_level : NULL;
     }
     return v;
 }
@@ -20395,6 +23122,32 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_ROWS_AHEAD
 #undef SLI_TOKEN_MAX
 #undef SLI_ORDER_TINY
+#undef SLI_COARSEN_STALL
+#undef SLI_LEVELS_MAX
+#undef SLI_BAND_SHARE
+#undef SLI_BALANCE
+#undef SLI_FLOW_NONE
+#undef SLI_FLOW_END
+#undef SLI_FLOW_ROUNDS
+#undef SLI_LEAF_MAX
+#undef SLI_LEAF_GONE
+#undef SLI_DISSECT_LEAF
+#undef SLI_DISSECT_PART
+#undef SLI_DISSECT_SHRINK
+#undef SLI_DISSECT_FIRST
+#undef SLI_DISSECT_TRIES_FIRST
+#undef SLI_DISSECT_TRIES
+#undef SLI_DISSECT_LAYERS
+#undef SLI_DISSECT_BAND
+#undef SLI_DISSECT_BAND_FROM
+#undef SLI_FLAT_ENOUGH
+#undef SLI_POINTS_MANY
+#undef SLI_POINTS_TRIED
+#undef SLI_DENSE_ROW
+#undef SLI_CUT_BALANCE
+#undef SLI_REPAIRS
+#undef SLI_LAYERS_SHARE
+#undef SLI_VOLUME_BORDER
 #undef SLI_CLIMB
 #undef SLI_LANES_MAX
 #undef SLI_REQUESTS_MAX

@@ -25,6 +25,7 @@ typedef struct bench_run_t {
 void bench_patches(bench_run *run);
 void bench_scaling(bench_run *run);
 void bench_amortize(bench_run *run);
+void bench_ordering(bench_run *run);
 void bench_factor(bench_run *run);
 void bench_kernels(bench_run *run);
 void bench_harmonic(bench_run *run);
@@ -157,8 +158,8 @@ const bench_system *bench_mesh(const char *path);
 /** Releases all of them. */
 void bench_systems_free(void);
 
-/** Bytes: the matrix, the panels of L, and what the library takes for them; nothing of METIS's where the order is
- *  given. */
+/** Bytes: the matrix, the panels of L, and what the library takes for them; nothing of an ordering's where the order
+ *  is given. */
 typedef struct bench_memory {
     double matrix, panels;
     double analysis, analysis_peak; /* kept, and at once while it runs */

@@ -18,6 +18,8 @@ static const question questions[] = {
      bench_scaling},
     {"amortize", "factoring a patch alone against the whole mesh (paper: Figure 6, right)",
      bench_amortize},
+    {"ordering", "time, fill and path weights of the orderings beside METIS_NodeND",
+     bench_ordering},
     {"factor", "methods, instruction sets and threads of the factorization against the limits",
      bench_factor},
     {"kernels", "the dense kernels by shape, against registers alone", bench_kernels},

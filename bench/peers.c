@@ -15,6 +15,7 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
     const double start = bench_now();
     match *m = match_create(run, system, most);
     const double created = bench_now();
+    peers_setup(run, report, m);
     peers_factor(run, report, m);
     const double factored = bench_now();
     for (int k = 0; k < (m->is_brief ? 5 : 7); k++) {

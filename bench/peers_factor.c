@@ -108,7 +108,7 @@ static void analyse_steps(bench_run *run, bench_report *report, match *m) {
         entries[2].sample = one_time(m->eigen_analyse);
     }
     peers_race(run->seconds, report, m, "analyse", 0, entries, m->eigen ? 3 : 2, NULL, 0);
-    bench_report_note(report, "%-14s   our first analysis: METIS %.3f s, all else %.3f s", "",
+    bench_report_note(report, "%-14s   our first analysis: order %.3f s, all else %.3f s", "",
                       m->system->stats.seconds_order, m->system->stats.seconds_analyse);
     const bench_memory memory = bench_memory_of(m->system, m->given);
     bench_report_note(

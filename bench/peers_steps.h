@@ -58,6 +58,9 @@ void peers_nap(void *state);
 /** Analysis, first factorization, refactorization, on one thread and on two (peers_factor.c). */
 void peers_factor(bench_run *run, bench_report *report, match *m);
 
+/** Order, analysis and first factorization, beside METIS and CHOLMOD (peers_setup.c). */
+void peers_setup(bench_run *run, bench_report *report, match *m);
+
 /** A full solve with so many right-hand sides (peers_solve.c). */
 void peers_solve(bench_run *run, bench_report *report, match *m, sl_int nrhs);
 

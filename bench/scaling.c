@@ -8,7 +8,7 @@
  * Times of ordering and analysis are the processor seconds that the library itself reports. */
 enum { MAX_SYSTEMS = 8, MAX_REPEATS = 50, PHASES = 4 };
 
-static const char *const phases[PHASES] = {"order (METIS)", "analyse", "factor, first", "refactor"};
+static const char *const phases[PHASES] = {"order", "analyse", "factor, first", "refactor"};
 
 typedef struct refactoring {
     const bench_system *system;

@@ -74,6 +74,53 @@ static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
     return NULL;
 }
 
+/* NULL, or which promise of sl_symbolic_view_t about the tree of separators is broken. */
+static inline const char *check_parts(const sl_symbolic_view_t *v, const sl_csc *A) {
+    if (v->n_parts == 0) {
+        return v->part_of || v->part_parent || v->part_level ? "arrays of no tree" : NULL;
+    }
+    sl_int *sizes = test_ints((size_t)v->n_parts);
+    const char *wrong = NULL;
+    for (sl_int k = 0; k < v->n && !wrong; k++) {
+        if (v->part_of[k] < 0 || v->part_of[k] >= v->n_parts) {
+            wrong = "a column of no node";
+        } else {
+            sizes[v->part_of[k]]++;
+        }
+    }
+    for (sl_int t = 0; t < v->n_parts && !wrong; t++) {
+        const sl_int up = v->part_parent[t];
+        if (sizes[t] == 0) {
+            wrong = "an empty node";
+        } else if (up != -1 && (up <= t || up >= v->n_parts)) {
+            wrong = "a parent before its child";
+        } else if (v->part_level[t] != (up == -1 ? 0 : v->part_level[up] + 1)) {
+            wrong = "level";
+        }
+    }
+    for (sl_int j = 0; j < A->n_cols && !wrong; j++) {
+        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
+            sl_int a = v->part_of[v->iperm[j]], b = v->part_of[v->iperm[A->i[p]]];
+            while (a != b && a != -1 && b != -1) { /* the lower one climbs */
+                if (a < b) {
+                    a = v->part_parent[a];
+                } else {
+                    b = v->part_parent[b];
+                }
+                if (a == -1 || b == -1) {
+                    wrong = "an entry joins two nodes of different trees";
+                }
+            }
+            /* one of the two must have stood still */
+            if (!wrong && a != v->part_of[v->iperm[j]] && a != v->part_of[v->iperm[A->i[p]]]) {
+                wrong = "an entry joins two parts that are separated";
+            }
+        }
+    }
+    free(sizes);
+    return wrong;
+}
+
 /* Postorder: the descendants of each node are the ones right before it. */
 static inline const char *check_postorder(sl_int n, const sl_int *parent) {
     sl_int *size = test_ints((size_t)n), *first = test_ints((size_t)n);

@@ -130,6 +130,18 @@ static inline sl_int *test_ints(size_t count) {
     return (sl_int *)test_array(count, sizeof(sl_int));
 }
 
+/* ---- orderings ---- */
+
+/* Whether an ordering is compiled in. */
+static inline int ordering_is_present(sl_ordering ordering) {
+#if defined(SL_NO_METIS)
+    return ordering != SL_ORDERING_METIS && ordering != SL_ORDERING_QUALITY;
+#else
+    (void)ordering;
+    return 1;
+#endif
+}
+
 /* ---- instruction sets ---- */
 
 static inline const char *isa_name(sl_isa isa) {

@@ -76,6 +76,17 @@ static sl_status symbolic_default(fixture_t *f, const sl_options *opt) {
     return symbolic_with(f, opt, SL_ORDERING_DEFAULT);
 }
 
+static sl_status symbolic_metis(fixture_t *f, const sl_options *opt) {
+    return symbolic_with(
+        f, opt, ordering_is_present(SL_ORDERING_METIS) ? SL_ORDERING_METIS : SL_ORDERING_NATURAL);
+}
+
+static sl_status symbolic_quality(fixture_t *f, const sl_options *opt) {
+    return symbolic_with(f, opt,
+                         ordering_is_present(SL_ORDERING_QUALITY) ? SL_ORDERING_QUALITY
+                                                                  : SL_ORDERING_NATURAL);
+}
+
 static sl_status symbolic_natural(fixture_t *f, const sl_options *opt) {
     return symbolic_with(f, opt, SL_ORDERING_NATURAL);
 }
@@ -249,6 +260,8 @@ static void every_allocation_may_fail(void **state) {
         {"sl_matrix_permute", permute},
         {"sl_csc_triangle", triangle},
         {"sl_symbolic_create, default", symbolic_default},
+        {"sl_symbolic_create, METIS", symbolic_metis},
+        {"sl_symbolic_create, quality", symbolic_quality},
         {"sl_symbolic_create, natural", symbolic_natural},
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},

@@ -61,7 +61,7 @@ static void half_an_allocator_is_refused(void **state) {
 static void unknown_values_are_refused(void **state) {
     (void)state;
     problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
-    static const int unknown[3] = {-1, 4, 1000};
+    static const int unknown[3] = {-1, SL_ORDERING_QUALITY + 1, 1000};
     double X[25] = {1}, Y[25] = {7};
     for (int k = 0; k < 3; k++) {
         sl_options opt = options_none();

@@ -7,9 +7,10 @@
 # take. The best peer may use as many threads as ours, or fewer.
 
 BEGIN {
-    n_steps = split("analyse|first factor|refactor|refactor, 2 threads|full solve, 1 rhs|full solve, 3 rhs|" \
-                    "full solve, 8 rhs|full solve, 64 rhs|vertex|pair|patch 1000, 2 rhs|patch 10000, 2 rhs", steps, "|")
+    n_steps = split("order to factor|analyse|first factor|refactor|refactor, 2 threads|full solve, 1 rhs|" \
+                    "full solve, 3 rhs|full solve, 8 rhs|full solve, 64 rhs|vertex|pair|patch 1000, 2 rhs|patch 10000, 2 rhs", steps, "|")
     letters["CHOLMOD supernodal"] = "S"
+    letters["METIS + CHOLMOD supernodal"] = "M"
     letters["CHOLMOD simplicial"] = "s"
     letters["CHOLMOD solve2 Bset"] = "B"
     letters["CHOLMOD full solve"] = "F"
@@ -48,8 +49,8 @@ FNR == 1 { n_tables++; fields($0); for (c = 1; c <= n_fields; c++) at[field[c]] 
 END {
     if (n_systems == 0) { print "readme_table.awk: no measurements: make bench-peers first" >"/dev/stderr"; exit 1 }
     printf "%s.\n\n", machine
-    print "Median; how many times as long the best peer takes (S CHOLMOD supernodal, s CHOLMOD simplicial, B CHOLMOD solve2"
-    print "with Bset, F CHOLMOD full solve, E Eigen SimplicialLDLT; all over the same METIS order); and how much of our time"
+    print "Median; how many times as long the best peer takes (M METIS and S, S CHOLMOD supernodal, s CHOLMOD simplicial, B CHOLMOD"
+    print "solve2 with Bset, F CHOLMOD full solve, E Eigen SimplicialLDLT; all over our order); and how much of our time"
     print "the machine needs at least, to read L or to do the operations."
     for (t = 1; t <= n_tables; t++) table(t)
 }

@@ -12,16 +12,20 @@ typedef struct sli_graph {
     sl_int *to;    /* begin[n] neighbours */
 } sli_graph;
 
-/* G has room for n + 1 positions and twice A's entries. */
-SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle) {
+/* G has room for n + 1 positions and twice A's entries; n is A's rows over block, as many of which
+ * side by side are one vertex. */
+SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle, sl_int block) {
+    const sl_int columns = A->n_cols;
     sl_int j, p;
     sl_off total = 0;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
-    for (j = 0; j < G->n; j++) {
+    for (j = 0; j < columns; j++) {
+        const sl_int v = block == 1 ? j : j / block;
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const int is_edge = A->i[p] != j && sli_is_read(triangle, A->i[p], j);
-            G->begin[A->i[p]] += is_edge;
-            G->begin[j] += is_edge;
+            const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+            const int is_edge = u != v && sli_is_read(triangle, A->i[p], j);
+            G->begin[u] += is_edge;
+            G->begin[v] += is_edge;
         }
     }
     for (j = 0; j <= G->n; j++) {
@@ -29,26 +33,30 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
         G->begin[j] = total;
         total += here;
     }
-    for (j = 0; j < G->n; j++) { /* every begin moves to its end, and back afterwards */
+    for (j = 0; j < columns; j++) { /* every begin moves to its end, and back afterwards */
+        const sl_int v = block == 1 ? j : j / block;
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int i = A->i[p];
-            if (i != j && sli_is_read(triangle, i, j)) {
-                G->to[G->begin[j]++] = i;
-                G->to[G->begin[i]++] = j;
+            const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+            if (u != v && sli_is_read(triangle, A->i[p], j)) {
+                G->to[G->begin[v]++] = u;
+                G->to[G->begin[u]++] = v;
             }
         }
     }
-    memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
+    if (G->n > 0) {
+        memmove(G->begin + 1, G->begin, (size_t)G->n * sizeof(sl_off));
+    }
     G->begin[0] = 0;
 }
 
-/* Whether every list of neighbours ascends, as it does when the rows of A do. */
+/* Whether every list of neighbours ascends, as it does when the rows of A do and none is given
+ * twice. */
 SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
     sl_int v;
     sl_off e;
     for (v = 0; v < G->n; v++) {
         for (e = G->begin[v] + 1; e < G->begin[v + 1]; e++) {
-            if (G->to[e - 1] > G->to[e]) {
+            if (G->to[e - 1] >= G->to[e]) {
                 return 0;
             }
         }
@@ -67,6 +75,24 @@ SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
             to[at[G->to[e]]++] = v;
         }
     }
+}
+
+/* Takes repeated edges out of sorted lists. */
+SLI_INLINE void sli_graph_unite(sli_graph *G) {
+    sl_int v;
+    sl_off e, count = 0, first = 0;
+    for (v = 0; v < G->n; v++) {
+        const sl_off end = G->begin[v + 1];
+        const sl_off kept = count;
+        for (e = first; e < end; e++) {
+            if (count == kept || G->to[count - 1] != G->to[e]) {
+                G->to[count++] = G->to[e];
+            }
+        }
+        first = end;
+        G->begin[v] = kept;
+    }
+    G->begin[G->n] = count;
 }
 
 /* Counts to starting positions. */

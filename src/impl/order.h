@@ -1,8 +1,8 @@
-/* order.h: the fill-reducing order of the rows: natural, given, or nested dissection by component */
+/* order.h: the fill-reducing order of the rows: natural, given, or nested dissection */
 #ifndef SLI_ORDER_H
 #define SLI_ORDER_H
 
-#include "order_metis.h"
+#include "order_own.h"
 #include "permute.h"
 #include "status.h"
 
@@ -65,8 +65,10 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
     return status;
 }
 
-/* Puts the lists of an unsorted graph in order, so that a matrix has one order however it is
- * stored. */
+#endif
+
+/* Puts the lists of an unsorted graph in order and takes repeated edges out, so that a matrix has one
+ * order however it is stored. */
 static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     const sl_off edges = G->begin[G->n];
     sli_block b = {NULL, 0, 0};
@@ -85,62 +87,120 @@ static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     if (status == SL_OK) {
         sli_graph_sort(G, to, at);
         memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+        sli_graph_unite(G);
         sli_free(a, b.base);
     }
     return status;
 }
 
-static sl_status sli_order_dissection(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-                                      sl_int *perm, sl_int *local, const sl_allocator *a) {
+/* An order of blocks of rows to one of rows; the same for the tree. */
+static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_nest *nest) {
+    sl_int k, c;
+    for (k = blocks - 1; k >= 0; k--) {
+        const sl_int v = perm[k], node = nest->count > 0 ? nest->of[k] : 0;
+        for (c = block - 1; c >= 0; c--) {
+            perm[k * block + c] = v * block + c;
+            nest->of[k * block + c] = node;
+        }
+    }
+}
+
+/* By the graph of A, whose rows come in blocks. */
+static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
+                                    const sl_options *opt, sl_int *perm, sl_int *scratch,
+                                    sli_nest *nest, const sl_allocator *a) {
+    const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     sli_graph G;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
-    if (!sli_metis_options_are_sound(opt != NULL ? opt->metis_options : NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
     memset(&G, 0, sizeof G);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        G.n = A->n_cols;
+        G.n = A->n_cols / block;
         G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
         G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(A));
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
-    if (status == SL_OK) {
-        sli_graph_fill(&G, A, triangle);
-        status = sli_order_canonical(&G, a);
-        if (status == SL_OK) {
-            status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, local, a);
-        }
-        sli_free(a, b.base);
+    if (status != SL_OK) {
+        return status;
     }
-    return status;
-}
-#endif
-
-/* perm: n, the order of a checked symmetric pattern. scratch: n. */
-static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-                           sl_int *perm, sl_int *scratch, const sl_allocator *a, sl_stats *stats) {
-    sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
-#if defined(SL_NO_METIS)
-    (void)a;
-    (void)triangle;
-    if (ordering == SL_ORDERING_DEFAULT) {
-        ordering = SL_ORDERING_NATURAL;
+    sli_graph_fill(&G, A, triangle, block);
+    status = sli_order_canonical(&G, a);
+    if (status == SL_OK && ordering != SL_ORDERING_METIS) {
+        status = sli_order_own(&G, ordering == SL_ORDERING_QUALITY,
+                               opt != NULL ? opt->coordinates : NULL,
+                               opt != NULL ? opt->dimensions : 0, perm, nest, a);
+    }
+#if !defined(SL_NO_METIS)
+    if (status == SL_OK && ordering == SL_ORDERING_METIS) {
+        status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
     }
 #else
-    if (ordering == SL_ORDERING_DEFAULT || ordering == SL_ORDERING_METIS) {
-        return sli_order_dissection(A, triangle, opt, perm, scratch, a);
-    }
+    (void)scratch;
 #endif
-    if (ordering == SL_ORDERING_GIVEN) {
-        return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
+    if (status == SL_OK && block > 1) {
+        sli_order_expand(G.n, block, perm, nest);
     }
-    if (ordering == SL_ORDERING_NATURAL) {
+    sli_free(a, b.base);
+    return status;
+}
+
+/* Whether blocks and points are what n rows can have; *bad: the row of a point that is not finite,
+ * -1 otherwise. */
+static int sli_order_wishes_are_sound(const sl_options *opt, sl_int n, sl_int *bad) {
+    sl_int v, k;
+    *bad = -1;
+    if (opt == NULL) {
+        return 1;
+    }
+    if (opt->block_size < 0 || (opt->block_size > 1 && n % opt->block_size != 0) ||
+        (opt->coordinates != NULL && opt->dimensions != 2 && opt->dimensions != 3)) {
+        return 0;
+    }
+    for (v = 0; opt->coordinates != NULL && v < n / sli_max(opt->block_size, 1); v++) {
+        for (k = 0; k < opt->dimensions; k++) {
+            if (!sli_is_finite(opt->coordinates[(size_t)v * (size_t)opt->dimensions + (size_t)k])) {
+                *bad = v * sli_max(opt->block_size, 1);
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* perm: n, the order of a checked symmetric pattern; nest: its tree, n each, where it has one.
+ * scratch: n. */
+static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
+                           sl_int *perm, sl_int *scratch, sli_nest *nest, const sl_allocator *a,
+                           sl_stats *stats) {
+    const sl_ordering wished = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
+    const sl_ordering ordering = wished == SL_ORDERING_DEFAULT ? SL_ORDERING_FAST : wished;
+    sl_int bad;
+    nest->count = 0;
+    if (!sli_order_wishes_are_sound(opt, A->n_cols, &bad)) {
+        return bad == -1 ? SL_ERR_ARGUMENT : sli_fail_at(stats, SL_ERR_NOT_FINITE, bad, -1, 0.0);
+    }
+    switch (ordering) {
+    case SL_ORDERING_GIVEN:
+        return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
+    case SL_ORDERING_NATURAL:
         sli_order_natural(A->n_cols, perm);
         return SL_OK;
+    case SL_ORDERING_FAST:
+    case SL_ORDERING_BUILTIN:
+        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, nest, a);
+    case SL_ORDERING_METIS:
+    case SL_ORDERING_QUALITY:
+#if defined(SL_NO_METIS)
+        return SL_ERR_UNSUPPORTED;
+#else
+        return ordering == SL_ORDERING_METIS && !sli_metis_options_are_sound(opt->metis_options)
+                   ? SL_ERR_ARGUMENT
+                   : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, nest, a);
+#endif
+    default:
+        return SL_ERR_ARGUMENT;
     }
-    return ordering == SL_ORDERING_METIS ? SL_ERR_UNSUPPORTED : SL_ERR_ARGUMENT;
 }
 
 #endif

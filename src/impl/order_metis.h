@@ -1,9 +1,10 @@
-/* order_metis.h: nested dissection of one connected component by METIS_NodeND */
+/* order_metis.h: what METIS is asked: the order of a connected component, and its nested separators */
 #ifndef SLI_ORDER_METIS_H
 #define SLI_ORDER_METIS_H
 
 #include "alloc.h"
 #include "graph.h"
+#include "order_coarsen.h"
 
 #if !defined(SL_NO_METIS)
 
@@ -102,6 +103,56 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         }
         for (k = 0; k < count; k++) {
             vertices[k] = (sl_int)xadj[perm[k]];
+        }
+    }
+    sli_free(a, b.base);
+    return result == METIS_OK             ? SL_OK
+           : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
+                                          : SL_ERR_ORDERING;
+}
+
+/* Separators of a graph, nested down to so many parts, a power of two. order: the vertices, parts
+ * before the separators round them; sizes: 2 parts - 1, of the parts, then of the separators level
+ * by level, the outermost last. */
+static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *order, sl_int *sizes,
+                                  const sl_allocator *a) {
+    const sl_off edges = g->begin[g->n];
+    idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
+                                   *size = NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_off e;
+    sl_int k;
+    int pass, result;
+    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        xadj = SLI_TAKE(&b, idx_t, (size_t)g->n + 1);
+        adjncy = SLI_TAKE(&b, idx_t, edges);
+        perm = SLI_TAKE(&b, idx_t, g->n);
+        iperm = SLI_TAKE(&b, idx_t, g->n);
+        size = SLI_TAKE(&b, idx_t, 2 * (size_t)parts);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k <= g->n; k++) {
+        xadj[k] = (idx_t)g->begin[k];
+    }
+    for (e = 0; e < edges; e++) {
+        adjncy[e] = g->to[e];
+    }
+    METIS_SetDefaultOptions(options);
+    result =
+        METIS_NodeNDP((idx_t)g->n, xadj, adjncy, NULL, (idx_t)parts, options, perm, iperm, size);
+    if (result == METIS_OK) {
+        for (k = 0; k < g->n; k++) {
+            order[k] = (sl_int)perm[k];
+        }
+        for (k = 0; k < 2 * parts - 1; k++) {
+            sizes[k] = (sl_int)size[k];
         }
     }
     sli_free(a, b.base);

@@ -21,6 +21,7 @@ typedef struct sli_analysis {
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
     uint64_t *list;                     /* 2n */
+    sli_nest nest;                      /* n each: the tree of separators, by rows of A */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
@@ -45,6 +46,8 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->groups.zeros = SLI_TAKE(b, double, n);
     w->groups.group = SLI_TAKE(b, sl_int, n);
     w->list = SLI_TAKE(b, uint64_t, 2 * n);
+    w->nest.of = SLI_TAKE(b, sl_int, n);
+    w->nest.parent = SLI_TAKE(b, sl_int, n + 1);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
@@ -66,6 +69,9 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->map_from = SLI_TAKE(b, sl_int, entries);
     S->map_to = SLI_TAKE(b, sl_off, entries);
+    S->part_of = SLI_TAKE(b, sl_int, S->n_parts > 0 ? n : 0);
+    S->part_parent = SLI_TAKE(b, sl_int, S->n_parts);
+    S->part_level = SLI_TAKE(b, sl_int, S->n_parts);
 }
 
 /* Tree, counts and supernodes in their final numbering. */
@@ -110,6 +116,18 @@ static void sli_analyse_stats(const sl_symbolic *S, sl_int *depth, sl_stats *sta
     }
 }
 
+/* The tree of separators, whose nodes stand below their parents, by columns of L. */
+static void sli_fill_parts(sl_symbolic *S, const sli_nest *nest) {
+    sl_int k;
+    for (k = 0; k < S->n && S->n_parts > 0; k++) {
+        S->part_of[k] = nest->of[S->perm[k]];
+    }
+    for (k = S->n_parts - 1; k >= 0; k--) {
+        S->part_parent[k] = nest->parent[k];
+        S->part_level[k] = nest->parent[k] == -1 ? 0 : S->part_level[nest->parent[k]] + 1;
+    }
+}
+
 /* Copies the tree out of the workspace and fills everything that hangs on it. */
 static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
@@ -137,6 +155,7 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_fill_steps(S);
     sli_fill_descendants(S);
     sli_fill_places(S, w->scratch);
+    sli_fill_parts(S, &w->nest);
     sli_analyse_stats(S, w->scratch, stats);
 }
 
@@ -150,7 +169,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     int pass;
     sl_status status;
     started = sli_seconds();
-    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, a, stats);
+    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, &w->nest, a, stats);
     stats->seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
@@ -168,6 +187,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     draft.allocator = *a;
     draft.n = A->n_cols;
     draft.n_supers = w->groups.count;
+    draft.n_parts = w->nest.count;
     draft.nnz_input = sli_nnz(A);
     draft.fingerprint = sli_fingerprint(A);
     for (s = 0; s < w->groups.count; s++) {
@@ -284,6 +304,10 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S) {
         v.rows_begin = S->rows_begin;
         v.rows = S->rows;
         v.panel_begin = S->panel_begin;
+        v.n_parts = S->n_parts;
+        v.part_of = S->n_parts > 0 ? S->part_of : NULL;
+        v.part_parent = S->n_parts > 0 ? S->part_parent : NULL;
+        v.part_level = S->n_parts > 0 ? S->part_level : NULL;
     }
     return v;
 }

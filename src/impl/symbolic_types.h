@@ -29,6 +29,9 @@ struct sl_symbolic {
     sl_off *map_begin; /* n_supers + 1 */
     sl_int *map_from;  /* map_begin[n_supers]: positions in A, grouped by supernode */
     sl_off *map_to;    /* the same: positions in L; several may share one (duplicates) */
+    sl_int n_parts;    /* nodes of the tree of separators; 0: the order has none */
+    sl_int *part_of;   /* n: the node of each column */
+    sl_int *part_parent, *part_level; /* n_parts */
 };
 
 /* One triangle of an ordered matrix, entry by entry, duplicates kept. Elimination-order numbers. */

@@ -9,7 +9,7 @@
  *
  *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include: the bodies go there.
  *  SL_STATIC                     everything static: private copy of the library in one source file.
- *  SL_NO_METIS                   build without METIS: natural and given orderings only.
+ *  SL_NO_METIS                   build without METIS: all but SL_ORDERING_METIS and _QUALITY.
  *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
  *
  * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity

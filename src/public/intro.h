@@ -35,6 +35,9 @@
  *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry processing, 2017.
  *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
  *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [FF56]    Ford, Fulkerson: Maximal flow through a network, 1956.
+ *  [George73] George: Nested dissection of a regular finite element mesh, 1973.
+ *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.

@@ -52,10 +52,13 @@ typedef enum sl_reading {
 } sl_reading;
 
 typedef enum sl_ordering {
-    SL_ORDERING_DEFAULT = 0, /* METIS where compiled in, else natural */
+    SL_ORDERING_DEFAULT = 0, /* SL_ORDERING_FAST */
     SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_GIVEN,       /* options.perm */
-    SL_ORDERING_NATURAL      /* 0, 1, 2, ... */
+    SL_ORDERING_NATURAL,     /* 0, 1, 2, ... */
+    SL_ORDERING_FAST,        /* the quickest set-up: today SL_ORDERING_BUILTIN */
+    SL_ORDERING_BUILTIN,     /* nested dissection of this header's own; needs no library */
+    SL_ORDERING_QUALITY      /* for very many local solves: METIS's separators, improved by ours */
 } sl_ordering;
 
 /** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
@@ -115,27 +118,34 @@ typedef struct sl_allocator {
 
 /** Wishes, the same struct for every call. All zero (or a NULL pointer) = defaults. */
 typedef struct sl_options {
+    /* sl_symbolic_create */
+
     sl_ordering ordering;
-    const sl_int
-        *perm; /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
-    const sl_int *
-        metis_options; /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default;
-                          its numbering and debug level are not read */
+    /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *perm;
+    /* 40 entries as METIS's options array, -1 = METIS's default; NULL: all default; its numbering and debug level are not
+     * read */
+    const sl_int *metis_options;
     sl_relaxation relaxation;
+    /* n / block_size x dimensions (2 or 3), row-major: where each row lies, for FAST and BUILTIN: parts are halves of space
+     * where that is the better cut; NULL: not known */
+    const double *coordinates;
+    sl_int dimensions;
+    /* rows that stay together in the order, such as x, y, z of a vertex: rows k block_size .. (k + 1) block_size - 1
+     * each; divides n; 0 or 1: none */
+    sl_int block_size;
+
+    /* sl_factor_create */
+
     sl_isa isa;
     sl_method method;
-    sl_threads threads;
+    sl_threads threads; /* of whatever a factor, or a call, can share out */
     sl_definiteness definiteness;
-    double
-        null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
-                               it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
-    sl_allocator allocator;
-    const struct sl_region *
-        region; /* of sl_plan_create: where its sweeps may end; borrowed, must outlive the plan; NULL: none */
-    size_t
-        region_bytes; /* of sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
+    /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made it); 0: (64 + n/8) epsilon;
+     * negative: only an exact zero is null */
+    double null_tolerance;
 
-    /* SL_SEMIDEFINITE, sl_factor_create: which of many solutions is meant, and when there is none */
+    /* the same with SL_SEMIDEFINITE: which of many solutions is meant, and when there is none */
 
     /* n weights m, copied: x has sum m x = 0 in each component with a null pivot, and b is made consistent by a
      * multiple of m; NULL: x is 0 in the null rows */
@@ -144,13 +154,21 @@ typedef struct sl_options {
      * 1 in its null row; 0: 1e-6, which lets pass what single precision loses; negative: nothing is refused */
     double consistency_tolerance;
 
-    /* SL_DEFINITE, sl_factor_create: signed regularization */
+    /* the same with SL_DEFINITE: signed regularization */
 
     /* a null pivot d, or one of the wrong sign, becomes sign * max(|d|, regularization * the sum of the magnitudes
      * that made it, 1 where that is 0); 1e-8 suits refinement; 0: none */
     double regularization;
     /* n: the sign that each row's pivot should have, 1 or -1, or 0: either will do; copied; NULL: all 1 */
     const sl_int *signs;
+
+    /* sl_plan_create: where sweeps may end; borrowed, must outlive the plan; NULL: at the roots alone */
+    const struct sl_region *region;
+    /* sl_region_create: most bytes that a region with a boundary may keep; 0: no bound */
+    size_t region_bytes;
+
+    /* every call that makes an object */
+    sl_allocator allocator;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so

@@ -1,0 +1,431 @@
+/* test_ordering.c: nested dissection: permutations, its tree, fill beside METIS's, hostile graphs, points, blocks, no memory */
+#include "check.h"
+
+static sl_symbolic *analyse(const sl_csc *A, const sl_options *opt, sl_stats *stats) {
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, A, opt, stats));
+    assert_non_null(S);
+    return S;
+}
+
+/* Entries of L under an ordering, whose permutation and tree are checked. */
+static double fill_of(const sl_csc *A, sl_options opt, sl_ordering ordering) {
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    opt.ordering = ordering;
+    sl_symbolic *S = analyse(A, &opt, &stats);
+    const sl_symbolic_view_t v = sl_symbolic_view(S);
+    NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+    NOTHING_WRONG(check_parts(&v, A));
+    sl_symbolic_free(S);
+    return (double)stats.nnz_l;
+}
+
+/* ---- graphs that are not in the zoo ---- */
+
+/* hubs in a row, the rows beyond them shared out among them: brooms where there are two */
+static void edges_caterpillar(gen_list_t *t, sl_int hubs, uint64_t *state) {
+    for (sl_int k = 1; k < t->n; k++) {
+        gen_add(t, k, k < hubs ? k - 1 : k % hubs, gen_real(state));
+    }
+}
+
+/* cliques in a row, two rows shared by neighbours */
+static void edges_cliques(gen_list_t *t, sl_int size, uint64_t *state) {
+    for (sl_int first = 0; first + size <= t->n; first += size - 2) {
+        for (sl_int j = first; j < first + size; j++) {
+            for (sl_int i = first == 0 || j >= first + 2 ? j + 1 : first + 2; i < first + size;
+                 i++) {
+                gen_add(t, i, j, gen_real(state));
+            }
+        }
+    }
+}
+
+/* a random tree: each row hangs on an earlier one */
+static void edges_tree(gen_list_t *t, uint64_t *state) {
+    for (sl_int k = 1; k < t->n; k++) {
+        gen_add(t, k, gen_below(state, k), gen_real(state));
+    }
+}
+
+/* every row to a few others anywhere: no small separators; rows may meet twice, which is an entry given twice */
+static void edges_expander(gen_list_t *t, sl_int degree, uint64_t *state) {
+    for (sl_int k = 1; k < t->n; k++) {
+        for (sl_int e = 0; e < degree; e++) {
+            gen_add(t, k, gen_below(state, k), gen_real(state));
+        }
+    }
+}
+
+/* the rows that few others meet, and two that meet all */
+static void edges_dense_rows(gen_list_t *t, uint64_t *state) {
+    gen_edges_star(t, 7, state);
+    for (sl_int k = 0; k < t->n; k++) {
+        if (k != 7 && k != 9) {
+            gen_add(t, 9, k, gen_real(state));
+        }
+    }
+    for (sl_int k = 60; k < t->n; k++) {
+        gen_add(t, k, k - 1, gen_real(state));
+        gen_add(t, k, k - 50, gen_real(state));
+    }
+}
+
+/* a triangulated grid: squares with one diagonal */
+static void edges_triangles(gen_list_t *t, sl_int nx, sl_int ny, uint64_t *state) {
+    gen_edges_grid(t, nx, ny, 1, state);
+    for (sl_int y = 1; y < ny; y++) {
+        for (sl_int x = 1; x < nx; x++) {
+            gen_add(t, x + nx * y, x - 1 + nx * (y - 1), gen_real(state));
+        }
+    }
+}
+
+/* two triangulated grids that share a row of vertices at a right angle to both: an edge of four faces, doubled */
+static void edges_book(gen_list_t *t, sl_int side, uint64_t *state) {
+    edges_triangles(t, side, side, state);
+    for (sl_int y = 0; y < side; y++) {
+        for (sl_int x = 0; x < side; x++) {
+            const sl_int v = side * side + x + side * y;
+            gen_add(t, v, y == 0 ? x : v - side, gen_real(state));
+            if (x > 0) {
+                gen_add(t, v, v - 1, gen_real(state));
+            }
+        }
+    }
+}
+
+enum {
+    HARD_NO_EDGES,
+    HARD_PATH,
+    HARD_STAR,
+    HARD_TWO_HUBS,
+    HARD_CATERPILLAR,
+    HARD_CLIQUE,
+    HARD_CLIQUES,
+    HARD_TREE,
+    HARD_EXPANDER,
+    HARD_DENSE_ROWS,
+    HARD_TRIANGLES,
+    HARD_STRIP,
+    HARD_BOOK,
+    HARD_GRID,
+    HARD_VOLUME,
+    HARD_COMPONENTS,
+    HARD_KINDS
+};
+
+static gen_list_t hard_graph(int kind) {
+    static const sl_int rows[HARD_KINDS] = {3000, 6000, 4000, 3000, 4000, 500,  1500, 4000,
+                                            700,  2500, 3600, 4000, 2450, 2500, 2744, 6000};
+    gen_list_t t = gen_list(rows[kind]);
+    uint64_t state = 77;
+    switch (kind) {
+    case HARD_PATH:
+        gen_edges_path(&t, &state);
+        break;
+    case HARD_STAR:
+        gen_edges_star(&t, 11, &state);
+        break;
+    case HARD_TWO_HUBS:
+        edges_caterpillar(&t, 2, &state);
+        break;
+    case HARD_CATERPILLAR:
+        edges_caterpillar(&t, 40, &state);
+        break;
+    case HARD_CLIQUE:
+        gen_edges_random(&t, 1000, &state);
+        break;
+    case HARD_CLIQUES:
+        edges_cliques(&t, 30, &state);
+        break;
+    case HARD_TREE:
+        edges_tree(&t, &state);
+        break;
+    case HARD_EXPANDER:
+        edges_expander(&t, 2, &state);
+        break;
+    case HARD_DENSE_ROWS:
+        edges_dense_rows(&t, &state);
+        break;
+    case HARD_TRIANGLES:
+        edges_triangles(&t, 60, 60, &state);
+        break;
+    case HARD_STRIP:
+        edges_triangles(&t, 4, 1000, &state);
+        break;
+    case HARD_BOOK:
+        edges_book(&t, 35, &state);
+        break;
+    case HARD_GRID:
+        gen_edges_grid(&t, 50, 50, 1, &state);
+        break;
+    case HARD_VOLUME:
+        gen_edges_grid(&t, 14, 14, 14, &state);
+        break;
+    case HARD_COMPONENTS:
+        gen_components(&t, &state);
+        break;
+    default:
+        break;
+    }
+    for (sl_int k = 0; k < t.n; k++) {
+        gen_add(&t, k, k, 1.0);
+    }
+    return t;
+}
+
+/* The same matrix with its rows renamed at random: no order of the input may help. */
+static void rename_rows(gen_list_t *t, uint64_t seed) {
+    sl_int *name = test_ints((size_t)t->n);
+    gen_permutation(name, t->n, seed);
+    for (size_t k = 0; k < t->count; k++) {
+        const sl_int a = name[t->row[k]], b = name[t->col[k]];
+        t->row[k] = a > b ? a : b;
+        t->col[k] = a > b ? b : a;
+    }
+    free(name);
+}
+
+/* At most 1.5 times METIS's fill on anything (the graphs here stay below 1.25, whatever the seeds), and exactly the
+ * least where there is none to be made. */
+static void hard_graphs_beside_metis(void **state) {
+    (void)state;
+    for (int kind = 0; kind < HARD_KINDS; kind++) {
+        for (int renamed = 0; renamed < 2; renamed++) {
+            gen_list_t t = hard_graph(kind);
+            if (renamed) {
+                rename_rows(&t, 5);
+            }
+            gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+            const sl_options opt = options_none();
+            const double fast = fill_of(&M.view, opt, SL_ORDERING_FAST);
+            assert_true(fast == fill_of(&M.view, opt, SL_ORDERING_BUILTIN));
+            if (kind == HARD_NO_EDGES || kind == HARD_STAR || kind == HARD_CLIQUE) {
+                const double n = t.n;
+                assert_true(fast == (kind == HARD_NO_EDGES ? n
+                                     : kind == HARD_STAR   ? 2 * n - 1
+                                                           : n * (n + 1) / 2));
+            }
+            if (ordering_is_present(SL_ORDERING_METIS)) {
+                const double metis = fill_of(&M.view, opt, SL_ORDERING_METIS);
+                const double quality = fill_of(&M.view, opt, SL_ORDERING_QUALITY);
+                if (fast > 1.5 * metis || quality > 1.5 * metis) {
+                    print_error("graph %d: %g by FAST, %g by QUALITY, %g by METIS\n", kind, fast,
+                                quality, metis);
+                    fail();
+                }
+            }
+            gen_matrix_free(&M);
+            gen_list_free(&t);
+        }
+    }
+}
+
+/* Small graphs of every kind and size around the sizes where something begins: parts, leaves, levels. */
+static void every_size(void **state) {
+    (void)state;
+    static const sl_int sizes[] = {0, 1, 2, 3, 5, 8, 199, 200, 201, 202, 240, 401, 700, 1407};
+    for (int kind = 0; kind < GEN_KINDS; kind++) {
+        for (size_t size = 0; size < sizeof sizes / sizeof *sizes; size++) {
+            if ((kind == GEN_DENSE && sizes[size] > 401) || (kind > GEN_ONE && sizes[size] < 2)) {
+                continue;
+            }
+            gen_matrix_t M = gen_matrix((gen_kind_t)kind, sizes[size], 1, 3 + size);
+            (void)fill_of(&M.view, options_none(), SL_ORDERING_FAST);
+            if (ordering_is_present(SL_ORDERING_QUALITY)) {
+                (void)fill_of(&M.view, options_none(), SL_ORDERING_QUALITY);
+            }
+            gen_matrix_free(&M);
+        }
+    }
+}
+
+/* The default is the same order, however the matrix is stored and whatever was done before. */
+static void one_matrix_has_one_order(void **state) {
+    (void)state;
+    gen_list_t t = hard_graph(HARD_BOOK);
+    sl_int *perm = test_ints((size_t)t.n);
+    for (int which = 0; which < GEN_STYLES; which++) {
+        gen_matrix_t M = gen_store(&t, gen_style(which), (uint64_t)which);
+        sl_options opt = options_none();
+        opt.ordering = which % 2 ? SL_ORDERING_DEFAULT : SL_ORDERING_BUILTIN;
+        sl_symbolic *S = analyse(&M.view, &opt, NULL);
+        const sl_symbolic_view_t v = sl_symbolic_view(S);
+        if (which == 0) {
+            memcpy(perm, v.perm, (size_t)v.n * sizeof(sl_int));
+            assert_true(v.n_parts > 10);
+        }
+        assert_memory_equal(perm, v.perm, (size_t)v.n * sizeof(sl_int));
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+    free(perm);
+    gen_list_free(&t);
+}
+
+/* ---- blocks ---- */
+
+/* every entry becomes a full block of 3 x 3 */
+static gen_list_t in_blocks(const gen_list_t *t, sl_int block) {
+    gen_list_t b = gen_list(t->n * block);
+    for (size_t k = 0; k < t->count; k++) {
+        for (sl_int i = 0; i < block; i++) {
+            for (sl_int j = 0; j < (t->row[k] == t->col[k] ? i + 1 : block); j++) {
+                gen_add(&b, t->row[k] * block + i, t->col[k] * block + j, t->x[k]);
+            }
+        }
+    }
+    return b;
+}
+
+/* Blocks are ordered as their graph is, and L has the blocks of the small L. */
+static void blocks_stay_together(void **state) {
+    (void)state;
+    gen_list_t t = hard_graph(HARD_TRIANGLES);
+    gen_matrix_t small = gen_store(&t, gen_style(0), 1);
+    for (sl_int block = 2; block <= 3; block++) {
+        gen_list_t b = in_blocks(&t, block);
+        gen_matrix_t M = gen_store(&b, gen_style((int)block), 1);
+        for (int ordering = SL_ORDERING_DEFAULT; ordering <= SL_ORDERING_QUALITY; ordering++) {
+            if (ordering == SL_ORDERING_GIVEN || ordering == SL_ORDERING_NATURAL ||
+                !ordering_is_present((sl_ordering)ordering)) {
+                continue;
+            }
+            sl_options opt = options_none();
+            const double plain = fill_of(&small.view, opt, (sl_ordering)ordering);
+            opt.block_size = block;
+            const double n = t.n, d = block;
+            assert_true(fill_of(&M.view, opt, (sl_ordering)ordering) ==
+                        d * d * (plain - n) + n * d * (d + 1) / 2);
+        }
+        gen_matrix_free(&M);
+        gen_list_free(&b);
+    }
+    gen_matrix_free(&small);
+    gen_list_free(&t);
+}
+
+static void wrong_blocks_and_points_are_refused(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 100, 1, 1);
+    double xyz[300] = {0};
+    static const sl_int blocks[3] = {-1, 3, 101}, dimensions[4] = {0, 1, 4, -2};
+    for (int k = 0; k < 4; k++) {
+        sl_options opt = options_none();
+        sl_symbolic *S = (sl_symbolic *)(void *)&M;
+        if (k < 3) {
+            opt.block_size = blocks[k];
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, NULL));
+            assert_null(S);
+        }
+        opt = options_none();
+        opt.coordinates = xyz;
+        opt.dimensions = dimensions[k];
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, NULL));
+        assert_null(S);
+    }
+    for (int k = 0; k < 2; k++) {
+        sl_options opt = options_none();
+        sl_stats stats;
+        sl_symbolic *S = (sl_symbolic *)(void *)&M;
+        opt.coordinates = xyz;
+        opt.dimensions = 3;
+        opt.block_size = k ? 2 : 0;
+        xyz[3 * 40 + 2] = k ? (double)INFINITY : (double)NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_symbolic_create(&S, &M.view, &opt, &stats));
+        assert_null(S);
+        assert_int_equal(stats.error_row, k ? 80 : 40);
+    }
+    gen_matrix_free(&M);
+}
+
+/* ---- coordinates ---- */
+
+/* On a flat grid halves of space are good parts; points that say nothing or lie are no worse than none. */
+static void points_help_or_do_no_harm(void **state) {
+    (void)state;
+    const sl_int side = 60;
+    gen_list_t t = hard_graph(HARD_TRIANGLES);
+    rename_rows(&t, 9);
+    sl_int *name = test_ints((size_t)t.n);
+    gen_permutation(name, t.n, 9);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    double *xyz = test_reals(3 * (size_t)t.n);
+    const double plain = fill_of(&M.view, options_none(), SL_ORDERING_FAST);
+    for (int kind = 0; kind < 6; kind++) {
+        const sl_int d = kind == 0 ? 2 : 3;
+        uint64_t seed = 3;
+        for (sl_int k = 0; k < t.n; k++) {
+            double *at = xyz + (size_t)d * (size_t)name[k];
+            at[0] = k % side;
+            at[1] = (double)(k / side);
+            if (d == 3) {
+                at[2] = 0;
+            }
+            for (sl_int c = 0; c < d; c++) {
+                at[c] = kind == 2   ? 1.0 /* all in one place */
+                        : kind == 3 ? gen_real(&seed)
+                        : kind == 4 ? at[c] * 1e300
+                        : kind == 5 ? (c == 0 ? -at[c] * 1e-300 : at[c] * 1e300)
+                                    : at[c];
+            }
+        }
+        sl_options opt = options_none();
+        opt.coordinates = xyz;
+        opt.dimensions = d;
+        const double fill = fill_of(&M.view, opt, SL_ORDERING_FAST);
+        assert_true(fill <= (kind < 2 ? 1.05 : 1.25) * plain);
+    }
+    free(xyz);
+    free(name);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
+/* ---- memory ---- */
+
+static void memory_may_end_anywhere(void **state) {
+    (void)state;
+    static const int kinds[3] = {HARD_TRIANGLES, HARD_DENSE_ROWS, HARD_COMPONENTS};
+    for (int k = 0; k < 3; k++) {
+        for (int points = 0; points < 2; points++) {
+            gen_list_t t = hard_graph(kinds[k]);
+            gen_matrix_t M = gen_store(&t, gen_style(3 + 6), 1); /* unsorted, entries twice */
+            double *xyz = test_reals(2 * (size_t)t.n);
+            gen_reals(xyz, 2 * (size_t)t.n, 4);
+            sl_status status = SL_ERR_MEMORY;
+            for (int64_t fail_at = 0; status != SL_OK; fail_at++) {
+                counter_t counter = counter_make();
+                sl_options opt = options_counted(&counter);
+                sl_symbolic *S = (sl_symbolic *)(void *)&M;
+                counter.fail_at = fail_at;
+                opt.coordinates = points ? xyz : NULL;
+                opt.dimensions = 2;
+                status = sl_symbolic_create(&S, &M.view, &opt, NULL);
+                assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+                assert_true((S != NULL) == (status == SL_OK));
+                assert_true(fail_at < 200);
+                sl_symbolic_free(S);
+                COUNTER_CLEAN(&counter);
+            }
+            free(xyz);
+            gen_matrix_free(&M);
+            gen_list_free(&t);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_graphs_beside_metis),
+        cmocka_unit_test(every_size),
+        cmocka_unit_test(one_matrix_has_one_order),
+        cmocka_unit_test(blocks_stay_together),
+        cmocka_unit_test(wrong_blocks_and_points_are_refused),
+        cmocka_unit_test(points_help_or_do_no_harm),
+        cmocka_unit_test(memory_may_end_anywhere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
