@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e70fcb2241cbc237
+ * FNV-1a of all that follows this comment, license aside: 2e5eae6172478599
  *
  * Contents
  *         (what a user reads)
@@ -18005,14 +18005,14 @@ static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double 
     sli_chains_sum(chains, lanes, norms);
 }
 
-/* The columns of the tree whose root is step s of a reach. */
-typedef struct sli_tree {
+/* The columns of a whole tree, as the one whose root is a step of a reach. */
+typedef struct sli_whole_tree {
     sl_int first, root;
-} sli_tree;
+} sli_whole_tree;
 
-SLI_INLINE sli_tree sli_tree_of(const sl_symbolic *S, const sli_step *root) {
+SLI_INLINE sli_whole_tree sli_whole_tree_of(const sl_symbolic *S, const sli_step *root) {
     const sl_int super = S->super_of[root->column];
-    sli_tree tree;
+    sli_whole_tree tree;
     tree.first = S->super_first[S->descendant[super]];
     tree.root = S->super_first[super + 1] - 1;
     return tree;
@@ -18024,11 +18024,11 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
                              const double *norms) {
     sl_int s, m, r;
     for (s = 0; s < R->count; s++) {
-        sli_tree tree;
+        sli_whole_tree tree;
         if (R->steps[s].up != -1) {
             continue;
         }
-        tree = sli_tree_of(F->S, &R->steps[s]);
+        tree = sli_whole_tree_of(F->S, &R->steps[s]);
         for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
              m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
             const sl_int at = sli_reach_place_of(R, F->nulls[m]);
@@ -18049,7 +18049,7 @@ typedef struct sli_shares {
 
 /* The tree that begins at step s; returns the step after its root. m: the number of its anchor, or -1. */
 static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
-                             sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
+                             sl_int lanes, sl_int *m, sli_whole_tree *tree, sli_shares *share) {
     double chains[SLI_TILE], sums[SLI_TILE];
     sl_int r, at, up = s;
     memset(share, 0, sizeof *share);
@@ -18063,7 +18063,7 @@ static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, c
 #undef SLI_CALL
         up = step->up;
     }
-    *tree = sli_tree_of(F->S, &R->steps[s - 1]);
+    *tree = sli_whole_tree_of(F->S, &R->steps[s - 1]);
     *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
     if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
         *m = -1;
@@ -18100,7 +18100,7 @@ static void sli_centre(const sl_factor *F, const sli_reach *from, const double *
     sl_int s = 0, at = 0, m;
     while (s < from->count && at < to->count) {
         sli_shares share;
-        sli_tree tree;
+        sli_whole_tree tree;
         sl_int place;
         s = sli_centre_ask(F, from, s, y, lanes, &m, &tree, &share);
         for (; at < to->count && to->steps[at].column <= tree.root; at++) {
@@ -21382,12 +21382,12 @@ static sl_int sli_mending_find(sli_mending *f) {
     sl_int s;
     f->count = 0;
     for (s = 0; s < R->count; s++) {
-        sli_tree tree;
+        sli_whole_tree tree;
         sl_int m;
         if (R->steps[s].up != -1) {
             continue;
         }
-        tree = sli_tree_of(F->S, &R->steps[s]);
+        tree = sli_whole_tree_of(F->S, &R->steps[s]);
         m = sli_lower_bound(F->regularized, F->stats.regularized, tree.first);
         for (; m < F->stats.regularized && F->regularized[m] <= tree.root; m++) {
             const sl_int k = F->regularized[m];

@@ -78,6 +78,7 @@ static inline void whole_make(whole_t *w, mesh m) {
     memset(w, 0, sizeof *w);
     w->m = m;
     opt.definiteness = SL_SEMIDEFINITE;
+    opt.consistency_tolerance = -1;
     assert_true(incidence_create(&w->around, &w->m));
     assert_true(laplacian_cotangent(&w->L, &w->m));
     const sl_csc A = sl_matrix_view(w->L);

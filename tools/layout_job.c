@@ -90,6 +90,7 @@ static void factor_mesh(layout_job *j) {
     sl_stats stats;
     memset(&opt, 0, sizeof opt);
     opt.definiteness = SL_SEMIDEFINITE; /* L is singular: constants */
+    opt.consistency_tolerance = -1;     /* what is solved last are residuals, all rounding */
     if (!laplacian_cotangent(&j->L, &j->m)) {
         app_die("out of memory");
     }

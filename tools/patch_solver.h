@@ -36,7 +36,8 @@ enum { PATCH_SOLVER_MOST = 4 }; /* right-hand sides at once */
  *
  *  out  [out]  release with patch_solver_free; all zero on error.
  *  S    [in]   analysis of the mesh's Laplacian; borrowed.
- *  F    [in]   its factor, made with SL_SEMIDEFINITE; borrowed.
+ *  F    [in]   its factor, made with SL_SEMIDEFINITE and consistency_tolerance < 0, as residuals of the part's problem are
+ *               solved for that are all rounding; borrowed.
  *  p    [in]   borrowed.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: the part has vertices that S has not, or one twice; SL_ERR_MEMORY.
  *  Cost     nothing that depends on the size of the mesh, but for the depth of its elimination tree.

@@ -222,14 +222,14 @@ static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double 
     sli_chains_sum(chains, lanes, norms);
 }
 
-/* The columns of the tree whose root is step s of a reach. */
-typedef struct sli_tree {
+/* The columns of a whole tree, as the one whose root is a step of a reach. */
+typedef struct sli_whole_tree {
     sl_int first, root;
-} sli_tree;
+} sli_whole_tree;
 
-SLI_INLINE sli_tree sli_tree_of(const sl_symbolic *S, const sli_step *root) {
+SLI_INLINE sli_whole_tree sli_whole_tree_of(const sl_symbolic *S, const sli_step *root) {
     const sl_int super = S->super_of[root->column];
-    sli_tree tree;
+    sli_whole_tree tree;
     tree.first = S->super_first[S->descendant[super]];
     tree.root = S->super_first[super + 1] - 1;
     return tree;
@@ -241,11 +241,11 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
                              const double *norms) {
     sl_int s, m, r;
     for (s = 0; s < R->count; s++) {
-        sli_tree tree;
+        sli_whole_tree tree;
         if (R->steps[s].up != -1) {
             continue;
         }
-        tree = sli_tree_of(F->S, &R->steps[s]);
+        tree = sli_whole_tree_of(F->S, &R->steps[s]);
         for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
              m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
             const sl_int at = sli_reach_place_of(R, F->nulls[m]);
@@ -266,7 +266,7 @@ typedef struct sli_shares {
 
 /* The tree that begins at step s; returns the step after its root. m: the number of its anchor, or -1. */
 static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
-                             sl_int lanes, sl_int *m, sli_tree *tree, sli_shares *share) {
+                             sl_int lanes, sl_int *m, sli_whole_tree *tree, sli_shares *share) {
     double chains[SLI_TILE], sums[SLI_TILE];
     sl_int r, at, up = s;
     memset(share, 0, sizeof *share);
@@ -280,7 +280,7 @@ static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, c
 #undef SLI_CALL
         up = step->up;
     }
-    *tree = sli_tree_of(F->S, &R->steps[s - 1]);
+    *tree = sli_whole_tree_of(F->S, &R->steps[s - 1]);
     *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
     if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
         *m = -1;
@@ -317,7 +317,7 @@ static void sli_centre(const sl_factor *F, const sli_reach *from, const double *
     sl_int s = 0, at = 0, m;
     while (s < from->count && at < to->count) {
         sli_shares share;
-        sli_tree tree;
+        sli_whole_tree tree;
         sl_int place;
         s = sli_centre_ask(F, from, s, y, lanes, &m, &tree, &share);
         for (; at < to->count && to->steps[at].column <= tree.root; at++) {

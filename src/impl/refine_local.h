@@ -40,12 +40,12 @@ static sl_int sli_mending_find(sli_mending *f) {
     sl_int s;
     f->count = 0;
     for (s = 0; s < R->count; s++) {
-        sli_tree tree;
+        sli_whole_tree tree;
         sl_int m;
         if (R->steps[s].up != -1) {
             continue;
         }
-        tree = sli_tree_of(F->S, &R->steps[s]);
+        tree = sli_whole_tree_of(F->S, &R->steps[s]);
         m = sli_lower_bound(F->regularized, F->stats.regularized, tree.first);
         for (; m < F->stats.regularized && F->regularized[m] <= tree.root; m++) {
             const sl_int k = F->regularized[m];
