@@ -4,6 +4,12 @@
 
 #include "gen.h"
 
+/* Graphs of every shape, connected or not. */
+enum { LAPLACIAN_KINDS = 9 };
+static const gen_kind_t laplacian_kinds[LAPLACIAN_KINDS] = {
+    GEN_ONE,   GEN_DIAGONAL, GEN_PATH,   GEN_STAR,      GEN_GRID2,
+    GEN_GRID3, GEN_FOREST,   GEN_RANDOM, GEN_COMPONENTS};
+
 /* The Laplacian of a generated graph with weights that are not exact: a component is a null pivot. of: n, the first row of
  * each row's component; may be NULL. */
 static inline gen_matrix_t laplacian_of(gen_kind_t kind, sl_int size, int style, sl_int *components,

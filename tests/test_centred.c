@@ -35,16 +35,13 @@ static void assert_dense(const sl_csc *A, const sl_int *of, sl_int components, c
 
 static void against_dense_systems(void **state) {
     (void)state;
-    static const gen_kind_t kinds[9] = {GEN_ONE,    GEN_DIAGONAL, GEN_PATH,
-                                        GEN_STAR,   GEN_GRID2,    GEN_GRID3,
-                                        GEN_FOREST, GEN_RANDOM,   GEN_COMPONENTS};
     static const sl_int sizes[2] = {12, 90};
     way_list_t ways = ways_present();
-    for (int kind = 0; kind < 9; kind++) {
+    for (int kind = 0; kind < LAPLACIAN_KINDS; kind++) {
         for (int size = 0; size < 2; size++) {
             sl_int components = 0, *of = test_ints((size_t)sizes[size]);
-            gen_matrix_t M =
-                laplacian_of(kinds[kind], sizes[size], kind % GEN_STYLES, &components, of);
+            gen_matrix_t M = laplacian_of(laplacian_kinds[kind], sizes[size], kind % GEN_STYLES,
+                                          &components, of);
             size_t n = (size_t)M.view.n_cols;
             double *m = weights((sl_int)n, 3), *b = test_reals(n), *x = test_reals(n);
             sl_symbolic *S = NULL;

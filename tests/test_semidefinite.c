@@ -42,15 +42,13 @@ static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
 
 static void a_null_pivot_for_each_component(void **state) {
     (void)state;
-    static const gen_kind_t kinds[9] = {GEN_ONE,    GEN_DIAGONAL, GEN_PATH,
-                                        GEN_STAR,   GEN_GRID2,    GEN_GRID3,
-                                        GEN_FOREST, GEN_RANDOM,   GEN_COMPONENTS};
     static const sl_int sizes[3] = {12, 90, 700};
     way_list_t ways = ways_present();
-    for (int kind = 0; kind < 9; kind++) {
+    for (int kind = 0; kind < LAPLACIAN_KINDS; kind++) {
         for (int size = 0; size < 3; size++) {
             sl_int components = 0;
-            gen_matrix_t M = laplacian(kinds[kind], sizes[size], kind % GEN_STYLES, &components);
+            gen_matrix_t M =
+                laplacian(laplacian_kinds[kind], sizes[size], kind % GEN_STYLES, &components);
             sl_symbolic *S = NULL;
             SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
             for (int k = 0; k < ways.count; k++) {
