@@ -145,6 +145,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
         adjncy[e] = g->to[e];
     }
     METIS_SetDefaultOptions(options);
+    options[METIS_OPTION_NSEPS] = 2; /* of each separator the better of two tries */
     result =
         METIS_NodeNDP((idx_t)g->n, xadj, adjncy, NULL, (idx_t)parts, options, perm, iperm, size);
     if (result == METIS_OK) {

@@ -79,7 +79,7 @@ static void sli_nesting_graph(sli_nesting *w, sl_int count) {
  * cruder the borders, the wider the bands in which they are refined. */
 static sl_status sli_nesting_label(sli_nesting *w) {
     sli_dissection *d = &w->d;
-    d->widening = w->by_metis ? 1 : 2;
+    d->widening = 2;
     if (w->by_metis) {
 #if !defined(SL_NO_METIS)
         return sli_dissect_quality(d);
@@ -103,7 +103,7 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
     int rounds = SLI_REPAIRS;
     sl_status status;
     d->l = 0;
-    if (d->levels[0].n <= SLI_DISSECT_LEAF) {
+    if (d->levels[0].n <= d->most) {
         sli_dissect_start(d);
         return SL_OK;
     }
@@ -111,7 +111,7 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
     if (status == SL_OK) {
         do {
             sli_dissect_cut(d);
-        } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->most) > 0);
         status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;
@@ -182,6 +182,7 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
     w.xyz = xyz;
     w.dimensions = dimensions;
     w.by_metis = by_metis;
+    w.d.most = by_metis ? SLI_DISSECT_LEAF_QUALITY : SLI_DISSECT_LEAF;
     w.d.a = a;
     w.d.leaf.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

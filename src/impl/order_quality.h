@@ -2,7 +2,7 @@
 #ifndef SLI_ORDER_QUALITY_H
 #define SLI_ORDER_QUALITY_H
 
-#include "order_dissect.h"
+#include "order_layers.h"
 #include "order_metis.h"
 
 #if !defined(SL_NO_METIS)
@@ -57,7 +57,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
     sl_status status;
-    while (g->n / leaves > SLI_DISSECT_LEAF) {
+    while (g->n / leaves > d->most) {
         leaves *= 2;
     }
     d->l = 0;
@@ -99,15 +99,16 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
  * and then: one of METIS's trees scatters as any other does. */
 static sl_status sli_dissect_quality(sli_dissection *d) {
     double ours, flat;
-    sl_status status = sli_dissect_multilevel(d);
+    sl_status status = sli_dissect_graph(d);
     if (status != SL_OK) {
         return status;
     }
     ours = sli_dissect_cost(d, &flat);
+    d->widening = 1;
     status = sli_dissect_metis(d);
     if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
         d->widening = 2;
-        status = sli_dissect_multilevel(d);
+        status = sli_dissect_graph(d);
     }
     return status;
 }
