@@ -1,94 +1,95 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 7560fbbbba780ca3
+ * FNV-1a of all that follows this comment, license aside: e6ace6a65bfc26c2
  *
  * Contents
  *         (what a user reads)
- *     96  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    150  public/config.h            what a user may set before including the header, the version, and the integer types
- *    199  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    398  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    518  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    595  public/factor.h            the numbers: P A P' = L D L'
- *    701  public/solve.h             full solves, and the workspace that every solve writes to
- *    770  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    856  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    935  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    972  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *     97  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    151  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    200  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    399  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    519  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    596  public/factor.h            the numbers: P A P' = L D L'
+ *    702  public/solve.h             full solves, and the workspace that every solve writes to
+ *    771  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    857  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    936  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    973  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1079  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1170  impl/status.h              status codes in words, and the error fields of stats
- *   1226  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1351  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1426  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1463  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1080  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1171  impl/status.h              status codes in words, and the error fields of stats
+ *   1227  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1352  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1427  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1464  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1497  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1762  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1900  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1930  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3101  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3147  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3284  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3499  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3765  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3927  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4199  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4250  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4395  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5208  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6487  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8660  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10890  impl/select.h              the kernel table for an instruction set
+ *   1498  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1763  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1901  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1931  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3102  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3148  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3285  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3500  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3766  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3928  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4200  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4251  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4396  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5209  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6488  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8661  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10891  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10923  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11351  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11424  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10924  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11352  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11425  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11778  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11820  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11993  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
- *  12263  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
- *  12473  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
- *  12681  impl/order_heap.h          a queue of vertices by gain, the largest first
- *  12748  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
- *  12996  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
- *  13284  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
- *  13483  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13802  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
- *  13931  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  14129  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  14198  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14363  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14480  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14678  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  14882  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  14967  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  15040  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  15206  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  15282  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15323  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15516  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15826  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11779  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11821  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11994  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
+ *  12264  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
+ *  12474  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
+ *  12682  impl/order_heap.h          a queue of vertices by gain, the largest first
+ *  12749  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
+ *  12997  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
+ *  13285  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
+ *  13484  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  13804  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
+ *  13933  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  14131  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  14200  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14369  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14486  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14698  impl/order_compress.h      rows with the same neighbours ordered as one: unknowns of one vertex, cliques
+ *  14830  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  15035  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  15120  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  15193  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  15359  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15435  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15476  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15669  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15979  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  16059  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  16191  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  16277  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16537  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16624  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  16918  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  17033  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  17093  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17330  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17372  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  16212  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  16344  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16430  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16690  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16777  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  17071  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  17186  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  17246  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17483  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17525  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17670  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  17910  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  18229  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18456  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18610  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17823  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  18063  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  18382  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18609  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18763  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  19054  impl/leave.h               takes every internal macro away again
+ *  19207  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13510,6 +13511,7 @@ typedef struct sli_dissection {
     const sl_allocator *a;
     sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
     int n_levels, l;                  /* l: the level that labels are of */
+    sl_int total;                     /* weight of the finest level */
     sl_int most;                      /* vertices of a leaf, where it can be cut */
     int widening; /* layers more of a band for each four times of a part's size */
     sli_tree tree;
@@ -13565,7 +13567,7 @@ static void sli_dissect_start(sli_dissection *d) {
     const sl_int n = d->levels[d->l].n;
     d->tree.count = 0;
     d->tree.root = sli_tree_add(&d->tree, -1);
-    d->tree.weight[d->tree.root] = d->levels[0].n;
+    d->tree.weight[d->tree.root] = d->total;
     memset(d->label, 0, (size_t)n * sizeof(sl_int));
     sli_tree_number(&d->tree, n, d->label);
 }
@@ -13713,7 +13715,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         const int last = d->n_levels - 1;
         const sli_level *g = &d->levels[last];
         /* three times the mean weight keeps a level even, which a cut by halves needs */
-        const sl_int heaviest = (sl_int)(3.0 * (double)n / (double)g->n) + 1;
+        const sl_int heaviest = (sl_int)(3.0 * (double)d->total / (double)g->n) + 1;
         if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
             *working = last;
             sli_dissect_weigh(d, last);
@@ -14312,7 +14314,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
                                   const sl_allocator *a) {
     const sl_off edges = g->begin[g->n];
     idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
-                                   *size = NULL;
+                                   *size = NULL, *weight = NULL;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_off e;
@@ -14327,6 +14329,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
         perm = SLI_TAKE(&b, idx_t, g->n);
         iperm = SLI_TAKE(&b, idx_t, g->n);
         size = SLI_TAKE(&b, idx_t, 2 * (size_t)parts);
+        weight = SLI_TAKE(&b, idx_t, g->weight != NULL ? g->n : 0);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
@@ -14338,10 +14341,13 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
     for (e = 0; e < edges; e++) {
         adjncy[e] = g->to[e];
     }
+    for (k = 0; k < g->n && g->weight != NULL; k++) {
+        weight[k] = g->weight[k];
+    }
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_NSEPS] = 2; /* of each separator the better of two tries */
-    result =
-        METIS_NodeNDP((idx_t)g->n, xadj, adjncy, NULL, (idx_t)parts, options, perm, iperm, size);
+    result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
+                           (idx_t)parts, options, perm, iperm, size);
     if (result == METIS_OK) {
         for (k = 0; k < g->n; k++) {
             order[k] = (sl_int)perm[k];
@@ -14417,7 +14423,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
     sl_status status;
-    while (g->n / leaves > d->most) {
+    while (d->total / leaves > d->most && leaves < g->n / 8) {
         leaves *= 2;
     }
     d->l = 0;
@@ -14449,7 +14455,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     }
     for (v = 0; v < g->n; v++) {
         for (node = d->label[v]; node != -1; node = d->tree.parent[node]) {
-            d->tree.weight[node]++;
+            d->tree.weight[node] += sli_level_weight(g, v);
         }
     }
     return SL_OK;
@@ -14491,13 +14497,15 @@ static sl_status sli_dissect_quality(sli_dissection *d) {
 
 typedef struct sli_nesting {
     const sli_graph *G;
-    const double *xyz; /* NULL: none */
+    const sl_int *weight; /* NULL: 1 each */
+    const double *xyz;    /* NULL: none */
     sl_int dimensions;
     int by_metis;
     sl_int *local;      /* n: a row's number in its component, -1 not yet seen, -2 dense */
     sl_int *row;        /* n: the rows of the component */
     sl_off *begin;      /* n + 1: its graph */
     sl_int *to;         /* the edges of G */
+    sl_int *weights;    /* n, where there are weights */
     sli_placed *placed; /* n, where there are coordinates */
     sli_dissection d;
 } sli_nesting;
@@ -14509,6 +14517,7 @@ static void sli_nesting_layout(sli_nesting *w, sli_block *b) {
     w->row = SLI_TAKE(b, sl_int, n);
     w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
     w->to = SLI_TAKE(b, sl_int, edges);
+    w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
     w->placed = SLI_TAKE(b, sli_placed, w->xyz != NULL ? n : 0);
     sli_dissection_layout(&w->d, b, n, edges);
 }
@@ -14548,6 +14557,15 @@ static void sli_nesting_graph(sli_nesting *w, sl_int count) {
     w->d.levels[0].n = count;
     w->d.levels[0].begin = w->begin;
     w->d.levels[0].to = w->to;
+    w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
+    w->d.total = count;
+    if (w->weight != NULL) {
+        w->d.total = 0;
+        for (k = 0; k < count; k++) {
+            w->weights[k] = w->weight[w->row[k]];
+            w->d.total += w->weights[k];
+        }
+    }
 }
 
 /* Labels of the component whose graph is there, by the cheaper of two trees where there are two. The
@@ -14644,9 +14662,10 @@ static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
     return status;
 }
 
-/* The order of a graph without repeated edges, and its tree. */
-static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *xyz,
-                               sl_int dimensions, sl_int *perm, sli_nest *nest,
+/* The order of a graph without repeated edges, and its tree. weight: what its vertices count for in
+ * the balance; NULL: one each. */
+static sl_status sli_order_own(const sli_graph *G, const sl_int *weight, int by_metis,
+                               const double *xyz, sl_int dimensions, sl_int *perm, sli_nest *nest,
                                const sl_allocator *a) {
     sli_nesting w;
     sli_block b = {NULL, 0, 0};
@@ -14654,6 +14673,7 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
     int pass;
     memset(&w, 0, sizeof w);
     w.G = G;
+    w.weight = weight;
     w.xyz = xyz;
     w.dimensions = dimensions;
     w.by_metis = by_metis;
@@ -14675,6 +14695,138 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
 
 #endif
 /* end src/impl/order_own.h */
+/* begin src/impl/order_compress.h */
+/* order_compress.h: rows with the same neighbours ordered as one: unknowns of one vertex, cliques */
+#ifndef SLI_ORDER_COMPRESS_H
+#define SLI_ORDER_COMPRESS_H
+
+/* Fewer rows than this share of them must be left for a graph of their own to be worth making. */
+#define SLI_COMPRESS_WORTH 0.8
+
+typedef struct sli_compressed {
+    sli_graph G;
+    sl_int *weight; /* G.n: rows in each vertex */
+    sl_int *first;  /* n: the first row with the neighbours of this one, and their edge */
+    sl_int *number; /* n: a first row's vertex in G */
+    sl_int *perm;   /* G.n */
+} sli_compressed;
+
+/* Whether u and v, which are neighbours, have the same neighbours otherwise. */
+static int sli_compress_are_twins(const sli_graph *G, sl_int u, sl_int v) {
+    sl_off a = G->begin[u], b = G->begin[v];
+    for (;;) {
+        a += a < G->begin[u + 1] && G->to[a] == v;
+        b += b < G->begin[v + 1] && G->to[b] == u;
+        if (a == G->begin[u + 1] || b == G->begin[v + 1]) {
+            return a == G->begin[u + 1] && b == G->begin[v + 1];
+        }
+        if (G->to[a++] != G->to[b++]) {
+            return 0;
+        }
+    }
+}
+
+/* first of every row of a graph with sorted lists; how many different ones there are. key: n of
+ * scratch. */
+static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key) {
+    sl_int v, count = 0;
+    sl_off e;
+    for (v = 0; v < G->n; v++) {
+        key[v] = sli_scatter((uint32_t)v);
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            key[v] += sli_scatter((uint32_t)G->to[e]);
+        }
+    }
+    for (v = 0; v < G->n; v++) {
+        first[v] = v;
+        for (e = G->begin[v]; e < G->begin[v + 1] && G->to[e] < v; e++) {
+            const sl_int u = G->to[e];
+            if (key[u] == key[v] && first[u] == u && sli_compress_are_twins(G, u, v)) {
+                first[v] = u;
+                break;
+            }
+        }
+        count += first[v] == v;
+    }
+    return count;
+}
+
+/* The graph of the first rows: a row that has others as neighbours has their first one too. */
+static void sli_compress_fill(sli_compressed *c, const sli_graph *G) {
+    sl_int v, k = 0;
+    sl_off e, edges = 0;
+    for (v = 0; v < G->n; v++) {
+        if (c->first[v] == v) {
+            c->weight[k] = 0;
+            c->number[v] = k++;
+        }
+        c->weight[c->number[c->first[v]]]++;
+    }
+    for (v = 0; v < G->n; v++) {
+        if (c->first[v] != v) {
+            continue;
+        }
+        c->G.begin[c->number[v]] = edges;
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            if (c->first[G->to[e]] == G->to[e]) {
+                c->G.to[edges++] = c->number[G->to[e]];
+            }
+        }
+    }
+    c->G.begin[c->G.n] = edges;
+}
+
+/* From vertices back to rows. start: G.n + 1 of scratch. */
+static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *perm, sli_nest *nest,
+                                sl_int *start) {
+    sl_int k, v, at = 0;
+    for (k = 0; k < c->G.n; k++) {
+        start[c->perm[k]] = at;
+        at += c->weight[c->perm[k]];
+    }
+    for (v = 0; v < rows; v++) {
+        perm[start[c->number[c->first[v]]]++] = v;
+    }
+    for (v = rows - 1; v >= 0; v--) { /* a vertex's number is no larger than its rows' */
+        nest->of[v] = nest->of[c->number[c->first[v]]];
+    }
+}
+
+/* The order of a graph whose rows may come in groups of twins. scratch: n. */
+static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
+                                      sl_int *scratch, sli_nest *nest, const sl_allocator *a) {
+    sli_compressed c;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&c, 0, sizeof c);
+    c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
+    if ((double)c.G.n > SLI_COMPRESS_WORTH * (double)G->n) {
+        return sli_order_own(G, NULL, by_metis, NULL, 0, perm, nest, a);
+    }
+    c.first = scratch;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
+        c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
+        c.weight = SLI_TAKE(&b, sl_int, c.G.n);
+        c.number = SLI_TAKE(&b, sl_int, G->n);
+        c.perm = SLI_TAKE(&b, sl_int, c.G.n);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_compress_fill(&c, G);
+    status = sli_order_own(&c.G, c.weight, by_metis, NULL, 0, c.perm, nest, a);
+    if (status == SL_OK) {
+        sli_compress_expand(&c, G->n, perm, nest, (sl_int *)(void *)c.G.begin);
+    }
+    sli_free(a, b.base);
+    return status;
+}
+
+#endif
+/* end src/impl/order_compress.h */
 /* begin src/impl/order.h */
 /* order.h: the fill-reducing order of the rows: natural, given, or nested dissection */
 #ifndef SLI_ORDER_H
@@ -14801,16 +14953,17 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     sli_graph_fill(&G, A, triangle, block);
     status = sli_order_canonical(&G, a);
     if (status == SL_OK && ordering != SL_ORDERING_METIS) {
-        status = sli_order_own(&G, ordering == SL_ORDERING_QUALITY,
-                               opt != NULL ? opt->coordinates : NULL,
-                               opt != NULL ? opt->dimensions : 0, perm, nest, a);
+        const int by_metis = ordering == SL_ORDERING_QUALITY;
+        if (opt != NULL && opt->coordinates != NULL && !by_metis) {
+            status = sli_order_own(&G, NULL, 0, opt->coordinates, opt->dimensions, perm, nest, a);
+        } else {
+            status = sli_order_compressed(&G, by_metis, perm, scratch, nest, a);
+        }
     }
 #if !defined(SL_NO_METIS)
     if (status == SL_OK && ordering == SL_ORDERING_METIS) {
         status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
     }
-#else
-    (void)scratch;
 #endif
     if (status == SL_OK && block > 1) {
         sli_order_expand(G.n, block, perm, nest);
@@ -19121,6 +19274,7 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_DENSE_ROW
 #undef SLI_CUT_BALANCE
 #undef SLI_REPAIRS
+#undef SLI_COMPRESS_WORTH
 #undef SLI_LAYERS_SHARE
 #undef SLI_VOLUME_BORDER
 #undef SLI_CLIMB

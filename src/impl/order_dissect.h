@@ -30,6 +30,7 @@ typedef struct sli_dissection {
     const sl_allocator *a;
     sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
     int n_levels, l;                  /* l: the level that labels are of */
+    sl_int total;                     /* weight of the finest level */
     sl_int most;                      /* vertices of a leaf, where it can be cut */
     int widening; /* layers more of a band for each four times of a part's size */
     sli_tree tree;
@@ -85,7 +86,7 @@ static void sli_dissect_start(sli_dissection *d) {
     const sl_int n = d->levels[d->l].n;
     d->tree.count = 0;
     d->tree.root = sli_tree_add(&d->tree, -1);
-    d->tree.weight[d->tree.root] = d->levels[0].n;
+    d->tree.weight[d->tree.root] = d->total;
     memset(d->label, 0, (size_t)n * sizeof(sl_int));
     sli_tree_number(&d->tree, n, d->label);
 }
@@ -233,7 +234,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         const int last = d->n_levels - 1;
         const sli_level *g = &d->levels[last];
         /* three times the mean weight keeps a level even, which a cut by halves needs */
-        const sl_int heaviest = (sl_int)(3.0 * (double)n / (double)g->n) + 1;
+        const sl_int heaviest = (sl_int)(3.0 * (double)d->total / (double)g->n) + 1;
         if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
             *working = last;
             sli_dissect_weigh(d, last);

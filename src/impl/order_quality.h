@@ -57,7 +57,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
     sl_status status;
-    while (g->n / leaves > d->most) {
+    while (d->total / leaves > d->most && leaves < g->n / 8) {
         leaves *= 2;
     }
     d->l = 0;
@@ -89,7 +89,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     }
     for (v = 0; v < g->n; v++) {
         for (node = d->label[v]; node != -1; node = d->tree.parent[node]) {
-            d->tree.weight[node]++;
+            d->tree.weight[node] += sli_level_weight(g, v);
         }
     }
     return SL_OK;
