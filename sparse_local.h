@@ -1,95 +1,95 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: e6ace6a65bfc26c2
+ * FNV-1a of all that follows this comment, license aside: c8fa48bc0548dce8
  *
  * Contents
  *         (what a user reads)
  *     97  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
  *    151  public/config.h            what a user may set before including the header, the version, and the integer types
  *    200  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    399  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    519  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    596  public/factor.h            the numbers: P A P' = L D L'
- *    702  public/solve.h             full solves, and the workspace that every solve writes to
- *    771  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    857  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
- *    936  public/batch.h             many independent solves with one factor, spread over threads by one call
- *    973  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *    402  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    522  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    599  public/factor.h            the numbers: P A P' = L D L'
+ *    705  public/solve.h             full solves, and the workspace that every solve writes to
+ *    774  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    860  public/inverse.h           entries, blocks and bilinear forms of the inverse, by forward sweeps alone
+ *    939  public/batch.h             many independent solves with one factor, spread over threads by one call
+ *    976  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1080  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1171  impl/status.h              status codes in words, and the error fields of stats
- *   1227  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1352  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1427  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1464  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1083  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1174  impl/status.h              status codes in words, and the error fields of stats
+ *   1230  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1355  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1430  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1467  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1498  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   1763  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   1901  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   1931  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3102  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3148  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3285  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   3500  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   3766  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   3928  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4200  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4251  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   4396  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5209  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   6488  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   8661  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  10891  impl/select.h              the kernel table for an instruction set
+ *   1501  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   1766  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   1904  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   1934  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3105  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3151  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3288  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   3503  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   3769  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   3931  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4203  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4254  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   4399  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5212  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   6491  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   8664  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  10894  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  10924  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
- *  11352  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  11425  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  10927  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, products, residuals
+ *  11355  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  11428  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  11779  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  11821  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  11994  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
- *  12264  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
- *  12474  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
- *  12682  impl/order_heap.h          a queue of vertices by gain, the largest first
- *  12749  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
- *  12997  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
- *  13285  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
- *  13484  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  13804  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
- *  13933  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  14131  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  14200  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  14369  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  14486  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  14698  impl/order_compress.h      rows with the same neighbours ordered as one: unknowns of one vertex, cliques
- *  14830  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  15035  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  15120  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  15193  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  15359  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  15435  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  15476  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  15669  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  15979  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  11782  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  11824  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  11997  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
+ *  12267  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
+ *  12477  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
+ *  12685  impl/order_heap.h          a queue of vertices by gain, the largest first
+ *  12752  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
+ *  13000  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
+ *  13288  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
+ *  13487  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  13807  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
+ *  13936  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  14134  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  14203  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  14372  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  14493  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  14705  impl/order_compress.h      rows with the same neighbours ordered as one: unknowns of one vertex, cliques
+ *  14837  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  15042  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  15127  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  15200  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  15366  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  15442  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  15483  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  15676  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  15986  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  16212  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  16344  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  16430  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  16690  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  16777  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  17071  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  17186  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  17246  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  17483  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  17525  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  16219  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  16351  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  16437  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  16697  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  16784  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  17078  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  17193  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  17253  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  17490  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  17532  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  17823  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  18063  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  18382  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  18609  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  18763  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
+ *  17830  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  18070  impl/inverse.h             entries and bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  18389  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  18616  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  18770  impl/selected.h            the selected inverse: a sweep from the roots to the leaves, each front gathered from its parent's
  *         (last: takes every internal macro away again)
- *  19207  impl/leave.h               takes every internal macro away again
+ *  19214  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -248,14 +248,17 @@ typedef enum sl_reading {
     SL_AS_STORED         /* a general matrix: every entry for itself */
 } sl_reading;
 
+/** Orders of elimination. BUILTIN cuts on a coarse graph of its own: METIS's cuts of that graph took longer and were
+ *  worse, so that FAST has no use for them. Rows with the same neighbours are ordered as one. */
 typedef enum sl_ordering {
     SL_ORDERING_DEFAULT = 0, /* SL_ORDERING_FAST */
     SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_GIVEN,       /* options.perm */
     SL_ORDERING_NATURAL,     /* 0, 1, 2, ... */
-    SL_ORDERING_FAST,        /* the quickest set-up: today SL_ORDERING_BUILTIN */
+    SL_ORDERING_FAST,        /* the quickest set-up: at present the same as SL_ORDERING_BUILTIN */
     SL_ORDERING_BUILTIN,     /* nested dissection of this header's own; needs no library */
-    SL_ORDERING_QUALITY      /* for very many local solves: METIS's separators, improved by ours */
+    SL_ORDERING_QUALITY      /* METIS's separators, the better of two, improved: for very many local
+                                solves, at twice METIS's time */
 } sl_ordering;
 
 /** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
@@ -323,13 +326,13 @@ typedef struct sl_options {
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
-    const double *
-        coordinates; /* n / block_size x dimensions: where each row lies, for FAST and BUILTIN: parts
-                                  are halves of space where that is the better cut; NULL: not known */
+    /* where the rows lie, n / block_size x dimensions, point by point, for FAST and BUILTIN: parts are halves of
+     * space where that is the better cut; NULL: not known */
+    const double *coordinates;
     sl_int dimensions; /* of coordinates: 2 or 3 */
-    sl_int
-        block_size; /* rows that stay together in the order, such as x, y, z of a vertex: rows k block_size ..
-                          (k + 1) block_size - 1 each; divides n; 0 or 1: none */
+    /* rows that stay together in the order, such as x, y, z of a vertex: rows k block_size .. (k + 1) block_size - 1
+     * each; divides n; 0 or 1: none */
+    sl_int block_size;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
@@ -14461,6 +14464,10 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     return SL_OK;
 }
 
+/* The borders that are left of METIS's separators are ragged, and so count for more than they will
+ * cost: our own parts must be estimated at less than this share of theirs. */
+#define SLI_QUALITY_OURS 0.8
+
 /* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
  * and then: one of METIS's trees scatters as any other does. */
 static sl_status sli_dissect_quality(sli_dissection *d) {
@@ -14472,7 +14479,7 @@ static sl_status sli_dissect_quality(sli_dissection *d) {
     ours = sli_dissect_cost(d, &flat);
     d->widening = 1;
     status = sli_dissect_metis(d);
-    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+    if (status == SL_OK && ours < SLI_QUALITY_OURS * sli_dissect_cost(d, &flat)) {
         d->widening = 2;
         status = sli_dissect_graph(d);
     }
@@ -19274,6 +19281,7 @@ SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
 #undef SLI_DENSE_ROW
 #undef SLI_CUT_BALANCE
 #undef SLI_REPAIRS
+#undef SLI_QUALITY_OURS
 #undef SLI_COMPRESS_WORTH
 #undef SLI_LAYERS_SHARE
 #undef SLI_VOLUME_BORDER

@@ -95,6 +95,10 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     return SL_OK;
 }
 
+/* The borders that are left of METIS's separators are ragged, and so count for more than they will
+ * cost: our own parts must be estimated at less than this share of theirs. */
+#define SLI_QUALITY_OURS 0.8
+
 /* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
  * and then: one of METIS's trees scatters as any other does. */
 static sl_status sli_dissect_quality(sli_dissection *d) {
@@ -106,7 +110,7 @@ static sl_status sli_dissect_quality(sli_dissection *d) {
     ours = sli_dissect_cost(d, &flat);
     d->widening = 1;
     status = sli_dissect_metis(d);
-    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+    if (status == SL_OK && ours < SLI_QUALITY_OURS * sli_dissect_cost(d, &flat)) {
         d->widening = 2;
         status = sli_dissect_graph(d);
     }

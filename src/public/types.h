@@ -50,14 +50,17 @@ typedef enum sl_reading {
     SL_AS_STORED         /* a general matrix: every entry for itself */
 } sl_reading;
 
+/** Orders of elimination. BUILTIN cuts on a coarse graph of its own: METIS's cuts of that graph took longer and were
+ *  worse, so that FAST has no use for them. Rows with the same neighbours are ordered as one. */
 typedef enum sl_ordering {
     SL_ORDERING_DEFAULT = 0, /* SL_ORDERING_FAST */
     SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_GIVEN,       /* options.perm */
     SL_ORDERING_NATURAL,     /* 0, 1, 2, ... */
-    SL_ORDERING_FAST,        /* the quickest set-up: today SL_ORDERING_BUILTIN */
+    SL_ORDERING_FAST,        /* the quickest set-up: at present the same as SL_ORDERING_BUILTIN */
     SL_ORDERING_BUILTIN,     /* nested dissection of this header's own; needs no library */
-    SL_ORDERING_QUALITY      /* for very many local solves: METIS's separators, improved by ours */
+    SL_ORDERING_QUALITY      /* METIS's separators, the better of two, improved: for very many local
+                                solves, at twice METIS's time */
 } sl_ordering;
 
 /** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
@@ -125,13 +128,13 @@ typedef struct sl_options {
         null_tolerance; /* a pivot d is null if |d| <= null_tolerance * (the sum of the magnitudes that made
                                it); 0: (64 + n/8) epsilon; negative: only an exact zero is null */
     sl_allocator allocator;
-    const double *
-        coordinates; /* n / block_size x dimensions: where each row lies, for FAST and BUILTIN: parts
-                                  are halves of space where that is the better cut; NULL: not known */
+    /* where the rows lie, n / block_size x dimensions, point by point, for FAST and BUILTIN: parts are halves of
+     * space where that is the better cut; NULL: not known */
+    const double *coordinates;
     sl_int dimensions; /* of coordinates: 2 or 3 */
-    sl_int
-        block_size; /* rows that stay together in the order, such as x, y, z of a vertex: rows k block_size ..
-                          (k + 1) block_size - 1 each; divides n; 0 or 1: none */
+    /* rows that stay together in the order, such as x, y, z of a vertex: rows k block_size .. (k + 1) block_size - 1
+     * each; divides n; 0 or 1: none */
+    sl_int block_size;
 } sl_options;
 
 /** What happened, in numbers. A call fills its own group and the error fields, and leaves the other groups, so
