@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: c8fa48bc0548dce8
+ * FNV-1a of all that follows this comment, license aside: c2ca415203c659e8
  *
  * Contents
  *         (what a user reads)
@@ -546,8 +546,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           With SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process meanwhile; with
  *           SL_ORDERING_QUALITY it does not, and raises SIGABRT if it runs out of memory, which ends a process that
  *           has no handler. Calls in several threads at once are safe only if rand() is, and may then order
- *           differently from run to run. All other orderings do nothing of this, run in any number of threads, and
- *           give the same order for the same pattern, on any machine, with METIS compiled in or not.
+ *           differently from run to run. All other orderings do nothing of this, run in any number of
+ *           threads, and give the same order for the same pattern however it is stored, with METIS compiled in or not.
  *  Source   [George73] nested dissection, [KK98] on levels of coarser graphs, [FM82] moving vertices across a cut, [FF56]
  *           smallest vertex cuts; [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/test_symbolic.c
