@@ -1,115 +1,116 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 2e5eae6172478599
+ * FNV-1a of all that follows this comment, license aside: 2db238aa298a56bf
  *
  * Contents
  *         (what a user reads)
- *    117  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
- *    173  public/config.h            what a user may set before including the header, the version, and the integer types
- *    222  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
- *    480  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
- *    600  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    677  public/factor.h            the numbers: P A P' = L D L'
- *    815  public/solve.h             full solves, and the workspace that every solve writes to
- *    885  public/plan.h              local solves: b known on a few rows, x wanted on a few others
- *    976  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
- *   1068  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1162  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
- *   1206  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
- *   1373  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
- *   1472  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
+ *    118  public/intro.h             what the library does, a quick start, notation, conventions, threads, references
+ *    174  public/config.h            what a user may set before including the header, the version, and the integer types
+ *    223  public/types.h             status codes, the matrix view, options, statistics, and the names of the opaque objects
+ *    484  public/csc.h               matrices the library owns, checks, products, residuals, Matrix Market files
+ *    604  public/analyse.h           the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    681  public/factor.h            the numbers: P A P' = L D L'
+ *    819  public/solve.h             full solves, and the workspace that every solve writes to
+ *    889  public/plan.h              local solves: b known on a few rows, x wanted on a few others
+ *    980  public/accuracy.h          how good a solution is and how to better it: refinement, condition, what a right-hand side lacks
+ *   1072  public/inverse.h           entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1166  public/batch.h             many independent solves, with one factor or with several, spread over threads by one call
+ *   1210  public/several.h           several matrices of one pattern: weighted sums of value arrays over one analysis, factored and asked by one call
+ *   1377  public/selected.h          the selected inverse: entries of A^-1 on the pattern of L, all of them or those that some rows reach
+ *   1476  public/region.h            regions: parts of the matrix inside which local solves cost the same whatever surrounds them
  *         (bodies, in one source file)
  *         (L0 ground)
- *   1562  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
- *   1655  impl/status.h              status codes in words, and the error fields of stats
- *   1713  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
- *   1838  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
- *   1913  impl/cpu.h                 which instruction sets this processor and operating system run
- *   1950  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
+ *   1566  impl/base.h                the system headers, everything that depends on the compiler, and small integer helpers
+ *   1659  impl/status.h              status codes in words, and the error fields of stats
+ *   1717  impl/alloc.h               memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go
+ *   1842  impl/sort.h                sorts keyed numbers: insertion for a few, radix for many
+ *   1917  impl/cpu.h                 which instruction sets this processor and operating system run
+ *   1954  impl/parallel.h            the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other
  *         (L1 kernels: raw arrays only)
- *   1991  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
- *   2337  impl/isa_scalar.h          the kernels in plain C: an octet is an array
- *   2475  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
- *   2505  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
- *   3676  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
- *   3722  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
- *   3859  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
- *   4076  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
- *   4373  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
- *   4535  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
- *   4808  impl/words_end.inl.h       takes the octet words back, for the next instruction set
- *   4859  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
- *   5004  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
- *   5817  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
- *   7130  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
- *   9337  impl/isa_neon.h            the kernels in NEON: an octet is four registers
- *  11601  impl/select.h              the kernel table for an instruction set
+ *   1995  impl/kernels.h             the contract of the numerical kernels: panels, steps, sweeps, and the table that an ISA fills
+ *   2341  impl/isa_scalar.h          the kernels in plain C: an octet is an array
+ *   2479  impl/lanes_array.inl.h     a row of right-hand sides as an array, for plain C
+ *   2509  impl/lanes.inl.h           2, 4 or 8 interleaved right-hand sides, SIMD along them; the words SLW_* are one row of SLW_LANES
+ *   3680  impl/tile.inl.h            the 8 x 8 unit triangle of a diagonal tile, in scalars: 28 FMAs, a chain of 7
+ *   3726  impl/product.inl.h         C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_*
+ *   3863  impl/front.inl.h           a front of the multifrontal factorization: its panel factored, its update matrix made and handed on
+ *   4080  impl/takahashi.inl.h       a front of the inverse: gathered from the parent's front, completed column group by column group
+ *   4377  impl/narrow.inl.h          one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_*
+ *   4539  impl/body.inl.h            one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles
+ *   4812  impl/words_end.inl.h       takes the octet words back, for the next instruction set
+ *   4863  impl/isa_avx2.h            the kernels in AVX2 and FMA: an octet is two registers
+ *   5008  impl/lanes_ymm.inl.h       four right-hand sides in one 256-bit register, for AVX2 and AVX-512 alike
+ *   5821  impl/pairs.inl.h           two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile
+ *   7134  impl/isa_avx512.h          the kernels in AVX-512: an octet is one register
+ *   9341  impl/isa_neon.h            the kernels in NEON: an octet is four registers
+ *  11605  impl/select.h              the kernel table for an instruction set
  *         (L2 storage)
- *  11634  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
- *  11945  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
- *  12069  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
- *  12142  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
- *  12232  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
+ *  11638  impl/csc.h                 compressed columns: checks, owned matrices, triplets, transpose, which triangle is stored
+ *  11949  impl/csc_products.h        what is computed with a matrix in compressed columns: products, norms, residuals
+ *  12073  impl/permute.h             permutations: validity, inverse, and P A P' of a stored matrix
+ *  12146  impl/sum.h                 weighted sums of symmetric matrices, whatever triangles they store
+ *  12236  impl/io.h                  Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric
  *         (L3 patterns: never see a value array)
- *  12586  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
- *  12628  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
- *  12801  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
- *  13071  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
- *  13281  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
- *  13489  impl/order_heap.h          a queue of vertices by gain, the largest first
- *  13556  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
- *  13804  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
- *  14092  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
- *  14291  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
- *  14607  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
- *  14736  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
- *  14934  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
- *  15003  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
- *  15167  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
- *  15283  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
- *  15480  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
- *  15684  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
- *  15769  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
- *  15842  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
- *  16008  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
- *  16084  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
- *  16114  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
- *  16155  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
- *  16366  impl/symbolic.h            the analysis, from the pattern of A to the places of L
- *  16676  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
+ *  12590  impl/symbolic_types.h      the analysis object: what the pattern parts fill in and the number parts read
+ *  12632  impl/graph.h               the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves
+ *  12805  impl/order_coarsen.h       ever smaller graphs, each made of the one before by joining vertices two by two
+ *  13075  impl/order_tree.h          the tree of separators over one graph: a label a vertex, and who stands at which border
+ *  13285  impl/order_piece.h         a piece of a graph in a numbering of its own: a whole part, or a band along a border
+ *  13493  impl/order_heap.h          a queue of vertices by gain, the largest first
+ *  13560  impl/order_bisect.h        a part cut in two by growing one half, and a cut made lighter by moving vertices across
+ *  13808  impl/order_cut.h           the smallest set of vertices in a band whose removal parts the two sides
+ *  14096  impl/order_leaves.h        minimum degree in the parts that are too small to dissect, on rows of bits
+ *  14295  impl/order_dissect.h       nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest
+ *  14615  impl/order_layers.h        parts cut between the layers of a breadth-first search: what grids of three dimensions want
+ *  14744  impl/order_geometric.h     nested dissection by coordinates: halves of space, and when they are the better parts
+ *  14942  impl/order_nest.h          from labels to an order: parts before the separators round them, leaves by minimum degree
+ *  15011  impl/order_metis.h         what METIS is asked: the order of a connected component, and its nested separators
+ *  15180  impl/order_quality.h       parts from METIS's vertex separators of the whole graph
+ *  15301  impl/order_own.h           nested dissection of any graph: dense rows last, components one by one
+ *  15513  impl/order_compress.h      rows with the same neighbours ordered as one: unknowns of one vertex, cliques
+ *  15645  impl/order.h               the fill-reducing order of the rows: natural, given, or nested dissection
+ *  15850  impl/etree.h               the elimination tree of an ordered graph, postorder, and relabelling along an order
+ *  15935  impl/counts.h              entries of every column of L, in nearly O(nnz(A)), from the leaves of the row subtrees
+ *  16008  impl/supernodes.h          fundamental supernodes, and their relaxed amalgamation over the whole assembly tree
+ *  16174  impl/structure.h           the rows of every supernode, the places of the panels, and the map of A into L
+ *  16250  impl/mapping.h             the map of A into L read backwards: the row and the column that a place stands for
+ *  16280  impl/fronts.h              the tree of fronts: the children of each supernode, and where their rows stand in its front
+ *  16321  impl/schedule.h            which worker factors which fronts, and where update matrices wait for the parent's front
+ *  16532  impl/symbolic.h            the analysis, from the pattern of A to the places of L
+ *  16842  impl/reach.h               the columns that a set of rows touches: the elimination tree's paths from them to the roots
  *         (L4 numbers)
- *  16986  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
- *  17187  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
- *  17356  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
- *  17438  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
- *  17686  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
- *  17786  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
- *  18128  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  18544  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  18678  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  18799  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  18858  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  18970  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  19289  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  19331  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  17152  impl/factor_parts.h        the factor object, and what both ways to factor share: loading a panel, taking a pivot
+ *  17353  impl/spread.h              a matrix spread over the map of the analysis, entry by entry, once for any number of factorizations
+ *  17522  impl/uplooking.h           the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A
+ *  17604  impl/multifrontal.h        the supernodal factorization: front by front, each handing its update matrix to its parent
+ *  17852  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
+ *  17952  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
+ *  18294  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
+ *  18710  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  18844  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  18965  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  19024  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  19136  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  19455  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  19497  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  19733  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  19997  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  20169  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  20417  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  20621  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  20925  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  21167  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  21344  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  21534  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  21710  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  21927  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  22125  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  22269  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  22489  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  22589  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
- *  22839  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
+ *  19899  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  20163  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  20335  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  20583  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  20787  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  21091  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  21333  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  21510  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  21700  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  21876  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  22093  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  22291  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  22435  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  22655  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  22755  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
+ *  23005  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
  *         (last: takes every internal macro away again)
- *  23076  impl/leave.h               takes every internal macro away again
+ *  23242  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -271,14 +272,17 @@ typedef enum sl_reading {
     SL_AS_STORED         /* a general matrix: every entry for itself */
 } sl_reading;
 
+/** Orders of elimination. BUILTIN cuts on a coarse graph of its own: METIS's cuts of that graph took longer and were
+ *  worse, so that FAST has no use for them. Rows with the same neighbours are ordered as one. */
 typedef enum sl_ordering {
     SL_ORDERING_DEFAULT = 0, /* SL_ORDERING_FAST */
     SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_GIVEN,       /* options.perm */
     SL_ORDERING_NATURAL,     /* 0, 1, 2, ... */
-    SL_ORDERING_FAST,        /* the quickest set-up: today SL_ORDERING_BUILTIN */
+    SL_ORDERING_FAST,        /* the quickest set-up: at present the same as SL_ORDERING_BUILTIN */
     SL_ORDERING_BUILTIN,     /* nested dissection of this header's own; needs no library */
-    SL_ORDERING_QUALITY      /* for very many local solves: METIS's separators, improved by ours */
+    SL_ORDERING_QUALITY      /* METIS's separators, the better of two, improved: for very many local
+                                solves, at twice METIS's time */
 } sl_ordering;
 
 /** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
@@ -624,8 +628,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           With SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process meanwhile; with
  *           SL_ORDERING_QUALITY it does not, and raises SIGABRT if it runs out of memory, which ends a process that
  *           has no handler. Calls in several threads at once are safe only if rand() is, and may then order
- *           differently from run to run. All other orderings do nothing of this, run in any number of threads, and
- *           give the same order for the same pattern, on any machine, with METIS compiled in or not.
+ *           differently from run to run. All other orderings do nothing of this, run in any number of
+ *           threads, and give the same order for the same pattern however it is stored, with METIS compiled in or not.
  *  Source   [George73] nested dissection, [KK98] on levels of coarser graphs, [FM82] moving vertices across a cut, [FF56]
  *           smallest vertex cuts; [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/test_symbolic.c
@@ -14293,8 +14297,10 @@ static void sli_leaf_order(sli_leaf *l, const sli_level *g, sl_int *vertices, sl
 #ifndef SLI_ORDER_DISSECT_H
 #define SLI_ORDER_DISSECT_H
 
-/* Below this many vertices minimum degree is as good as a further cut. */
+/* Below this many vertices minimum degree is about as good as a further cut; on METIS's separators
+ * smaller leaves save another half percent of fill. */
 #define SLI_DISSECT_LEAF 200
+#define SLI_DISSECT_LEAF_QUALITY 140
 /* A part is cut on the coarsest level on which it has more vertices than this. */
 #define SLI_DISSECT_PART 100
 /* The finest level on which parts are cut has a vertex for at least so many of the graph. */
@@ -14316,6 +14322,8 @@ typedef struct sli_dissection {
     const sl_allocator *a;
     sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
     int n_levels, l;                  /* l: the level that labels are of */
+    sl_int total;                     /* weight of the finest level */
+    sl_int most;                      /* vertices of a leaf, where it can be cut */
     int widening; /* layers more of a band for each four times of a part's size */
     sli_tree tree;
     sli_borders borders;
@@ -14370,7 +14378,7 @@ static void sli_dissect_start(sli_dissection *d) {
     const sl_int n = d->levels[d->l].n;
     d->tree.count = 0;
     d->tree.root = sli_tree_add(&d->tree, -1);
-    d->tree.weight[d->tree.root] = d->levels[0].n;
+    d->tree.weight[d->tree.root] = d->total;
     memset(d->label, 0, (size_t)n * sizeof(sl_int));
     sli_tree_number(&d->tree, n, d->label);
 }
@@ -14398,8 +14406,8 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
     sli_dissect_sort(d);
     for (node = 0; node < nodes; node++) {
         const sl_int count = d->begin[node + 1] - d->begin[node];
-        if (sli_tree_is_leaf(&d->tree, node) && count > most &&
-            d->tree.weight[node] > SLI_DISSECT_LEAF && d->tree.count < d->tree.room - 1) {
+        if (sli_tree_is_leaf(&d->tree, node) && count > most && d->tree.weight[node] > d->most &&
+            d->tree.count < d->tree.room - 1) {
             const int few = d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_PART;
             sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node], count);
             sli_piece_bisect(&d->part,
@@ -14518,7 +14526,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         const int last = d->n_levels - 1;
         const sli_level *g = &d->levels[last];
         /* three times the mean weight keeps a level even, which a cut by halves needs */
-        const sl_int heaviest = (sl_int)(3.0 * (double)n / (double)g->n) + 1;
+        const sl_int heaviest = (sl_int)(3.0 * (double)d->total / (double)g->n) + 1;
         if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
             *working = last;
             sli_dissect_weigh(d, last);
@@ -14680,7 +14688,7 @@ static void sli_dissect_layers(sli_dissection *d) {
         sli_dissect_sort(d);
         for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
             const sl_int count = d->begin[node + 1] - d->begin[node];
-            if (count > SLI_DISSECT_LEAF) {
+            if (count > d->most) {
                 sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node],
                                count);
                 sli_layers_bisect(&d->part);
@@ -14880,7 +14888,7 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
         sl_int *vertices = d->order + first;
         int direction;
         d->tree.weight[node] = count;
-        if (count <= SLI_DISSECT_LEAF || d->tree.count >= d->tree.room - 1) {
+        if (count <= d->most || d->tree.count >= d->tree.room - 1) {
             for (k = 0; k < count; k++) {
                 d->label[vertices[k]] = node;
             }
@@ -15117,7 +15125,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
                                   const sl_allocator *a) {
     const sl_off edges = g->begin[g->n];
     idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
-                                   *size = NULL;
+                                   *size = NULL, *weight = NULL;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_off e;
@@ -15132,6 +15140,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
         perm = SLI_TAKE(&b, idx_t, g->n);
         iperm = SLI_TAKE(&b, idx_t, g->n);
         size = SLI_TAKE(&b, idx_t, 2 * (size_t)parts);
+        weight = SLI_TAKE(&b, idx_t, g->weight != NULL ? g->n : 0);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
@@ -15143,9 +15152,13 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
     for (e = 0; e < edges; e++) {
         adjncy[e] = g->to[e];
     }
+    for (k = 0; k < g->n && g->weight != NULL; k++) {
+        weight[k] = g->weight[k];
+    }
     METIS_SetDefaultOptions(options);
-    result =
-        METIS_NodeNDP((idx_t)g->n, xadj, adjncy, NULL, (idx_t)parts, options, perm, iperm, size);
+    options[METIS_OPTION_NSEPS] = 2; /* of each separator the better of two tries */
+    result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
+                           (idx_t)parts, options, perm, iperm, size);
     if (result == METIS_OK) {
         for (k = 0; k < g->n; k++) {
             order[k] = (sl_int)perm[k];
@@ -15221,7 +15234,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
     sl_status status;
-    while (g->n / leaves > SLI_DISSECT_LEAF) {
+    while (d->total / leaves > d->most && leaves < g->n / 8) {
         leaves *= 2;
     }
     d->l = 0;
@@ -15253,25 +15266,30 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     }
     for (v = 0; v < g->n; v++) {
         for (node = d->label[v]; node != -1; node = d->tree.parent[node]) {
-            d->tree.weight[node]++;
+            d->tree.weight[node] += sli_level_weight(g, v);
         }
     }
     return SL_OK;
 }
 
+/* The borders that are left of METIS's separators are ragged, and so count for more than they will
+ * cost: our own parts must be estimated at less than this share of theirs. */
+#define SLI_QUALITY_OURS 0.8
+
 /* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
  * and then: one of METIS's trees scatters as any other does. */
 static sl_status sli_dissect_quality(sli_dissection *d) {
     double ours, flat;
-    sl_status status = sli_dissect_multilevel(d);
+    sl_status status = sli_dissect_graph(d);
     if (status != SL_OK) {
         return status;
     }
     ours = sli_dissect_cost(d, &flat);
+    d->widening = 1;
     status = sli_dissect_metis(d);
-    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+    if (status == SL_OK && ours < SLI_QUALITY_OURS * sli_dissect_cost(d, &flat)) {
         d->widening = 2;
-        status = sli_dissect_multilevel(d);
+        status = sli_dissect_graph(d);
     }
     return status;
 }
@@ -15294,13 +15312,15 @@ static sl_status sli_dissect_quality(sli_dissection *d) {
 
 typedef struct sli_nesting {
     const sli_graph *G;
-    const double *xyz; /* NULL: none */
+    const sl_int *weight; /* NULL: 1 each */
+    const double *xyz;    /* NULL: none */
     sl_int dimensions;
     int by_metis;
     sl_int *local;      /* n: a row's number in its component, -1 not yet seen, -2 dense */
     sl_int *row;        /* n: the rows of the component */
     sl_off *begin;      /* n + 1: its graph */
     sl_int *to;         /* the edges of G */
+    sl_int *weights;    /* n, where there are weights */
     sli_placed *placed; /* n, where there are coordinates */
     sli_dissection d;
 } sli_nesting;
@@ -15312,6 +15332,7 @@ static void sli_nesting_layout(sli_nesting *w, sli_block *b) {
     w->row = SLI_TAKE(b, sl_int, n);
     w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
     w->to = SLI_TAKE(b, sl_int, edges);
+    w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
     w->placed = SLI_TAKE(b, sli_placed, w->xyz != NULL ? n : 0);
     sli_dissection_layout(&w->d, b, n, edges);
 }
@@ -15351,13 +15372,22 @@ static void sli_nesting_graph(sli_nesting *w, sl_int count) {
     w->d.levels[0].n = count;
     w->d.levels[0].begin = w->begin;
     w->d.levels[0].to = w->to;
+    w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
+    w->d.total = count;
+    if (w->weight != NULL) {
+        w->d.total = 0;
+        for (k = 0; k < count; k++) {
+            w->weights[k] = w->weight[w->row[k]];
+            w->d.total += w->weights[k];
+        }
+    }
 }
 
 /* Labels of the component whose graph is there, by the cheaper of two trees where there are two. The
  * cruder the borders, the wider the bands in which they are refined. */
 static sl_status sli_nesting_label(sli_nesting *w) {
     sli_dissection *d = &w->d;
-    d->widening = w->by_metis ? 1 : 2;
+    d->widening = 2;
     if (w->by_metis) {
 #if !defined(SL_NO_METIS)
         return sli_dissect_quality(d);
@@ -15381,7 +15411,7 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
     int rounds = SLI_REPAIRS;
     sl_status status;
     d->l = 0;
-    if (d->levels[0].n <= SLI_DISSECT_LEAF) {
+    if (d->levels[0].n <= d->most) {
         sli_dissect_start(d);
         return SL_OK;
     }
@@ -15389,7 +15419,7 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
     if (status == SL_OK) {
         do {
             sli_dissect_cut(d);
-        } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->most) > 0);
         status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;
@@ -15447,9 +15477,10 @@ static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
     return status;
 }
 
-/* The order of a graph without repeated edges, and its tree. */
-static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *xyz,
-                               sl_int dimensions, sl_int *perm, sli_nest *nest,
+/* The order of a graph without repeated edges, and its tree. weight: what its vertices count for in
+ * the balance; NULL: one each. */
+static sl_status sli_order_own(const sli_graph *G, const sl_int *weight, int by_metis,
+                               const double *xyz, sl_int dimensions, sl_int *perm, sli_nest *nest,
                                const sl_allocator *a) {
     sli_nesting w;
     sli_block b = {NULL, 0, 0};
@@ -15457,9 +15488,11 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
     int pass;
     memset(&w, 0, sizeof w);
     w.G = G;
+    w.weight = weight;
     w.xyz = xyz;
     w.dimensions = dimensions;
     w.by_metis = by_metis;
+    w.d.most = by_metis ? SLI_DISSECT_LEAF_QUALITY : SLI_DISSECT_LEAF;
     w.d.a = a;
     w.d.leaf.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -15477,6 +15510,138 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
 
 #endif
 /* end src/impl/order_own.h */
+/* begin src/impl/order_compress.h */
+/* order_compress.h: rows with the same neighbours ordered as one: unknowns of one vertex, cliques */
+#ifndef SLI_ORDER_COMPRESS_H
+#define SLI_ORDER_COMPRESS_H
+
+/* Fewer rows than this share of them must be left for a graph of their own to be worth making. */
+#define SLI_COMPRESS_WORTH 0.8
+
+typedef struct sli_compressed {
+    sli_graph G;
+    sl_int *weight; /* G.n: rows in each vertex */
+    sl_int *first;  /* n: the first row with the neighbours of this one, and their edge */
+    sl_int *number; /* n: a first row's vertex in G */
+    sl_int *perm;   /* G.n */
+} sli_compressed;
+
+/* Whether u and v, which are neighbours, have the same neighbours otherwise. */
+static int sli_compress_are_twins(const sli_graph *G, sl_int u, sl_int v) {
+    sl_off a = G->begin[u], b = G->begin[v];
+    for (;;) {
+        a += a < G->begin[u + 1] && G->to[a] == v;
+        b += b < G->begin[v + 1] && G->to[b] == u;
+        if (a == G->begin[u + 1] || b == G->begin[v + 1]) {
+            return a == G->begin[u + 1] && b == G->begin[v + 1];
+        }
+        if (G->to[a++] != G->to[b++]) {
+            return 0;
+        }
+    }
+}
+
+/* first of every row of a graph with sorted lists; how many different ones there are. key: n of
+ * scratch. */
+static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key) {
+    sl_int v, count = 0;
+    sl_off e;
+    for (v = 0; v < G->n; v++) {
+        key[v] = sli_scatter((uint32_t)v);
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            key[v] += sli_scatter((uint32_t)G->to[e]);
+        }
+    }
+    for (v = 0; v < G->n; v++) {
+        first[v] = v;
+        for (e = G->begin[v]; e < G->begin[v + 1] && G->to[e] < v; e++) {
+            const sl_int u = G->to[e];
+            if (key[u] == key[v] && first[u] == u && sli_compress_are_twins(G, u, v)) {
+                first[v] = u;
+                break;
+            }
+        }
+        count += first[v] == v;
+    }
+    return count;
+}
+
+/* The graph of the first rows: a row that has others as neighbours has their first one too. */
+static void sli_compress_fill(sli_compressed *c, const sli_graph *G) {
+    sl_int v, k = 0;
+    sl_off e, edges = 0;
+    for (v = 0; v < G->n; v++) {
+        if (c->first[v] == v) {
+            c->weight[k] = 0;
+            c->number[v] = k++;
+        }
+        c->weight[c->number[c->first[v]]]++;
+    }
+    for (v = 0; v < G->n; v++) {
+        if (c->first[v] != v) {
+            continue;
+        }
+        c->G.begin[c->number[v]] = edges;
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            if (c->first[G->to[e]] == G->to[e]) {
+                c->G.to[edges++] = c->number[G->to[e]];
+            }
+        }
+    }
+    c->G.begin[c->G.n] = edges;
+}
+
+/* From vertices back to rows. start: G.n + 1 of scratch. */
+static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *perm, sli_nest *nest,
+                                sl_int *start) {
+    sl_int k, v, at = 0;
+    for (k = 0; k < c->G.n; k++) {
+        start[c->perm[k]] = at;
+        at += c->weight[c->perm[k]];
+    }
+    for (v = 0; v < rows; v++) {
+        perm[start[c->number[c->first[v]]]++] = v;
+    }
+    for (v = rows - 1; v >= 0; v--) { /* a vertex's number is no larger than its rows' */
+        nest->of[v] = nest->of[c->number[c->first[v]]];
+    }
+}
+
+/* The order of a graph whose rows may come in groups of twins. scratch: n. */
+static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
+                                      sl_int *scratch, sli_nest *nest, const sl_allocator *a) {
+    sli_compressed c;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&c, 0, sizeof c);
+    c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
+    if ((double)c.G.n > SLI_COMPRESS_WORTH * (double)G->n) {
+        return sli_order_own(G, NULL, by_metis, NULL, 0, perm, nest, a);
+    }
+    c.first = scratch;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
+        c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
+        c.weight = SLI_TAKE(&b, sl_int, c.G.n);
+        c.number = SLI_TAKE(&b, sl_int, G->n);
+        c.perm = SLI_TAKE(&b, sl_int, c.G.n);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_compress_fill(&c, G);
+    status = sli_order_own(&c.G, c.weight, by_metis, NULL, 0, c.perm, nest, a);
+    if (status == SL_OK) {
+        sli_compress_expand(&c, G->n, perm, nest, (sl_int *)(void *)c.G.begin);
+    }
+    sli_free(a, b.base);
+    return status;
+}
+
+#endif
+/* end src/impl/order_compress.h */
 /* begin src/impl/order.h */
 /* order.h: the fill-reducing order of the rows: natural, given, or nested dissection */
 #ifndef SLI_ORDER_H
@@ -15603,16 +15768,17 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     sli_graph_fill(&G, A, triangle, block);
     status = sli_order_canonical(&G, a);
     if (status == SL_OK && ordering != SL_ORDERING_METIS) {
-        status = sli_order_own(&G, ordering == SL_ORDERING_QUALITY,
-                               opt != NULL ? opt->coordinates : NULL,
-                               opt != NULL ? opt->dimensions : 0, perm, nest, a);
+        const int by_metis = ordering == SL_ORDERING_QUALITY;
+        if (opt != NULL && opt->coordinates != NULL && !by_metis) {
+            status = sli_order_own(&G, NULL, 0, opt->coordinates, opt->dimensions, perm, nest, a);
+        } else {
+            status = sli_order_compressed(&G, by_metis, perm, scratch, nest, a);
+        }
     }
 #if !defined(SL_NO_METIS)
     if (status == SL_OK && ordering == SL_ORDERING_METIS) {
         status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
     }
-#else
-    (void)scratch;
 #endif
     if (status == SL_OK && block > 1) {
         sli_order_expand(G.n, block, perm, nest);
@@ -23132,6 +23298,7 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_LEAF_MAX
 #undef SLI_LEAF_GONE
 #undef SLI_DISSECT_LEAF
+#undef SLI_DISSECT_LEAF_QUALITY
 #undef SLI_DISSECT_PART
 #undef SLI_DISSECT_SHRINK
 #undef SLI_DISSECT_FIRST
@@ -23146,6 +23313,8 @@ SL_API sl_region_view_t sl_region_view(const sl_region *R) {
 #undef SLI_DENSE_ROW
 #undef SLI_CUT_BALANCE
 #undef SLI_REPAIRS
+#undef SLI_QUALITY_OURS
+#undef SLI_COMPRESS_WORTH
 #undef SLI_LAYERS_SHARE
 #undef SLI_VOLUME_BORDER
 #undef SLI_CLIMB

@@ -56,11 +56,12 @@ static worth worth_of(const sl_csc *A, const sl_options *opt) {
 }
 
 /* Means over seeds, the least time. */
-static worth metis_worth(const sl_csc *A) {
+static worth metis_worth(const bench_run *run, const sl_csc *A) {
+    const int seeds = run->size == BENCH_QUICK ? 1 : SEEDS;
     worth sum = {1e30, 0, 0, 0, 0};
     idx_t metis[METIS_NOPTIONS];
     sl_int wishes[METIS_NOPTIONS];
-    for (int seed = 0; seed < SEEDS; seed++) {
+    for (int seed = 0; seed < seeds; seed++) {
         sl_options opt;
         memset(&opt, 0, sizeof opt);
         METIS_SetDefaultOptions(metis);
@@ -72,10 +73,10 @@ static worth metis_worth(const sl_csc *A) {
         opt.metis_options = wishes;
         const worth y = worth_of(A, &opt);
         sum.seconds = y.seconds < sum.seconds ? y.seconds : sum.seconds;
-        sum.nnz += y.nnz / SEEDS;
-        sum.flops += y.flops / SEEDS;
-        sum.path_mean += y.path_mean / SEEDS;
-        sum.path_most += y.path_most / SEEDS;
+        sum.nnz += y.nnz / seeds;
+        sum.flops += y.flops / seeds;
+        sum.path_mean += y.path_mean / seeds;
+        sum.path_most += y.path_most / seeds;
     }
     return sum;
 }
@@ -92,7 +93,7 @@ static void add_row(bench_report *report, const bench_system *system, const char
 /* One matrix in every ordering. points: n x 3, or NULL. */
 static void one_matrix(bench_run *run, bench_report *report, const bench_system *system,
                        const sl_csc *A, const double *points, const char *what, sums *all) {
-    const worth metis = metis_worth(A);
+    const worth metis = metis_worth(run, A);
     add_row(report, system, what, "METIS_NodeND", &metis, metis.seconds);
     for (int k = 0; k < WAYS; k++) {
         sl_options opt;

@@ -65,6 +65,7 @@ extern "C" {
 #include "impl/order_metis.h"
 #include "impl/order_quality.h"
 #include "impl/order_own.h"
+#include "impl/order_compress.h"
 #include "impl/order.h"
 #include "impl/etree.h"
 #include "impl/counts.h"

@@ -2,7 +2,7 @@
 #ifndef SLI_ORDER_H
 #define SLI_ORDER_H
 
-#include "order_own.h"
+#include "order_compress.h"
 #include "permute.h"
 #include "status.h"
 
@@ -127,16 +127,17 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     sli_graph_fill(&G, A, triangle, block);
     status = sli_order_canonical(&G, a);
     if (status == SL_OK && ordering != SL_ORDERING_METIS) {
-        status = sli_order_own(&G, ordering == SL_ORDERING_QUALITY,
-                               opt != NULL ? opt->coordinates : NULL,
-                               opt != NULL ? opt->dimensions : 0, perm, nest, a);
+        const int by_metis = ordering == SL_ORDERING_QUALITY;
+        if (opt != NULL && opt->coordinates != NULL && !by_metis) {
+            status = sli_order_own(&G, NULL, 0, opt->coordinates, opt->dimensions, perm, nest, a);
+        } else {
+            status = sli_order_compressed(&G, by_metis, perm, scratch, nest, a);
+        }
     }
 #if !defined(SL_NO_METIS)
     if (status == SL_OK && ordering == SL_ORDERING_METIS) {
         status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
     }
-#else
-    (void)scratch;
 #endif
     if (status == SL_OK && block > 1) {
         sli_order_expand(G.n, block, perm, nest);

@@ -146,7 +146,7 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_
         sl_int *vertices = d->order + first;
         int direction;
         d->tree.weight[node] = count;
-        if (count <= SLI_DISSECT_LEAF || d->tree.count >= d->tree.room - 1) {
+        if (count <= d->most || d->tree.count >= d->tree.room - 1) {
             for (k = 0; k < count; k++) {
                 d->label[vertices[k]] = node;
             }

@@ -75,7 +75,7 @@ static void sli_dissect_layers(sli_dissection *d) {
         sli_dissect_sort(d);
         for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
             const sl_int count = d->begin[node + 1] - d->begin[node];
-            if (count > SLI_DISSECT_LEAF) {
+            if (count > d->most) {
                 sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node],
                                count);
                 sli_layers_bisect(&d->part);

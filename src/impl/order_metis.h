@@ -118,7 +118,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
                                   const sl_allocator *a) {
     const sl_off edges = g->begin[g->n];
     idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
-                                   *size = NULL;
+                                   *size = NULL, *weight = NULL;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_off e;
@@ -133,6 +133,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
         perm = SLI_TAKE(&b, idx_t, g->n);
         iperm = SLI_TAKE(&b, idx_t, g->n);
         size = SLI_TAKE(&b, idx_t, 2 * (size_t)parts);
+        weight = SLI_TAKE(&b, idx_t, g->weight != NULL ? g->n : 0);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
@@ -144,9 +145,13 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
     for (e = 0; e < edges; e++) {
         adjncy[e] = g->to[e];
     }
+    for (k = 0; k < g->n && g->weight != NULL; k++) {
+        weight[k] = g->weight[k];
+    }
     METIS_SetDefaultOptions(options);
-    result =
-        METIS_NodeNDP((idx_t)g->n, xadj, adjncy, NULL, (idx_t)parts, options, perm, iperm, size);
+    options[METIS_OPTION_NSEPS] = 2; /* of each separator the better of two tries */
+    result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
+                           (idx_t)parts, options, perm, iperm, size);
     if (result == METIS_OK) {
         for (k = 0; k < g->n; k++) {
             order[k] = (sl_int)perm[k];

@@ -16,13 +16,15 @@
 
 typedef struct sli_nesting {
     const sli_graph *G;
-    const double *xyz; /* NULL: none */
+    const sl_int *weight; /* NULL: 1 each */
+    const double *xyz;    /* NULL: none */
     sl_int dimensions;
     int by_metis;
     sl_int *local;      /* n: a row's number in its component, -1 not yet seen, -2 dense */
     sl_int *row;        /* n: the rows of the component */
     sl_off *begin;      /* n + 1: its graph */
     sl_int *to;         /* the edges of G */
+    sl_int *weights;    /* n, where there are weights */
     sli_placed *placed; /* n, where there are coordinates */
     sli_dissection d;
 } sli_nesting;
@@ -34,6 +36,7 @@ static void sli_nesting_layout(sli_nesting *w, sli_block *b) {
     w->row = SLI_TAKE(b, sl_int, n);
     w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
     w->to = SLI_TAKE(b, sl_int, edges);
+    w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
     w->placed = SLI_TAKE(b, sli_placed, w->xyz != NULL ? n : 0);
     sli_dissection_layout(&w->d, b, n, edges);
 }
@@ -73,13 +76,22 @@ static void sli_nesting_graph(sli_nesting *w, sl_int count) {
     w->d.levels[0].n = count;
     w->d.levels[0].begin = w->begin;
     w->d.levels[0].to = w->to;
+    w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;
+    w->d.total = count;
+    if (w->weight != NULL) {
+        w->d.total = 0;
+        for (k = 0; k < count; k++) {
+            w->weights[k] = w->weight[w->row[k]];
+            w->d.total += w->weights[k];
+        }
+    }
 }
 
 /* Labels of the component whose graph is there, by the cheaper of two trees where there are two. The
  * cruder the borders, the wider the bands in which they are refined. */
 static sl_status sli_nesting_label(sli_nesting *w) {
     sli_dissection *d = &w->d;
-    d->widening = w->by_metis ? 1 : 2;
+    d->widening = 2;
     if (w->by_metis) {
 #if !defined(SL_NO_METIS)
         return sli_dissect_quality(d);
@@ -103,7 +115,7 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
     int rounds = SLI_REPAIRS;
     sl_status status;
     d->l = 0;
-    if (d->levels[0].n <= SLI_DISSECT_LEAF) {
+    if (d->levels[0].n <= d->most) {
         sli_dissect_start(d);
         return SL_OK;
     }
@@ -111,7 +123,7 @@ static sl_status sli_nesting_dissect(sli_nesting *w) {
     if (status == SL_OK) {
         do {
             sli_dissect_cut(d);
-        } while (rounds-- > 0 && sli_dissect_split(d, 2 * SLI_DISSECT_LEAF) > 0);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->most) > 0);
         status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;
@@ -169,9 +181,10 @@ static sl_status sli_nesting_run(sli_nesting *w, sl_int *perm, sli_nest *nest) {
     return status;
 }
 
-/* The order of a graph without repeated edges, and its tree. */
-static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *xyz,
-                               sl_int dimensions, sl_int *perm, sli_nest *nest,
+/* The order of a graph without repeated edges, and its tree. weight: what its vertices count for in
+ * the balance; NULL: one each. */
+static sl_status sli_order_own(const sli_graph *G, const sl_int *weight, int by_metis,
+                               const double *xyz, sl_int dimensions, sl_int *perm, sli_nest *nest,
                                const sl_allocator *a) {
     sli_nesting w;
     sli_block b = {NULL, 0, 0};
@@ -179,9 +192,11 @@ static sl_status sli_order_own(const sli_graph *G, int by_metis, const double *x
     int pass;
     memset(&w, 0, sizeof w);
     w.G = G;
+    w.weight = weight;
     w.xyz = xyz;
     w.dimensions = dimensions;
     w.by_metis = by_metis;
+    w.d.most = by_metis ? SLI_DISSECT_LEAF_QUALITY : SLI_DISSECT_LEAF;
     w.d.a = a;
     w.d.leaf.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

@@ -2,7 +2,7 @@
 #ifndef SLI_ORDER_QUALITY_H
 #define SLI_ORDER_QUALITY_H
 
-#include "order_dissect.h"
+#include "order_layers.h"
 #include "order_metis.h"
 
 #if !defined(SL_NO_METIS)
@@ -57,7 +57,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
     sl_status status;
-    while (g->n / leaves > SLI_DISSECT_LEAF) {
+    while (d->total / leaves > d->most && leaves < g->n / 8) {
         leaves *= 2;
     }
     d->l = 0;
@@ -89,25 +89,30 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     }
     for (v = 0; v < g->n; v++) {
         for (node = d->label[v]; node != -1; node = d->tree.parent[node]) {
-            d->tree.weight[node]++;
+            d->tree.weight[node] += sli_level_weight(g, v);
         }
     }
     return SL_OK;
 }
 
+/* The borders that are left of METIS's separators are ragged, and so count for more than they will
+ * cost: our own parts must be estimated at less than this share of theirs. */
+#define SLI_QUALITY_OURS 0.8
+
 /* Labels by METIS, or by our own levels where those are estimated to be cheaper, which they are now
  * and then: one of METIS's trees scatters as any other does. */
 static sl_status sli_dissect_quality(sli_dissection *d) {
     double ours, flat;
-    sl_status status = sli_dissect_multilevel(d);
+    sl_status status = sli_dissect_graph(d);
     if (status != SL_OK) {
         return status;
     }
     ours = sli_dissect_cost(d, &flat);
+    d->widening = 1;
     status = sli_dissect_metis(d);
-    if (status == SL_OK && ours < sli_dissect_cost(d, &flat)) {
+    if (status == SL_OK && ours < SLI_QUALITY_OURS * sli_dissect_cost(d, &flat)) {
         d->widening = 2;
-        status = sli_dissect_multilevel(d);
+        status = sli_dissect_graph(d);
     }
     return status;
 }

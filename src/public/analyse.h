@@ -26,8 +26,8 @@
  *           With SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process meanwhile; with
  *           SL_ORDERING_QUALITY it does not, and raises SIGABRT if it runs out of memory, which ends a process that
  *           has no handler. Calls in several threads at once are safe only if rand() is, and may then order
- *           differently from run to run. All other orderings do nothing of this, run in any number of threads, and
- *           give the same order for the same pattern, on any machine, with METIS compiled in or not.
+ *           differently from run to run. All other orderings do nothing of this, run in any number of
+ *           threads, and give the same order for the same pattern however it is stored, with METIS compiled in or not.
  *  Source   [George73] nested dissection, [KK98] on levels of coarser graphs, [FM82] moving vertices across a cut, [FF56]
  *           smallest vertex cuts; [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/test_symbolic.c

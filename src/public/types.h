@@ -51,14 +51,17 @@ typedef enum sl_reading {
     SL_AS_STORED         /* a general matrix: every entry for itself */
 } sl_reading;
 
+/** Orders of elimination. BUILTIN cuts on a coarse graph of its own: METIS's cuts of that graph took longer and were
+ *  worse, so that FAST has no use for them. Rows with the same neighbours are ordered as one. */
 typedef enum sl_ordering {
     SL_ORDERING_DEFAULT = 0, /* SL_ORDERING_FAST */
     SL_ORDERING_METIS,       /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_GIVEN,       /* options.perm */
     SL_ORDERING_NATURAL,     /* 0, 1, 2, ... */
-    SL_ORDERING_FAST,        /* the quickest set-up: today SL_ORDERING_BUILTIN */
+    SL_ORDERING_FAST,        /* the quickest set-up: at present the same as SL_ORDERING_BUILTIN */
     SL_ORDERING_BUILTIN,     /* nested dissection of this header's own; needs no library */
-    SL_ORDERING_QUALITY      /* for very many local solves: METIS's separators, improved by ours */
+    SL_ORDERING_QUALITY      /* METIS's separators, the better of two, improved: for very many local
+                                solves, at twice METIS's time */
 } sl_ordering;
 
 /** Merging of small supernodes into their parents: faster solves for a few stored zeros. */
