@@ -28,6 +28,7 @@ static sl_status factor(sl_factor **out, sl_symbolic **S, const sl_matrix *A,
     sl_options opt;
     memset(&opt, 0, sizeof opt);
     opt.definiteness = definiteness;
+    opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     sl_status status = *S == NULL ? sl_symbolic_create(S, &view, NULL, NULL) : SL_OK;
     return status == SL_OK ? sl_factor_create(out, *S, &view, &opt, NULL) : status;
 }
