@@ -6,7 +6,7 @@
 
 #include "app.h"
 #include "command.h"
-#include "heat_distance.h"
+#include "heat_place.h"
 #include "laplacian.h"
 #include "look.h"
 
@@ -35,6 +35,7 @@ typedef struct job {
     app_output output;
     char view[LOOK_TEXT]; /* where the first source is seen from the front */
     heat_reach reach;
+    bool region; /* --region */
 } job;
 
 static double straight(const double *a, const double *b) {
@@ -145,14 +146,38 @@ static void write_distances(const job *q, const heat_field *f) {
     free(distance);
 }
 
+/* The ball and its plans, with a line on them; in regions where these are asked for. */
+static void open_place(job *q, heat_place *place) {
+    sl_stats stats;
+    double began = app_now();
+    app_must(heat_place_create(place, &q->s, q->sources, q->n_sources, heat_reach_width(&q->reach),
+                               q->region),
+             "plans around the sources", NULL);
+    double seconds = app_now() - began;
+    if (q->region) {
+        app_print_region("region", &place->poisson.stats, place->poisson.stats.seconds_region);
+        sl_region_stats(place->heat_region, &stats);
+        app_print_region("of heat", &stats, stats.seconds_region);
+    }
+    printf("prepared   %d vertices around the sources: planned%s in %.3f ms\n", (int)place->b.n,
+           q->region ? ", with both regions," : "", 1e3 * seconds);
+}
+
 static void distances(job *q) {
     heat_field f;
+    heat_place place;
     sl_stats all;
-    app_must(heat_distance(&f, &q->s, q->sources, q->n_sources, &q->reach), "distances", NULL);
+    open_place(q, &place);
+    app_must(
+        heat_place_distance(&f, &place, q->sources, q->n_sources, q->reach.radius, q->reach.solves),
+        "distances", NULL);
     heat_field_free(&f); /* once more, in memory that is warm */
     double began = app_now();
-    app_must(heat_distance(&f, &q->s, q->sources, q->n_sources, &q->reach), "distances", NULL);
+    app_must(
+        heat_place_distance(&f, &place, q->sources, q->n_sources, q->reach.radius, q->reach.solves),
+        "distances", NULL);
     double seconds = app_now() - began, farthest = 0;
+    heat_place_free(&place);
     sl_symbolic_stats(q->s.S, &all);
     for (sl_int k = 0; k < f.n; k++) {
         farthest = fmax(farthest, f.distance[k]);
@@ -162,6 +187,8 @@ static void distances(job *q) {
     printf("touched    %d vertices; %.3g of %.3g entries of each factor, %d solves for the "
            "distance\n",
            (int)f.n_ball, (double)f.heat_stats.x_entries, (double)all.nnz_panels, f.solves);
+    app_print_reads("heat", &f.heat_stats);
+    app_print_reads("distance", &f.poisson_stats);
     if (f.negative > 0) {
         printf("warning    heat below 0 at %d vertices: distances will be wrong, a larger "
                "--scaled-time may "
@@ -343,6 +370,10 @@ int command_geodesic(int argc, char **argv) {
          "below 0)"},
         {OPTION_TEXT, "exact", &q.exact, "plane|sphere",
          "compare with straight distances, or with those on the sphere that the mesh is"},
+        {OPTION_FLAG, "region", &q.region, NULL,
+         "make regions of both factors around the ball and solve in them: distances then cost the "
+         "same however large the mesh. Making them takes as long as some ten or hundred distances, "
+         "so it is not the default"},
         {OPTION_FLAG, "voronoi", &voronoi, NULL, "the nearest site instead of the distance"},
         APP_OUTPUT_OPTIONS(&q.output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
@@ -350,6 +381,9 @@ int command_geodesic(int argc, char **argv) {
     options_read(&usage, options, argc, argv, &operand);
     if (radius < 0 || margin < 1 || solves < 1 || solves > 1000) {
         app_die_usage("--radius 0 or more, --margin 1 or more, --solves 1 to 1000");
+    }
+    if (q.region && (radius == 0 || voronoi)) {
+        app_die_usage("--region: for distances within --radius");
     }
     if (q.exact != NULL && strcmp(q.exact, "plane") != 0 && strcmp(q.exact, "sphere") != 0) {
         app_die_usage("--exact %s: not plane or sphere", q.exact);
