@@ -42,8 +42,8 @@ enum { LAYOUT_JOB_SIZE = 2000 };
 
 #define LAYOUT_JOB_REGION_HELP                                                                     \
     "end the local solves at the boundary of a region made around the patch: a solve then costs "  \
-    "the same however large the mesh; making it costs as much as some hundred solves, so it is "   \
-    "not the default"
+    "the same however large the mesh. Making it takes as long as 25 to 100 solves without, so it " \
+    "is not the default: a layout needs one solve, the patch's own problem or arap some 20"
 
 #define LAYOUT_JOB_OPTIONS(j)                                                                      \
     {OPTION_COUNT, "center", &(j)->vertex, "V",                                                    \
