@@ -8,6 +8,7 @@
 #include "../tools/grid.h"
 #include "../tools/laplacian.h"
 #include "../tools/mesh.h"
+#include "../tools/patch_solver.h"
 
 /* A jittered grid over 0..1 x 0..1. */
 static inline mesh flat_grid(sl_int side, double jitter) {
@@ -78,7 +79,7 @@ static inline void whole_make(whole_t *w, mesh m) {
     memset(w, 0, sizeof *w);
     w->m = m;
     opt.definiteness = SL_SEMIDEFINITE;
-    opt.consistency_tolerance = -1;
+    opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     assert_true(incidence_create(&w->around, &w->m));
     assert_true(laplacian_cotangent(&w->L, &w->m));
     const sl_csc A = sl_matrix_view(w->L);

@@ -81,6 +81,16 @@ for file in p.svg r.png s.png t.svg q.png; do
     tell $? "$file was drawn"
 done
 
+gives 0 'entries read of the region.s inverse: [1-9]' heat grid:60x60 --from 1830 --at 1831,1890 --region
+gives 0 '; [1-9][0-9]* of the region.s inverse$' param grid:60x60 --patch 200 --center 1830 --region --compare
+gives 0 'in the region, and to the roots' param grid:60x60 --patch 200 --center 1830 --region --compare --system patch
+gives 0 '; [1-9][0-9]* of the region.s inverse$' geodesic grid:60x60 --from 1830 --radius 0.1 --region
+gives 0 '; [1-9][0-9]* of the region.s inverse$' arap grid:60x60 --patch 200 --center 1830 --region
+gives 2 'for distances within --radius' geodesic sphere:2 --region
+gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
+"$program" hks sphere:2 --times 3 --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" && cmp -s "$dir/h1.csv" "$dir/h2.csv"
+tell $? "hks gives the same numbers by one factor at a time and by two"
+
 # ---- odd meshes: survived ----
 
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 1 2 4\nf 2 1 5\nf 1 1 2\nf 1 2 2\n' \

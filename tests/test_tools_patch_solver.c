@@ -107,6 +107,34 @@ static void the_part_problem_by_the_factor_of_the_mesh(void **state) {
     }
 }
 
+/* Down to a residual that is rounding, and rounding alone on the right: no correction is refused. */
+static void corrections_of_rounding(void **state) {
+    (void)state;
+    whole_t w;
+    whole_make(&w, flat_grid(60, 0));
+    disk d = grown_disk(&w, 1830, 300);
+    sl_int n = d.p.m.n_vertices, nb = d.n_boundary;
+    patch_solver s = solver_of(&w, &d.p);
+    double *edge = test_reals(2 * (size_t)nb), *b = test_reals(2 * (size_t)nb);
+    double *B = test_reals(2 * (size_t)n), *X = test_reals(2 * (size_t)n);
+    boundary_on_circle(edge, &d);
+    boundary_neumann(b, edge, nb);
+    boundary_spread(B, b, &d);
+    int solves = 60;
+    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-10, &solves));
+    assert_true(solves > 1 && solves < 60);
+    solves = 60;
+    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-18, &solves));
+    assert_true(isfinite(largest(X, 2 * (size_t)n)));
+    free(X);
+    free(B);
+    free(b);
+    free(edge);
+    patch_solver_free(&s);
+    disk_free(&d);
+    whole_free(&w);
+}
+
 static void refusals(void **state) {
     (void)state;
     whole_t w;
@@ -191,6 +219,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mesh_problem_is_the_full_solve),
         cmocka_unit_test(the_part_problem_by_the_factor_of_the_mesh),
+        cmocka_unit_test(corrections_of_rounding),
         cmocka_unit_test(refusals),
         cmocka_unit_test(cost_of_a_patch),
         cmocka_unit_test(real_meshes),

@@ -52,6 +52,22 @@ void *app_alloc(size_t count, size_t size) {
     return block;
 }
 
+void app_print_reads(const char *name, const sl_stats *plan) {
+    printf("%-10s forward %d rows, %lld entries of L; backward %d rows, %lld entries", name,
+           (int)plan->b_columns, (long long)plan->b_entries, (int)plan->x_columns,
+           (long long)plan->x_entries);
+    if (plan->plan_in_region) {
+        printf("; %lld of the region's inverse", (long long)plan->plan_region_entries);
+    }
+    printf("\n");
+}
+
+void app_print_region(const char *name, const sl_stats *region, double seconds) {
+    printf("%-10s %d rows in %d subtrees, %d on its boundary; %.1f KB; made in %.2f ms\n", name,
+           (int)region->region_rows, (int)region->region_subtrees, (int)region->region_boundary,
+           1e-3 * (double)region->bytes_region, 1e3 * seconds);
+}
+
 double app_now(void) {
     struct timespec t;
     (void)clock_gettime(CLOCK_MONOTONIC, &t);

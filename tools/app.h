@@ -34,6 +34,15 @@ void app_must(sl_status status, const char *what, const sl_stats *stats);
 /** count elements of size bytes, zeroed; dies when there is no memory. Release with free. */
 void *app_alloc(size_t count, size_t size);
 
+/* ---- what a solve reads ---- */
+
+/** Prints a line on what one solve of a plan reads, after `name`, 10 characters at most: rows, entries of L on both ways,
+ *  entries of a region's inverse. Counts, so that they tell what times on a busy machine do not. */
+void app_print_reads(const char *name, const sl_stats *plan);
+
+/** Prints a line on a region: what it holds, what it keeps, what it took. */
+void app_print_region(const char *name, const sl_stats *region, double seconds);
+
 /* ---- time and progress ---- */
 
 /** Seconds of a clock that only runs forward. */

@@ -19,7 +19,7 @@ static const options_usage usage = {
 static double compare_full(const double *values, const heat_system *h, const sl_int *vertices,
                            sl_int count, double *worst) {
     enum { SAMPLE = 5 };
-    size_t n = (size_t)h->A.n_cols;
+    size_t n = (size_t)h->n;
     double *b = app_alloc(n, sizeof *b), *x = app_alloc(n, sizeof *x);
     double seconds = HUGE_VAL;
     sl_work *W = NULL;

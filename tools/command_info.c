@@ -73,7 +73,7 @@ static void print_costs(const heat_system *h, double seconds_read, double second
 }
 
 static double time_solve(const heat_system *h) {
-    size_t n = (size_t)h->A.n_cols;
+    size_t n = (size_t)h->n;
     double *b = app_alloc(n, sizeof *b), *x = app_alloc(n, sizeof *x);
     for (size_t k = 0; k < n; k++) {
         b[k] = 1;

@@ -62,6 +62,11 @@ typedef struct heat_reach {
 #define HEAT_MARGIN 1.5
 enum { HEAT_SOLVES = 3 };
 
+/** How wide a ball, along edges, a reach looks at; infinite where all is wanted. */
+double heat_reach_width(const heat_reach *r);
+
+#define HEAT_COLD 1e-290 /* below this, differences of heat are rounding */
+
 /** Distances at some vertices. */
 typedef struct heat_field {
     sl_int n;
@@ -82,7 +87,8 @@ typedef struct heat_field {
  *                  face joins to a source, are not in it.
  *  sources  [in]   count vertices in 0..n-1, none twice.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no source, out of range, twice; SL_ERR_MEMORY.
- *  Cost     with a radius, what the ball has, and the paths of the elimination tree above it.
+ *  Cost     with a radius, what the ball has, and the paths of the elimination tree above it; those go where the ball
+ *           is asked often (heat_place.h).
  *  Example  tests/test_tools_geodesic.c
  */
 sl_status heat_distance(heat_field *out, heat_solver *s, const sl_int *sources, sl_int count,

@@ -7,50 +7,88 @@
 
 #include "laplacian.h"
 
-static void sum_up(heat_system *h, double t) {
+static void check_time(double t) {
     if (!(t > 0 && t <= 1e200)) {
         app_die("the time %g is not between 0 and 1e200", t);
     }
-    sl_csc L = sl_matrix_view(h->laplacian);
-    for (sl_int j = 0; j < L.n_cols; j++) {
-        for (sl_int p = L.p[j]; p < L.p[j + 1]; p++) {
-            h->values[p] = t * L.x[p] + (L.i[p] == j ? h->mass[j] : 0);
-        }
-    }
-    h->t = t;
 }
 
-void heat_system_create(heat_system *h, const mesh *m, double t) {
+/* M as a diagonal matrix whose values are mass. */
+static void spread_mass(const heat_system *h, const double *mass) {
+    sl_int *places = app_alloc((size_t)h->n + 1, sizeof *places);
+    for (sl_int j = 0; j <= h->n; j++) {
+        places[j] = j;
+    }
+    const sl_csc M = {h->n, h->n, places, places, mass};
+    app_must(sl_symbolic_spread(h->S, h->terms[0], &M, NULL), "masses", NULL);
+    free(places);
+}
+
+void heat_system_analyse(heat_system *h, const mesh *m) {
+    sl_matrix *laplacian = NULL;
     memset(h, 0, sizeof *h);
+    h->n = m->n_vertices;
     h->stats.error_row = -1;
     double begin = app_now();
-    app_stage("analysing and factoring");
-    if (!laplacian_cotangent(&h->laplacian, m)) {
-        app_die("no memory for the Laplacian of %d vertices", (int)m->n_vertices);
+    app_stage("analysing");
+    double *mass = app_alloc((size_t)h->n, sizeof *mass);
+    if (!laplacian_cotangent(&laplacian, m)) {
+        app_die("no memory for the Laplacian of %d vertices", (int)h->n);
     }
-    h->A = sl_matrix_view(h->laplacian);
-    h->mass = app_alloc((size_t)h->A.n_cols, sizeof *h->mass);
-    h->values = app_alloc((size_t)h->A.p[h->A.n_cols], sizeof *h->values);
-    h->A.x = h->values;
-    laplacian_mass(h->mass, m);
-    sum_up(h, t);
+    laplacian_mass(mass, m);
     h->seconds_assemble = app_now() - begin;
-    app_must(sl_symbolic_create(&h->S, &h->A, NULL, &h->stats), "analysis", &h->stats);
-    app_must(sl_factor_create(&h->F, h->S, &h->A, NULL, &h->stats), "factorization", &h->stats);
+    const sl_csc L = sl_matrix_view(laplacian);
+    app_must(sl_symbolic_create(&h->S, &L, NULL, &h->stats), "analysis", &h->stats);
+    begin = app_now();
+    for (int k = 0; k < 2; k++) {
+        h->terms[k] = app_alloc((size_t)sl_symbolic_entries(h->S), sizeof *h->terms[k]);
+    }
+    spread_mass(h, mass);
+    app_must(sl_symbolic_spread(h->S, h->terms[1], &L, NULL), "Laplacian", NULL);
+    h->seconds_assemble += app_now() - begin;
+    sl_matrix_free(laplacian);
+    free(mass);
     app_progress_end();
 }
 
-void heat_system_set_time(heat_system *h, double t) {
-    sum_up(h, t);
-    app_must(sl_factor_refactor(h->F, &h->A, &h->stats), "factorization", &h->stats);
+void heat_system_create(heat_system *h, const mesh *m, double t) {
+    check_time(t);
+    heat_system_analyse(h, m);
+    const double one_and_t[2] = {1, t};
+    const double *const terms[2] = {h->terms[0], h->terms[1]};
+    app_stage("factoring");
+    app_must(sl_factor_create_combination(&h->F, h->S, one_and_t, terms, 2, NULL, &h->stats),
+             "factorization", &h->stats);
+    h->t = t;
+    app_progress_end();
+}
+
+void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,
+                         const sl_threads *threads) {
+    const double *const terms[2] = {h->terms[0], h->terms[1]};
+    double *coefficients = app_alloc(2 * (size_t)count, sizeof *coefficients);
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.threads = *threads;
+    for (sl_int k = 0; k < count; k++) {
+        check_time(t[k]);
+        coefficients[2 * k] = 1;
+        coefficients[2 * k + 1] = t[k];
+    }
+    bool again = count > 0 && factors[0] != NULL;
+    app_must(
+        again
+            ? sl_batch_refactor(factors, count, coefficients, terms, 2, threads, NULL, &h->stats)
+            : sl_batch_factor(factors, count, h->S, coefficients, terms, 2, &opt, NULL, &h->stats),
+        "factorization", &h->stats);
+    free(coefficients);
 }
 
 void heat_system_free(heat_system *h) {
     sl_factor_free(h->F);
     sl_symbolic_free(h->S);
-    free(h->values);
-    free(h->mass);
-    sl_matrix_free(h->laplacian);
+    free(h->terms[0]);
+    free(h->terms[1]);
     memset(h, 0, sizeof *h);
 }
 

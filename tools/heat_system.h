@@ -10,22 +10,29 @@
  *  x_ij = sum phi_i phi_j / (1 + t lambda): heat that one unit at j leaves at i, a unit of area.
  */
 typedef struct heat_system {
-    double t;
-    sl_matrix *laplacian; /* lower triangle of L: its pattern serves every t */
-    double *mass;         /* n */
-    double *values;       /* of M + t L */
-    sl_csc A;             /* lower triangle of M + t L: pattern of L, those values */
+    sl_int n;
+    double t; /* of F */
+    double *
+        terms[2]; /* M and L in the order of the analysis: M + t L is read from these for every t */
     sl_symbolic *S;
-    sl_factor *F;
+    sl_factor *F;            /* NULL: only analysed so far */
     sl_stats stats;          /* of analysis and factorization */
-    double seconds_assemble; /* for L, M, and the first sum */
+    double seconds_assemble; /* for L and M */
 } heat_system;
 
-/** Assembles, analyses and factors; dies with a reason where that fails. Release with heat_system_free. */
+/** Assembles and analyses; dies with a reason where that fails. Release with heat_system_free. */
+void heat_system_analyse(heat_system *h, const mesh *m);
+
+/** heat_system_analyse, and h->F of M + t L. */
 void heat_system_create(heat_system *h, const mesh *m, double t);
 
-/** Another t: new values, factored again over the same analysis. Nothing is allocated. */
-void heat_system_set_time(heat_system *h, double t);
+/** Factors of M + t[k] L, all at once; those of a block before are factored again, nothing is allocated for them.
+ *
+ *  factors  [in,out]  count of them, each NULL or of an earlier call with this h; release with sl_factor_free.
+ *  threads  [in]      how many; 0: the calling thread alone.
+ */
+void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,
+                         const sl_threads *threads);
 
 void heat_system_free(heat_system *h);
 

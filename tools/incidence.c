@@ -67,3 +67,20 @@ sl_int incidence_edge(const incidence *a, sl_int u, sl_int v, sl_int *faces, sl_
     }
     return found;
 }
+
+bool incidence_are_distinct(incidence *around, const sl_int *vertices, sl_int count) {
+    sl_int marked = 0;
+    bool ok = count >= 0;
+    for (; ok && marked < count; marked++) {
+        sl_int v = vertices[marked];
+        if (v < 0 || v >= around->m->n_vertices || around->place[v] >= 0) {
+            ok = false;
+            break;
+        }
+        around->place[v] = marked;
+    }
+    for (sl_int k = 0; k < marked; k++) {
+        around->place[vertices[k]] = -1;
+    }
+    return ok;
+}

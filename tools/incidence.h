@@ -35,4 +35,10 @@ void incidence_free(incidence *a);
  */
 sl_int incidence_edge(const incidence *a, sl_int u, sl_int v, sl_int *faces, sl_int most);
 
+/** Is every vertex of a list in range, and there once? The scratch is given back as it was.
+ *
+ *  vertices  [in]  count numbers; a count below 0 is no list.
+ */
+bool incidence_are_distinct(incidence *around, const sl_int *vertices, sl_int count);
+
 #endif

@@ -90,7 +90,7 @@ static void factor_mesh(layout_job *j) {
     sl_stats stats;
     memset(&opt, 0, sizeof opt);
     opt.definiteness = SL_SEMIDEFINITE; /* L is singular: constants */
-    opt.consistency_tolerance = -1;     /* what is solved last are residuals, all rounding */
+    opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
     if (!laplacian_cotangent(&j->L, &j->m)) {
         app_die("out of memory");
     }
@@ -107,7 +107,12 @@ static void factor_mesh(layout_job *j) {
 static void plan_patch(layout_job *j) {
     double began = app_now();
     app_must(patch_solver_create(&j->s, j->S, j->F, &j->d.p), "plan of the patch", NULL);
-    j->seconds_plan = app_now() - began;
+    double planned = app_now();
+    j->seconds_plan = planned - began;
+    if (j->region) {
+        app_must(patch_solver_confine(&j->s, j->S), "region of the patch", NULL);
+        j->seconds_region = app_now() - planned;
+    }
 }
 
 void layout_job_regrow(layout_job *j, sl_int size) {
@@ -143,6 +148,10 @@ void layout_job_open(layout_job *j, const char *operand) {
            (double)j->s.stats.x_entries, (double)all.nnz_panels,
            all.nnz_panels > 0 ? 1e2 * (double)j->s.stats.x_entries / (double)all.nnz_panels : 0,
            1e3 * j->seconds_plan);
+    if (j->region) {
+        app_print_region("region", &j->s.stats, j->seconds_region);
+    }
+    app_print_reads("solve", &j->s.stats);
 }
 
 double *layout_job_boundary(const layout_job *j) {

@@ -21,6 +21,7 @@ typedef struct layout_job {
     const char *layout;    /* --layout */
     const char *close;     /* --close */
     sl_int checks;         /* --checks */
+    bool region;           /* --region */
     app_output picture;    /* --png and how */
     char view[LOOK_TEXT];  /* where the patch is seen from the front */
     /* what is made of them */
@@ -33,10 +34,16 @@ typedef struct layout_job {
     patch_solver s;
     double seconds_factor; /* analysis and factor of the whole mesh, once */
     double seconds_plan;   /* the patch, once its vertices are known: plans, its own Laplacian */
+    double seconds_region; /* the region and the plans in it, where one was asked for */
 } layout_job;
 
 /** How many vertices a patch has where --patch does not say. */
 enum { LAYOUT_JOB_SIZE = 2000 };
+
+#define LAYOUT_JOB_REGION_HELP                                                                     \
+    "end the local solves at the boundary of a region made around the patch: a solve then costs "  \
+    "the same however large the mesh. Making it takes as long as 25 to 100 solves without, so it " \
+    "is not the default: a layout needs one solve, the patch's own problem or arap some 20"
 
 #define LAYOUT_JOB_OPTIONS(j)                                                                      \
     {OPTION_COUNT, "center", &(j)->vertex, "V",                                                    \
@@ -49,6 +56,7 @@ enum { LAYOUT_JOB_SIZE = 2000 };
          "no disk"},                                                                               \
         {OPTION_TEXT, "list-file", &(j)->list_file, "FILE",                                        \
          "the same from a file: numbers, # begins a comment"},                                     \
+        {OPTION_FLAG, "region", &(j)->region, NULL, LAYOUT_JOB_REGION_HELP},                       \
         {OPTION_TEXT, "boundary", &(j)->boundary, "circle|unrolled",                               \
          "where the boundary is laid first: on a circle by arc length, or unrolled with its own "  \
          "lengths and angles as far as the curvature inside allows (circle)"},                     \

@@ -11,9 +11,38 @@ void patch_solver_free(patch_solver *s) {
     sl_matrix_free(s->N);
     sl_plan_free(s->whole);
     sl_plan_free(s->from_rim);
+    sl_region_free(s->region);
     sl_work_free(s->work);
     free(s->scratch);
     memset(s, 0, sizeof *s);
+}
+
+/* Both plans, in a region or, without one, to the roots; on error *whole and *from_rim are NULL. */
+static sl_status make_plans(sl_plan **whole, sl_plan **from_rim, const part *p,
+                            const sl_symbolic *S, const sl_region *region, sl_stats *stats) {
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.region = region;
+    *whole = *from_rim = NULL;
+    sl_int *rim = (sl_int *)malloc(((size_t)p->n_rim + 1) * sizeof *rim);
+    sl_status status = rim != NULL ? SL_OK : SL_ERR_MEMORY;
+    for (sl_int k = 0; k < p->n_rim && rim != NULL; k++) {
+        rim[k] = p->vertices[p->rim[k]];
+    }
+    if (status == SL_OK) {
+        status = sl_plan_create(whole, S, p->vertices, p->m.n_vertices, p->vertices,
+                                p->m.n_vertices, &opt, stats);
+    }
+    if (status == SL_OK && p->n_rim > 0) {
+        status =
+            sl_plan_create(from_rim, S, rim, p->n_rim, p->vertices, p->m.n_vertices, &opt, NULL);
+    }
+    if (status != SL_OK) {
+        sl_plan_free(*whole);
+        *whole = NULL;
+    }
+    free(rim);
+    return status;
 }
 
 sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_factor *F,
@@ -22,28 +51,43 @@ sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_
     out->F = F;
     out->p = p;
     size_t n = (size_t)p->m.n_vertices;
-    sl_int *rim = (sl_int *)malloc(((size_t)p->n_rim + 1) * sizeof *rim);
     out->scratch = (double *)malloc((4 * n * PATCH_SOLVER_MOST + 1) * sizeof *out->scratch);
     sl_status status = SL_ERR_MEMORY;
-    if (rim != NULL && out->scratch != NULL && laplacian_cotangent(&out->N, &p->m)) {
-        for (sl_int k = 0; k < p->n_rim; k++) {
-            rim[k] = p->vertices[p->rim[k]];
-        }
+    if (out->scratch != NULL && laplacian_cotangent(&out->N, &p->m)) {
         status = sl_work_create(&out->work, NULL);
     }
     if (status == SL_OK) {
-        status = sl_plan_create(&out->whole, S, p->vertices, p->m.n_vertices, p->vertices,
-                                p->m.n_vertices, NULL, &out->stats);
+        status = make_plans(&out->whole, &out->from_rim, p, S, NULL, &out->stats);
     }
-    if (status == SL_OK && p->n_rim > 0) {
-        status = sl_plan_create(&out->from_rim, S, rim, p->n_rim, p->vertices, p->m.n_vertices,
-                                NULL, NULL);
-    }
-    free(rim);
     if (status != SL_OK) {
         patch_solver_free(out);
     }
     return status;
+}
+
+sl_status patch_solver_confine(patch_solver *s, const sl_symbolic *S) {
+    sl_region *region = NULL;
+    sl_plan *whole = NULL, *from_rim = NULL;
+    sl_stats stats = s->stats;
+    if (s->region != NULL) {
+        return SL_OK;
+    }
+    sl_status status =
+        sl_region_create(&region, s->F, s->p->vertices, s->p->m.n_vertices, NULL, NULL, &stats);
+    if (status == SL_OK) {
+        status = make_plans(&whole, &from_rim, s->p, S, region, &stats);
+    }
+    if (status != SL_OK) {
+        sl_region_free(region);
+        return status;
+    }
+    sl_plan_free(s->whole);
+    sl_plan_free(s->from_rim);
+    s->whole = whole;
+    s->from_rim = from_rim;
+    s->region = region;
+    s->stats = stats;
+    return SL_OK;
 }
 
 sl_status patch_solver_mesh(patch_solver *s, double *X, const double *B, sl_int nrhs) {

@@ -14,6 +14,10 @@
  *          a residual on the rim alone, about half of it each time. Conjugate gradients do the rest: some ten local
  *          solves, b on the rim and x on the part, give N's solution to 10 digits.
  *
+ * The path of the elimination tree from a part to the root grows with the mesh, and each solve reads it. A region of the
+ * factor (patch_solver_confine) cuts it off: what a solve then costs depends on the part alone. Making it takes forward
+ * sweeps to the root, one for every 8 rows of the region's boundary, so that it pays for parts that are asked often.
+ *
  * Both are singular, by a constant for each connected component (for N: of the part); x is right up to such constants.
  * Columns of b must sum to 0 over each component.
  */
@@ -25,19 +29,24 @@ typedef struct patch_solver {
     sl_matrix *N;       /* lower triangle */
     sl_plan *whole;     /* b and x on the part */
     sl_plan *from_rim;  /* b on the rim, x on the part; NULL where there is no rim */
+    sl_region *region;  /* where the plans' sweeps end; NULL: at the roots */
     sl_work *work;
-    sl_stats stats; /* the plan group: what a solve by `whole` reads */
+    sl_stats
+        stats; /* the plan group: what a solve by `whole` reads; once confined, the region group */
     double *scratch;
 } patch_solver;
 
 enum { PATCH_SOLVER_MOST = 4 }; /* right-hand sides at once */
 
+/* options.consistency_tolerance of the mesh's factor: nothing is refused. Near their end the corrections of a part's own
+ * problem have right-hand sides that are rounding, as large in their sum as in themselves. */
+#define PATCH_SOLVER_CONSISTENCY (-1.0)
+
 /** Makes it.
  *
  *  out  [out]  release with patch_solver_free; all zero on error.
  *  S    [in]   analysis of the mesh's Laplacian; borrowed.
- *  F    [in]   its factor, made with SL_SEMIDEFINITE and consistency_tolerance < 0, as residuals of the part's problem are
- *               solved for that are all rounding; borrowed.
+ *  F    [in]   its factor, made with SL_SEMIDEFINITE and PATCH_SOLVER_CONSISTENCY; borrowed.
  *  p    [in]   borrowed.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: the part has vertices that S has not, or one twice; SL_ERR_MEMORY.
  *  Cost     nothing that depends on the size of the mesh, but for the depth of its elimination tree.
@@ -46,6 +55,17 @@ sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_
                               const part *p);
 
 void patch_solver_free(patch_solver *s);
+
+/** Has all further solves end at the boundary of a region around the part: the same answers to rounding, not to the bit,
+ *  at a cost that does not grow with the mesh around it.
+ *
+ *  s  [in,out]  on error as before; a second time, nothing is made.
+ *  S  [in]      the analysis that s was made for.
+ *  Returns  SL_OK; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     sl_region_create for the part's vertices, and both plans again.
+ *  Example  tests/test_tools_regions.c
+ */
+sl_status patch_solver_confine(patch_solver *s, const sl_symbolic *S);
 
 /** Solves the mesh's problem, by one local solve.
  *

@@ -1,0 +1,241 @@
+/* heat_place.c: the surroundings of some vertices, made ready for distances by the heat method again and again */
+#include "heat_place.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "flat_face.h"
+#include "laplacian.h"
+
+void heat_place_free(heat_place *h) {
+    sl_region_free(h->heat_region);
+    patch_solver_free(&h->poisson);
+    part_free(&h->p);
+    ball_free(&h->b);
+    free(h->sources);
+    memset(h, 0, sizeof *h);
+}
+
+/* Regions of both factors around the ball. */
+static sl_status confine(heat_place *h) {
+    sl_stats stats = h->poisson.stats;
+    sl_status status = patch_solver_confine(&h->poisson, h->s->S);
+    if (status == SL_OK) {
+        status = sl_region_create(&h->heat_region, h->s->heat, h->b.vertices, h->b.n, NULL, NULL,
+                                  &stats);
+    }
+    return status;
+}
+
+sl_status heat_place_create(heat_place *out, heat_solver *s, const sl_int *sources, sl_int count,
+                            double radius, bool in_region) {
+    memset(out, 0, sizeof *out);
+    if (count < 1 || !(radius >= 0) || !incidence_are_distinct(&s->around, sources, count)) {
+        return SL_ERR_ARGUMENT;
+    }
+    out->s = s;
+    out->n_sources = count;
+    out->sources = (sl_int *)malloc(((size_t)count + 1) * sizeof *out->sources);
+    sl_status status = SL_ERR_MEMORY;
+    if (out->sources != NULL && ball_find(&out->b, &s->around, sources, count, radius) &&
+        part_span(&out->p, &s->around, out->b.vertices, out->b.n, NULL, 0)) {
+        memcpy(out->sources, sources, (size_t)count * sizeof *sources);
+        status = patch_solver_create(&out->poisson, s->S, s->poisson, &out->p);
+    }
+    if (status == SL_OK && in_region) {
+        status = confine(out);
+    }
+    if (status != SL_OK) {
+        heat_place_free(out);
+    }
+    return status;
+}
+
+void heat_field_free(heat_field *f) {
+    free(f->vertices);
+    free(f->distance);
+    free(f->heat);
+    free(f->path);
+    memset(f, 0, sizeof *f);
+}
+
+/* B = div X: at vertex i of a face with X, weights w and corners x_j, x_k: w_k (x_i - x_j) X + w_j (x_i - x_k) X.
+ * Returns the faces without X. */
+static sl_int divergence(double *B, const mesh *m, const double *u) {
+    sl_int cold = 0;
+    memset(B, 0, (size_t)m->n_vertices * sizeof *B);
+    for (sl_int f = 0; f < m->n_faces; f++) {
+        const sl_int *face = m->faces + 3 * (size_t)f;
+        flat_face flat = flat_face_of(m, face);
+        laplacian_face measure = laplacian_of_face(m, face);
+        double largest = 0, X[2] = {0, 0};
+        for (int k = 0; k < 3; k++) {
+            largest = fmax(largest, fabs(u[face[k]]));
+        }
+        if (largest > HEAT_COLD && flat.x[1][0] > 0 && flat.x[2][1] > 0) {
+            double along = (u[face[1]] - u[face[0]]) / largest / flat.x[1][0];
+            double up = (u[face[2]] - u[face[0]]) / largest - along * flat.x[2][0];
+            up /= flat.x[2][1];
+            double length = hypot(along, up);
+            if (length > 0 && isfinite(length)) {
+                X[0] = -along / length;
+                X[1] = -up / length;
+            }
+        }
+        cold += X[0] == 0 && X[1] == 0;
+        for (int k = 0; k < 3; k++) { /* the edge opposite to corner k, from i to j */
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+            double flow = measure.weight[k] * ((flat.x[i][0] - flat.x[j][0]) * X[0] +
+                                               (flat.x[i][1] - flat.x[j][1]) * X[1]);
+            B[face[i]] += flow;
+            B[face[j]] -= flow;
+        }
+    }
+    return cold;
+}
+
+static sl_int root_of(sl_int *up, sl_int v) {
+    while (up[v] != v) {
+        up[v] = up[up[v]];
+        v = up[v];
+    }
+    return v;
+}
+
+/* Shifts the distances of each connected piece so that the smallest of its sources is 0, and marks what no face joins
+ * to a source by NaN. sources: by their numbers in the part. up, low: scratch of n. */
+static void shift_pieces(double *d, const mesh *m, const sl_int *sources, sl_int n_sources,
+                         sl_int *up, double *low) {
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        up[v] = v;
+        low[v] = INFINITY;
+    }
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        sl_int a = root_of(up, m->faces[k]);
+        sl_int b = root_of(up, m->faces[k / 3 * 3 + (k + 1) % 3]);
+        up[a] = b;
+    }
+    for (sl_int k = 0; k < n_sources; k++) {
+        sl_int root = root_of(up, sources[k]);
+        low[root] = fmin(low[root], d[sources[k]]);
+    }
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        double zero = low[root_of(up, v)];
+        d[v] = isfinite(zero) ? fmax(0, d[v] - zero) : NAN;
+    }
+}
+
+/* Numbers in the part of some vertices; false: one is not there, or twice. */
+static bool find_places(sl_int *places, const heat_place *h, const sl_int *sources, sl_int count) {
+    sl_int *place = h->s->around.place;
+    bool found = true;
+    for (sl_int k = 0; k < h->b.n; k++) {
+        place[h->b.vertices[k]] = k;
+    }
+    for (sl_int k = 0; k < count && found; k++) {
+        found = sources[k] >= 0 && sources[k] < h->s->m->n_vertices && place[sources[k]] >= 0;
+        if (found) {
+            places[k] = place[sources[k]];
+            place[sources[k]] = -1;
+        }
+    }
+    for (sl_int k = 0; k < h->b.n; k++) {
+        place[h->b.vertices[k]] = -1;
+    }
+    return found;
+}
+
+/* u on the ball from 1 at each source. */
+static sl_status solve_heat(heat_field *out, const heat_place *h, const sl_int *sources,
+                            sl_int count, double *u, double *ones) {
+    sl_plan *plan = NULL;
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.region = h->heat_region;
+    for (sl_int k = 0; k < count; k++) {
+        ones[k] = 1;
+    }
+    sl_status status = sl_plan_create(&plan, h->s->S, sources, count, h->b.vertices, h->b.n, &opt,
+                                      &out->heat_stats);
+    if (status == SL_OK) {
+        status =
+            sl_plan_solve(plan, h->s->heat, u, (size_t)h->b.n, ones, (size_t)count, 1, h->s->work);
+    }
+    sl_plan_free(plan);
+    return status;
+}
+
+/* Heat and distances on all of the ball. */
+static sl_status solve(heat_field *out, heat_place *h, const sl_int *sources, sl_int count,
+                       int solves) {
+    size_t n = (size_t)h->b.n;
+    sl_int *up = (sl_int *)malloc((n + 1) * sizeof *up);
+    sl_int *places = (sl_int *)malloc(((size_t)count + 1) * sizeof *places);
+    double *B = (double *)malloc((n + (size_t)count + 1) * sizeof *B);
+    sl_status status = up != NULL && places != NULL && B != NULL ? SL_OK : SL_ERR_MEMORY;
+    if (status == SL_OK && !find_places(places, h, sources, count)) {
+        status = SL_ERR_ARGUMENT;
+    }
+    if (status == SL_OK) {
+        status = solve_heat(out, h, sources, count, out->heat, B);
+    }
+    if (status == SL_OK) {
+        out->cold = divergence(B, &h->p.m, out->heat);
+        out->solves = solves;
+        out->poisson_stats = h->poisson.stats;
+        status = patch_solver_part(&h->poisson, out->distance, B, 1, 1e-10, &out->solves);
+    }
+    if (status == SL_OK) {
+        shift_pieces(out->distance, &h->p.m, places, count, up, B);
+    }
+    free(B);
+    free(places);
+    free(up);
+    return status;
+}
+
+static sl_status allocate(heat_field *out, size_t n) {
+    out->vertices = (sl_int *)malloc((n + 1) * sizeof *out->vertices);
+    out->distance = (double *)malloc((n + 1) * sizeof *out->distance);
+    out->heat = (double *)malloc((n + 1) * sizeof *out->heat);
+    out->path = (double *)malloc((n + 1) * sizeof *out->path);
+    return out->vertices != NULL && out->distance != NULL && out->heat != NULL && out->path != NULL
+               ? SL_OK
+               : SL_ERR_MEMORY;
+}
+
+/* Leaves what has a distance within the radius. */
+static void keep_near(heat_field *out, const heat_place *h, double radius, bool with_paths) {
+    for (sl_int k = 0; k < h->b.n; k++) {
+        double d = out->distance[k];
+        out->negative += out->heat[k] < 0;
+        if (!isnan(d) && (radius == 0 || d <= radius)) {
+            out->vertices[out->n] = h->b.vertices[k];
+            out->heat[out->n] = out->heat[k];
+            out->path[out->n] = with_paths ? h->b.along_edges[k] : INFINITY;
+            out->distance[out->n++] = d;
+        }
+    }
+}
+
+sl_status heat_place_distance(heat_field *out, heat_place *h, const sl_int *sources, sl_int count,
+                              double radius, int solves) {
+    memset(out, 0, sizeof *out);
+    if (count < 1 || count > h->b.n || !(radius >= 0) || solves < 1) {
+        return SL_ERR_ARGUMENT;
+    }
+    sl_status status = allocate(out, (size_t)h->b.n);
+    if (status == SL_OK) {
+        status = solve(out, h, sources, count, solves);
+    }
+    if (status != SL_OK) {
+        heat_field_free(out);
+        return status;
+    }
+    out->n_ball = h->b.n;
+    keep_near(out, h, radius,
+              count == h->n_sources &&
+                  memcmp(sources, h->sources, (size_t)count * sizeof *sources) == 0);
+    return SL_OK;
+}
