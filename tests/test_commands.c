@@ -357,7 +357,6 @@ static void separators_separate(void **state) {
     sl_symbolic *S = NULL;
     sl_options opt = options_none();
     opt.relaxation = SL_RELAXATION_NONE;
-    opt.ordering = SL_ORDERING_METIS;
     assert_true(surface_make(&m, "sphere:4", NULL, 0));
     assert_true(laplacian_cotangent(&L, &m));
     sl_csc A = sl_matrix_view(L);

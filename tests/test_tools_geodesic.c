@@ -275,7 +275,8 @@ static void obtuse_faces_need_time(void **state) {
     heat_field f;
     sl_int source = 100;
     mesh m, same;
-    assert_true(surface_make(&m, "star:5", NULL, 0) && surface_make(&same, "star:5", NULL, 0));
+    assert_true(surface_make(&m, "star:5", NULL, 0));
+    assert_true(surface_make(&same, "star:5", NULL, 0));
     subject_make(&y, m, 1);
     subject_make(&z, same, 32);
     SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));

@@ -1,4 +1,4 @@
-/* dissection.h: the separators of a nested dissection, found again in the elimination tree */
+/* dissection.h: the separators of a nested dissection by level */
 #ifndef TOOLS_DISSECTION_H
 #define TOOLS_DISSECTION_H
 
@@ -8,15 +8,10 @@
 
 /** The level of the separator that each column belongs to.
  *
- *  A separator is ordered behind the parts that it separates: in the elimination tree a chain of columns from the root of
- *  a region down to the column where the region falls into parts. A column with two children or more, the second of them
- *  with at least a tenth of the region below it, is taken for such an end; children of a tenth or more are the regions
- *  of the next level.
- *
  *  level  [out]  n, by pivots: 0 for the separators of the whole, one more for each level below; -1: in no separator.
- *  view   [in]   of an analysis.
+ *  view   [in]   of an analysis; an ordering that keeps no tree of separators has none.
  *  most   [in]   levels to look for, 1 or more.
- *  Returns  how many levels were found (0 where n = 0); -1: out of memory.
+ *  Returns  how many levels were found; -1: out of memory.
  *  Cost     O(n).
  *  Source   [HDA17] 2.
  */
