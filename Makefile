@@ -52,6 +52,8 @@ object = $(addprefix $(B)/obj/,$(addsuffix .o,$(1)))
 IMPL = $(B)/obj/sparse_local.o
 LIBRARY = $(B)/libtools.a
 TEST_PROGRAMS = $(TESTS:tests/%.c=$(B)/tests/%)
+# Without those of tools/: what a variant of the header itself is tested by.
+HEADER_TESTS = $(filter-out $(addprefix tests/test_,tools_% mesh% render% plot% surface% commands%),$(TESTS))
 REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
 
 .DELETE_ON_ERROR:
@@ -208,17 +210,17 @@ test: deps deps-png ## builds and runs every test on the generated header; ends 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
 
-test-cxx: deps deps-cxx sparse_local.h ## the tests, over bodies compiled as C++11
-	@$(MAKE) --no-print-directory run-tests B=build/cxx LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
+test-cxx: deps deps-cxx sparse_local.h ## the header's tests, over bodies compiled as C++11
+	@$(MAKE) --no-print-directory run-tests B=build/cxx TEST_PROGRAMS='$(HEADER_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
 
-test-no-metis: deps sparse_local.h ## the tests, built with -DSL_NO_METIS and not linked with METIS
-	@$(MAKE) --no-print-directory run-tests B=build/no_metis CFLAGS='-DSL_NO_METIS $(CFLAGS)' LIBS='-lz -lm'
+test-no-metis: deps sparse_local.h ## the header's tests, built with -DSL_NO_METIS and not linked with METIS
+	@$(MAKE) --no-print-directory run-tests B=build/no_metis TEST_PROGRAMS='$(HEADER_TESTS:tests/%.c=build/no_metis/tests/%)' CFLAGS='-DSL_NO_METIS $(CFLAGS)' LIBS='-lz -lm'
 
-test-aarch64: deps deps-aarch64 sparse_local.h ## the tests for ARM with NEON, emulated and so without DATA
+test-aarch64: deps deps-aarch64 sparse_local.h ## the header's tests for ARM with NEON, emulated and so without DATA
 	@mkdir -p build/aarch64/include
 	@for h in metis cmocka cmocka_pbc cmocka_version zlib zconf; do \
 	if [ -e /usr/include/$$h.h ]; then cp -p /usr/include/$$h.h build/aarch64/include; fi; done
-	@$(MAKE) --no-print-directory run-tests B=build/aarch64 SL_DATA= CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
+	@$(MAKE) --no-print-directory run-tests B=build/aarch64 TEST_PROGRAMS='$(HEADER_TESTS:tests/%.c=build/aarch64/tests/%)' SL_DATA= CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
 	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
 	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
 
