@@ -327,7 +327,7 @@ int command_geodesic(int argc, char **argv) {
          "compare with straight distances, or with those on the sphere that the mesh is"},
         {OPTION_FLAG, "region", &q.region, NULL,
          "make regions of both factors around the ball and solve in them: distances then cost the "
-         "same however large the mesh. Making them takes as long as 15 to 50 distances without, so "
+         "same however large the mesh. Making them takes as long as 15 to 70 distances without, so "
          "it is not the default"},
         {OPTION_FLAG, "voronoi", &voronoi, NULL, "the nearest site instead of the distance"},
         APP_OUTPUT_OPTIONS(&q.output),

@@ -76,6 +76,14 @@ sl_status heat_solver_set_time(heat_solver *s, double t) {
     return status;
 }
 
+void heat_field_free(heat_field *f) {
+    free(f->vertices);
+    free(f->distance);
+    free(f->heat);
+    free(f->path);
+    memset(f, 0, sizeof *f);
+}
+
 double heat_reach_width(const heat_reach *r) {
     return r->radius > 0 ? r->radius * (r->margin > 0 ? r->margin : HEAT_MARGIN) : INFINITY;
 }

@@ -19,11 +19,10 @@ void heat_place_free(heat_place *h) {
 
 /* Regions of both factors around the ball. */
 static sl_status confine(heat_place *h) {
-    sl_stats stats = h->poisson.stats;
     sl_status status = patch_solver_confine(&h->poisson, h->s->S);
     if (status == SL_OK) {
-        status = sl_region_create(&h->heat_region, h->s->heat, h->b.vertices, h->b.n, NULL, NULL,
-                                  &stats);
+        status =
+            sl_region_create(&h->heat_region, h->s->heat, h->b.vertices, h->b.n, NULL, NULL, NULL);
     }
     return status;
 }
@@ -50,14 +49,6 @@ sl_status heat_place_create(heat_place *out, heat_solver *s, const sl_int *sourc
         heat_place_free(out);
     }
     return status;
-}
-
-void heat_field_free(heat_field *f) {
-    free(f->vertices);
-    free(f->distance);
-    free(f->heat);
-    free(f->path);
-    memset(f, 0, sizeof *f);
 }
 
 /* B = div X: at vertex i of a face with X, weights w and corners x_j, x_k: w_k (x_i - x_j) X + w_j (x_i - x_k) X.

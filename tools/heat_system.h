@@ -11,9 +11,8 @@
  */
 typedef struct heat_system {
     sl_int n;
-    double t; /* of F */
-    double *
-        terms[2]; /* M and L in the order of the analysis: M + t L is read from these for every t */
+    double t;         /* of F */
+    double *terms[2]; /* M and L in the order of the analysis: what every M + t L is read from */
     sl_symbolic *S;
     sl_factor *F;            /* NULL: only analysed so far */
     sl_stats stats;          /* of analysis and factorization */
@@ -26,10 +25,12 @@ void heat_system_analyse(heat_system *h, const mesh *m);
 /** heat_system_analyse, and h->F of M + t L. */
 void heat_system_create(heat_system *h, const mesh *m, double t);
 
-/** Factors of M + t[k] L, all at once; those of a block before are factored again, nothing is allocated for them.
+/** Factors of M + t[k] L, all by one call; dies with a reason where that fails.
  *
- *  factors  [in,out]  count of them, each NULL or of an earlier call with this h; release with sl_factor_free.
- *  threads  [in]      how many; 0: the calling thread alone.
+ *  factors  [in,out]  count of them: all NULL, or all of an earlier call with this h, which are then factored again in
+ *                     their own memory. Release with sl_factor_free.
+ *  t        [in]      count times.
+ *  threads  [in]      how many and whose, as in sl_batch_factor.
  */
 void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,
                          const sl_threads *threads);
