@@ -87,6 +87,12 @@ gives 0 'in the region, and to the roots' param grid:60x60 --patch 200 --center 
 gives 0 '; [1-9][0-9]* of the region.s inverse$' geodesic grid:60x60 --from 1830 --radius 0.1 --region
 gives 0 '; [1-9][0-9]* of the region.s inverse$' arap grid:60x60 --patch 200 --center 1830 --region
 gives 2 'for distances within --radius' geodesic sphere:2 --region
+gives 0 'from 2 sources by themselves' geodesic grid:60x60 --from 1830,1835 --radius 0.1 --each --region \
+    --csv "$dir/e.csv"
+awk -F, '$1 == 1830 && $2 == 1835 { a = $3 } $1 == 1835 && $2 == 1830 { b = $3 }
+    END { exit !(a > 0.07 && a < 0.1 && b > 0.07 && b < 0.1 && a - b < 0.005 && b - a < 0.005) }' "$dir/e.csv"
+tell $? "geodesic --each: from one to the other as far as back, about 5 edges of 1/59"
+gives 2 '--each: writes --csv alone' geodesic sphere:2 --each --png "$dir/each.png"
 gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
 "$program" hks sphere:2 --times 3 --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" && cmp -s "$dir/h1.csv" "$dir/h2.csv"
 tell $? "hks gives the same numbers by one factor at a time and by two"

@@ -27,6 +27,9 @@ static const char text[] =
     "time the nearest one, but for a margin where two are almost as near.";
 
 enum { FIRST_TIME = 4, LAST_TIME = 256 }; /* squared mean edges */
+enum {
+    REGION_PAYS = 70
+}; /* distances; where a region saves nothing, it is made without a boundary, in no time */
 
 typedef struct job {
     mesh m;
@@ -37,6 +40,7 @@ typedef struct job {
     char view[LOOK_TEXT]; /* where the first source is seen from the front */
     heat_reach reach;
     bool region; /* --region */
+    bool each;   /* --each */
 } job;
 
 static render_mark *marks_of(const job *q) {
@@ -161,6 +165,44 @@ static void distances(job *q) {
     }
     write_distances(q, &f);
     heat_field_free(&f);
+}
+
+/* Distances from each source by itself, all in one place. */
+static void distances_of_each(job *q) {
+    heat_place place;
+    FILE *csv = q->output.csv != NULL ? app_create(q->output.csv) : NULL;
+    double seconds = 0;
+    sl_off found = 0;
+    open_place(q, &place);
+    if (csv != NULL) {
+        fprintf(csv, "source,vertex,distance\n");
+    }
+    for (sl_int i = 0; i < q->n_sources; i++) {
+        heat_field f;
+        double began = app_now();
+        app_must(
+            heat_place_distance(&f, &place, q->sources + i, 1, q->reach.radius, q->reach.solves),
+            "distances", NULL);
+        seconds += app_now() - began;
+        found += f.n;
+        if (i == 0) {
+            app_print_reads("heat", &f.heat_stats);
+            app_print_reads("distance", &f.poisson_stats);
+        }
+        for (sl_int k = 0; k < f.n && csv != NULL; k++) {
+            fprintf(csv, "%d,%d,%.17g\n", (int)q->sources[i], (int)f.vertices[k], f.distance[k]);
+        }
+        heat_field_free(&f);
+        app_progress("sources", (double)(i + 1) / (double)q->n_sources);
+    }
+    app_progress_end();
+    heat_place_free(&place);
+    printf("distances  %lld, from %d sources by themselves, in %.3f ms: %.3f ms each\n",
+           (long long)found, (int)q->n_sources, 1e3 * seconds,
+           1e3 * seconds / (double)q->n_sources);
+    if (csv != NULL) {
+        app_close(csv, q->output.csv);
+    }
 }
 
 /* Colours that stand apart, by the golden section of the circle of hues. */
@@ -327,8 +369,11 @@ int command_geodesic(int argc, char **argv) {
          "compare with straight distances, or with those on the sphere that the mesh is"},
         {OPTION_FLAG, "region", &q.region, NULL,
          "make regions of both factors around the ball and solve in them: distances then cost the "
-         "same however large the mesh. Making them takes as long as 15 to 70 distances without, so "
-         "it is not the default"},
+         "same however large the mesh. Making them takes as long as 15 to 70 distances without: it "
+         "is the default with --each from 70 sources on"},
+        {OPTION_FLAG, "each", &q.each, NULL,
+         "the distances from each source by itself, not from the nearest, in one ball around all "
+         "of them: one set of plans; --csv writes source, vertex, distance"},
         {OPTION_FLAG, "voronoi", &voronoi, NULL, "the nearest site instead of the distance"},
         APP_OUTPUT_OPTIONS(&q.output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
@@ -340,6 +385,9 @@ int command_geodesic(int argc, char **argv) {
     if (q.region && (radius == 0 || voronoi)) {
         app_die_usage("--region: for distances within --radius");
     }
+    if (q.each && (voronoi || q.exact != NULL || q.output.out != NULL || q.output.png != NULL)) {
+        app_die_usage("--each: writes --csv alone");
+    }
     if (q.exact != NULL && strcmp(q.exact, "plane") != 0 && strcmp(q.exact, "sphere") != 0) {
         app_die_usage("--exact %s: not plane or sphere", q.exact);
     }
@@ -350,8 +398,11 @@ int command_geodesic(int argc, char **argv) {
     q.reach.margin = margin;
     q.reach.solves = cut ? 1 : (int)solves;
     open_job(&q, operand, from, time, scaled);
+    q.region = q.region || (q.each && radius > 0 && q.n_sources >= REGION_PAYS);
     if (voronoi) {
         cells(&q);
+    } else if (q.each) {
+        distances_of_each(&q);
     } else {
         distances(&q);
     }

@@ -151,7 +151,7 @@ void layout_job_open(layout_job *j, const char *operand) {
     if (j->region) {
         app_print_region("region", &j->s.stats, j->seconds_region);
     }
-    app_print_reads("solve", &j->s.stats);
+    app_print_reads("reads", &j->s.stats);
 }
 
 double *layout_job_boundary(const layout_job *j) {
