@@ -69,7 +69,7 @@ static int usage(FILE *out) {
     fprintf(out,
             "Environment:\n"
             "  BENCH=quick|full  up to 1e5 vertices in some seconds, or up to 4e6; otherwise "
-            "1e6, two minutes\n"
+            "1e6, four minutes\n"
             "  MESH=path         ask on that mesh (.obj .off .ply .stl, plain or .gz) and not on "
             "synthetic grids\n"
             "  BENCH_OUT=folder  CSV files and plots go there; otherwise build/bench-out\n"
@@ -113,7 +113,7 @@ static int set_up(bench_run *run) {
         fprintf(stderr, "bench: BENCH=%s is neither quick nor full\n", size);
         return 0;
     }
-    run->seconds = run->size == BENCH_QUICK ? 0.05 : run->size == BENCH_DEFAULT ? 0.5 : 2;
+    run->seconds = run->size == BENCH_QUICK ? 0.05 : run->size == BENCH_DEFAULT ? 0.2 : 2;
     run->mesh_path = mesh_path && mesh_path[0] ? mesh_path : NULL;
     run->out_dir = folder && folder[0] ? folder : "build/bench-out";
     if (run->mesh_path && !bench_mesh(run->mesh_path)) {
