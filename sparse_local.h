@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of all that follows this comment, license aside: 2db238aa298a56bf
+ * FNV-1a of all that follows this comment, license aside: 90d339e329511a77
  *
  * Contents
  *         (what a user reads)
@@ -85,32 +85,32 @@
  *  17852  impl/leftlooking.h         supernodes factored again by pulling from all their descendants: for changes that reach few of them
  *  17952  impl/nullspace.h           null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights
  *  18294  impl/factor.h              the factor object: the method and the memory, factoring, factoring again, release
- *  18710  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
- *  18844  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
- *  18965  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
- *  19024  impl/work.h                the workspace: one block of a thread's scratch that only grows
- *  19136  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
- *  19455  impl/solve.h               full solves: the query in which everything is known and everything wanted
- *  19497  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
+ *  18712  impl/factor_ask.h          what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside
+ *  18846  impl/region_parts.h        the region object, and what a sweep that ends there needs: the product with the cached inverse
+ *  18967  impl/combination.h         factorizations of weighted sums of value arrays that stand in the order of the analysis
+ *  19026  impl/work.h                the workspace: one block of a thread's scratch that only grows
+ *  19138  impl/sweep.h               one block of right-hand sides through the forward reach, across to the backward reach, and out
+ *  19457  impl/solve.h               full solves: the query in which everything is known and everything wanted
+ *  19499  impl/plan.h                local solves: queries compiled from a b-set and an x-set, kept as a plan or made in the workspace
  *         (L5 on a factor)
- *  19899  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
- *  20163  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
- *  20335  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
- *  20583  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
- *  20787  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
- *  21091  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
- *  21333  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
- *  21510  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
- *  21700  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
- *  21876  impl/batch.h               independent solves spread over workers by the entries of L that they read
- *  22093  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
- *  22291  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
- *  22435  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
- *  22655  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
- *  22755  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
- *  23005  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
+ *  19901  impl/descent.h             the way of the inverse from the roots to the leaves, planned: which fronts, whose, and where they wait
+ *  20165  impl/descent_run.h         the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker
+ *  20337  impl/groups.h              unit vectors taken up to 8 at a time over one reach, as many as pay, and swept forward together
+ *  20585  impl/inverse.h             bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D
+ *  20789  impl/inverse_entries.h     entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else
+ *  21093  impl/inverse_block.h       dense blocks of A^-1: every row and column swept forward, then all sums between two sweeps
+ *  21335  impl/refine.h              iterative refinement of full solutions, column by column, by the backward error of every row
+ *  21509  impl/refine_local.h        local solves with a regularized factor: the residual E x of the rows that were regularized, solved for
+ *  21699  impl/condition.h           the condition number by Hager and Higham's estimate, and what right-hand sides lack to be consistent
+ *  21872  impl/batch.h               independent solves spread over workers by the entries of L that they read
+ *  22089  impl/batch_factor.h        several factorizations over one analysis, whole factors shared out among workers
+ *  22287  impl/batch_inverse.h       diagonals of several inverses over one analysis, whole factors shared out among workers
+ *  22431  impl/selected.h            the selected inverse: the panels that a descent of a list of supernodes leaves
+ *  22651  impl/selected_ask.h        what can be asked of a selected inverse: its diagonal, its entries, a look inside
+ *  22751  impl/region_choose.h       which subtrees a region holds whole: those that leave the least to be read
+ *  23001  impl/region.h              regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse
  *         (last: takes every internal macro away again)
- *  23242  impl/leave.h               takes every internal macro away again
+ *  23238  impl/leave.h               takes every internal macro away again
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18376,6 +18376,11 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
     return sli_fingerprint(A) == S->fingerprint ? SL_OK : SL_ERR_PATTERN;
 }
 
+/* Does F hold a factor, and is A a matrix of the pattern that it was analysed for? */
+static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
+    return F->is_good ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+}
+
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->isa = from->isa;
     to->method = from->method;
@@ -18523,10 +18528,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_factor_check(F->S, A);
+    status = sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }
@@ -21473,10 +21475,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_factor_check(F->S, A);
+    status = sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }
@@ -21794,10 +21793,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     if (F == NULL || rcond == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_factor_check(F->S, A);
+    status = sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }

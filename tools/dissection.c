@@ -1,6 +1,7 @@
 /* dissection.c: the separators of a nested dissection by level, out of the tree that the analysis keeps */
 #include "dissection.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 sl_int dissection_levels(sl_int *level, const sl_symbolic_view_t *view, sl_int most) {

@@ -2,8 +2,6 @@
 #ifndef TOOLS_DISSECTION_H
 #define TOOLS_DISSECTION_H
 
-#include <stdbool.h>
-
 #include "../sparse_local.h"
 
 /** The level of the separator that each column belongs to.

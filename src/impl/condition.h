@@ -99,10 +99,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     if (F == NULL || rcond == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_factor_check(F->S, A);
+    status = sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }

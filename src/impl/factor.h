@@ -92,6 +92,11 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
     return sli_fingerprint(A) == S->fingerprint ? SL_OK : SL_ERR_PATTERN;
 }
 
+/* Does F hold a factor, and is A a matrix of the pattern that it was analysed for? */
+static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
+    return F->is_good ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+}
+
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->isa = from->isa;
     to->method = from->method;
@@ -239,10 +244,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_factor_check(F->S, A);
+    status = sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }

@@ -145,10 +145,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
-        return SL_ERR_STATE;
-    }
-    status = sli_factor_check(F->S, A);
+    status = sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }
