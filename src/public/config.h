@@ -1,25 +1,52 @@
-/* config.h: what a user may set before including the header, the version, and the integer types */
+/* config.h: macros that a user may define before the include, the version, and the integer types */
 #ifndef SL_PUBLIC_CONFIG_H
 #define SL_PUBLIC_CONFIG_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Macros read by this header:
+/* Macros that this header reads:
  *
- *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include: the bodies go there.
- *  SL_STATIC                     everything static: private copy of the library in one source file.
- *  SL_NO_METIS                   build without METIS: all but SL_ORDERING_METIS and _QUALITY.
- *  SL_VERIFY                     re-prove internal invariants at run time (slow; for debugging).
+ *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include, which
+ *                                then compiles the library.
+ *  SL_STATIC                     makes everything static: a private copy in one source file.
+ *  SL_METIS                      adds SL_ORDERING_METIS and SL_ORDERING_METIS_REFINED: needs
+ *                                <metis.h> and -lmetis.
+ *  SL_NO_METIS                   overrides SL_METIS.
+ *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
+ *                                compilation, easiest to debug.
+ *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
+ *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
+ *                                set automatically for WASI.
+ *  SL_API                        linkage of the public functions, for a shared library: for example
+ *                                __declspec(dllexport), or __attribute__((visibility("default"))).
+ *  SL_HEADER                     name of this header, default "sparse_local.h". The implementation
+ *                                includes this header again for each instruction set. If you rename
+ *                                the file: #define SL_HEADER "new_name.h", without its folder.
+ *  SL_VERIFY                     checks internal invariants and unread options at run time: slow,
+ *                                for debugging.
  *
- * The bodies are not to be compiled with -ffast-math or -ffinite-math-only, which take the checks for NaN and infinity
- * away: they refuse that with an #error. Files that only include the declarations may use what they like.
+ * The implementation must not be compiled with -ffast-math or -ffinite-math-only: they remove the
+ * checks for NaN and infinity, so it stops with an #error. Files that only include the declarations
+ * may use these flags.
  */
+#if defined(__wasi__) && !defined(SL_NO_CLOCK)
+#define SL_NO_CLOCK
+#endif
+
+#ifndef SL_HEADER
+#define SL_HEADER "sparse_local.h"
+#endif
+
 #define SL_VERSION_MAJOR 0
 #define SL_VERSION_MINOR 1
 #define SL_VERSION_PATCH 0
+/* the version as one number, to compare: 10203 is 1.2.3 */
+#define SL_VERSION (10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH)
 
-#if defined(SL_STATIC)
+#if defined(SL_API)
+/* defined by the user */
+#elif defined(SL_STATIC)
 #if defined(__GNUC__)
 #define SL_API __attribute__((unused)) static
 #else
@@ -35,10 +62,11 @@
 #define SL_WARN_UNUSED
 #endif
 
-/** Rows, columns and positions in a matrix A: the arrays of Eigen, SciPy and CHOLMOD (int) are used in place. */
+/** Rows, columns and positions in A. The int arrays of Eigen, SciPy and CHOLMOD are used in place.
+ */
 typedef int32_t sl_int;
 
-/** Positions in the factor L, which outgrows 32 bits long before A does. */
+/** Positions in the factor L, which exceed 32 bits long before those in A do. */
 typedef int64_t sl_off;
 
 #endif

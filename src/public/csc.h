@@ -1,21 +1,22 @@
-/* csc.h: matrices the library owns, checks, products, residuals, Matrix Market files */
+/* csc.h: sparse matrices: creation, checks, products, residuals, Matrix Market files */
 #ifndef SL_PUBLIC_CSC_H
 #define SL_PUBLIC_CSC_H
 
-#include "types.h"
+#include "options.h"
+#include "stats.h"
 
-/** Builds a matrix from triplets; entries with the same row and column are summed, rows come out ascending.
+/** Creates a matrix from triplets: equal positions are summed, rows are ascending.
  *
  *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
  *  count  [in]   number of triplets.
  *  i, j   [in]   count row indices in 0..n_rows-1 and column indices in 0..n_cols-1, any order.
  *  x      [in]   count values; NULL: a pattern without values.
  *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error_row, error_column of an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31-1 triplets, or than 2^31-8 rows or
- *           columns; SL_ERR_MEMORY.
+ *  stats  [out]  error.row, error.column: an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE: more than 2^31 - 1 triplets, or more than
+ *           2^31 - 8 rows or columns; SL_ERR_MEMORY.
  *  Cost     O(count + n_rows + n_cols).
- *  Threads  any number on distinct outputs.
+ *  Threads  any number with different outputs.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows,
                                                         sl_int n_cols, sl_off count,
@@ -25,23 +26,28 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 
 /** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
  *
- *  A symmetric file gives the lower triangle (entries above the diagonal are mirrored into it), a general file the
- *  entries as they stand, duplicates summed; a pattern file gives a matrix with x = NULL.
+ *  A symmetric file gives the lower triangle; entries above the diagonal are mirrored into it. A
+ *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
+ *  with x = NULL.
  *
  *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  stats  [out]  error_line; may be NULL.
- *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error_line; SL_ERR_UNSUPPORTED: complex, array,
- *           skew-symmetric or hermitian; SL_ERR_NOT_FINITE is not raised here; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(file size + n_rows + n_cols).
+ *  path   [in]   name of the file.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.line; may be NULL.
+ *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
+ *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array, skew-symmetric
+ *           or hermitian; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
+ *           without an end does not fill it.
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path,
                                                const sl_options *opt, sl_stats *stats);
 
-/** The same from memory: length bytes of text, no terminating zero needed. */
+/** sl_matrix_read from memory: length bytes of text, which need no terminating zero. */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
 
-/** The transpose of a stored matrix (SL_AS_STORED); rows come out ascending, duplicates stay.
+/** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n_rows + n_cols + nnz).
@@ -51,45 +57,52 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_cs
 
 /** The symmetric permutation C = P A P' of a square matrix: C(k, l) = A(perm[k], perm[l]).
  *
- *  A matrix that stores one triangle gives the lower triangle of C; one that stores both gives both.
+ *  If A stores one triangle, C has its lower triangle; if A stores both, so does C.
  *
  *  perm   [in]   n entries, a permutation of 0..n-1.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
                                                   const sl_int *perm, const sl_options *opt);
 
-/** The arrays of an owned matrix; valid as long as M lives. A NULL M gives a 0 x 0 view. */
+/** The arrays of a matrix; valid as long as M. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);
 
-/** Releases a matrix; NULL is fine. */
+/** Releases a matrix; NULL is allowed. */
 SL_API void sl_matrix_free(sl_matrix *M);
 
 /** Checks a view: sizes, positions ascending from 0, indices in range.
  *
- *  stats  [out]  error_column and, for an index out of range, error_row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more rows or
- *           columns than sl_csc allows.
+ *  stats  [out]  error.column and, for an index out of range, error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: A or one of its arrays is NULL; SL_ERR_PATTERN;
+ *           SL_ERR_TOO_LARGE: more rows or columns than sl_csc allows.
  *  Cost     O(n_cols + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_check(const sl_csc *A, sl_stats *stats);
 
-/** Finds which triangle a square matrix stores, and that a matrix storing both has a symmetric pattern.
+/** Determines the triangle of a square matrix that the factorization reads.
+ *
+ *  If A stores both triangles, checks that its pattern is symmetric.
  *
  *  out    [out]  the triangle; on error untouched.
- *  stats  [out]  error_row, error_column of an entry without its mirror image; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.  Cost  O(n + nnz).
+ *  opt    [in]   allocator, triangle; may be NULL.
+ *  stats  [out]  error.row, error.column: an entry without its mirror image; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out,
                                                 const sl_options *opt, sl_stats *stats);
 
 /** Y = A X.
  *
- *  reading  [in]   SL_AS_SYMMETRIC: A square, read as the factorization does; SL_AS_STORED: any shape.
- *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X.
+ *  reading  [in]   SL_AS_SYMMETRIC: A is square, and one triangle defines it, the lower one if both
+ *                  are stored; SL_AS_STORED: any shape.
+ *  Y        [out]  n_rows x nrhs, column-major, leading dimension ldy elements; must not overlap X
+ *                  (Y = X is refused).
  *  X        [in]   n_cols x nrhs, column-major, leading dimension ldx elements.
- *  Returns  SL_OK; SL_ERR_ARGUMENT, an unknown reading too. The pattern is trusted (sl_csc_check).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is not checked (sl_csc_check).
  *  Cost     O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
@@ -98,12 +111,14 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_multiply(const sl_csc *A, sl_reading read
 
 /** R = B - A X for a symmetric A, and the backward error of each column.
  *
- *  R               [out]  n x nrhs, column-major, leading dimension ldr elements; it may be B itself (then
- *                         ldr = ldb) where backward_error is NULL; must not overlap X.
+ *  A               [in]   as SL_AS_SYMMETRIC in sl_csc_multiply.
+ *  R               [out]  n x nrhs, column-major, leading dimension ldr elements. May be B itself
+ *                         (then ldr = ldb) if backward_error is NULL; must not overlap X.
  *  X, B            [in]   n x nrhs, column-major, leading dimensions ldx and ldb elements.
- *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the largest-entry and largest-row-sum norms,
- *                         0 where r = 0, NaN where r has one or the denominator overflows; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is trusted.  Cost  O(nnz nrhs).
+ *  backward_error  [out]  nrhs numbers ||r|| / (||A|| ||x|| + ||b||) in the infinity norm; 0 if r =
+ *                         0, NaN if r has a NaN or the denominator overflows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT. The pattern is not checked.
+ *  Cost     O(nnz nrhs).
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr,
                                                 double *backward_error, const double *X, size_t ldx,
@@ -111,9 +126,22 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
- *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, an unknown reading; SL_ERR_PATTERN: malformed, or unsymmetric where
- *           symmetry is claimed; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  An existing file is replaced only once the new one is complete. The lines go to a new file in
+ *  the same folder, path.tmp00 to path.tmp99, which is renamed to path at the end. On error the old
+ *  file is as it was and no temporary file is left; a kill may leave the temporary one. The new
+ *  file has the permissions, owner and group of the old one. Written in place: what is not a
+ *  regular file (a device, a pipe, a symbolic link); a mount point; a file in a folder where no
+ *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
+ *  the system may lose both files.
+ *
+ *  Windows and others without POSIX: the old file is removed just before the renaming. If the
+ *  renaming fails, or a kill comes between the two, the complete file has its temporary name. Two
+ *  processes must not write one path at the same time.
+ *
+ *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
+ *                 one triangle.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
+ *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 

@@ -1,115 +1,161 @@
-/* factor.h: the numbers: P A P' = L D L' */
+/* factor.h: the numerical factorization P A P' = L D L' */
 #ifndef SL_PUBLIC_FACTOR_H
 #define SL_PUBLIC_FACTOR_H
 
-#include "types.h"
+#include "options.h"
+#include "stats.h"
 
-/** Factors P A P' = L D L' with unit lower triangular L and diagonal D of any sign, without pivoting.
+/** Factors P A P' = L D L' without pivoting: L unit lower triangular, D diagonal and of any sign.
  *
- *  Definite and quasi-definite matrices work in any order unless rounding loses a pivot: one that comes out below
- *  null_tolerance of what it was made of is refused. A symmetric indefinite matrix works if no pivot comes out null.
+ *  Definite and quasi-definite matrices can be factored in any order. Other symmetric indefinite
+ *  matrices can be factored if no pivot is null. A pivot d is null if
+ *  |d| <= null_tolerance * (sum of the magnitudes it was computed from); it is refused, skipped or
+ *  regularized, depending on the options.
  *
- *  SL_SEMIDEFINITE skips null pivots instead: on a raw Laplacian one in each connected component, the last of it. With
- *  options.mass, weights m, every solve on the factor, full or local, then gives in each component with a null pivot the
- *  x with sum m x = 0 of A x = b - c m, where c = z' b / z' m makes the right-hand side consistent and z is the null
- *  vector: on a Laplacian, of constant z, the Poisson problem's zero-mean solution. A component whose weights are all
- *  0, as that of a vertex without faces may be, counts as weighted by 1; a row of zeros is a component by itself,
- *  whatever the pattern says, and its x is 0. Without mass solves give the solution that is 0 in the rows of
- *  sl_factor_null_rows, and refuse a right-hand side that is not consistent by SL_ERR_INCONSISTENT
- *  (options.consistency_tolerance; sl_factor_defects tells by how much). Where that is switched off, the residual of
- *  such a system is in those rows alone. Entries of the inverse are those of the inverse that makes x 0 there.
+ *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
+ *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
+ *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
+ *  magnitude, so the null vector decides. Let z be options.null_vector, or constant. Components are
+ *  those of the graph of nonzero entries.
+ *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
+ *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
+ *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
+ *    stats.factor.weak. If such a component has a second null vector, as an elastic body has, its
+ *    solutions are arbitrary in that direction; set z = 0 there.
+ *  - In other components, and where z is 0, null_tolerance decides. It misses null pivots whose
+ *    rounding errors come from rows much heavier than their own, and takes regular pivots for null
+ *    that are smaller than it.
+ *  - Components without a null pivot are counted in stats.factor.regular. Their solutions are
+ *    unique; weights do not apply to them. If all components should be singular, check that it is
+ *    0.
+ *  - An indefinite matrix is refused: a diagonal entry or a pivot of the wrong sign beyond
+ *    rounding, or a null pivot by the tolerance without a null vector.
+ *  - With options.mass, weights m, every solve, full or local, computes in each component with a
+ *    null pivot the x with sum m x = 0 that solves A x = b - c m. Here z is the null vector of the
+ *    component, as above or computed from L, and c = z' b / z' m makes the right-hand side
+ *    consistent. For a Laplacian z is constant, and x is the zero-mean solution of the Poisson
+ *    problem. If all weights of a component are 0, as for a vertex without faces, all count as 1. A
+ *    row of zeros is a component by itself, whatever the pattern; its x is 0.
+ *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
+ *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
+ *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
+ *    residual of such a system is nonzero in these rows only.
+ *  - Entries of the inverse are those of the generalized inverse that makes x 0 in the null rows.
  *
- *  options.regularization is for KKT systems whose signs are known: L D L' is then P (A + E) P' with a diagonal E
- *  that is 0 but in the rows of sl_factor_regularized_rows. sl_factor_refine and sl_plan_solve_refined give the
- *  solution of A x = b out of it. Where many diagonal entries are 0, a small multiple of the signs added to the whole
- *  diagonal beforehand makes A quasi-definite, and refinement takes it away just so. Signs that are not those of
- *  the blocks, as where H is indefinite, are no substitute for pivoting: backward_error tells.
+ *  KKT systems: with options.regularization and the known signs of the pivots, L D L' = P (A + E)
+ *  P' where the diagonal matrix E is nonzero in the rows of sl_factor_regularized_rows only.
+ *  sl_factor_refine and sl_plan_solve_refined then solve A x = b. If many diagonal entries are 0,
+ *  add a small multiple of the signs to the whole diagonal beforehand: A becomes quasi-definite,
+ *  and refinement removes the perturbation. If the signs are not those of the blocks, as when H is
+ *  indefinite, regularization does not replace pivoting; stats.refine.backward_error shows this.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
- *  A      [in]   n x n with values; the pattern that S was made from, entry by entry in the same order.
- *  opt    [in]   isa, method, threads, definiteness, null_tolerance, mass, consistency_tolerance, regularization,
- *                signs, allocator; may be NULL.
- *  stats  [out]  the factor group; error_row, error_value; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option that is no number or out of range, a weight that is not finite
- *           or a sign that is none (error_row), z' m = 0 at null row error_row; SL_ERR_PATTERN: n or the number of entries differs from the analysed
- *           one; SL_ERR_PIVOT: null pivot at error_row, with mass a second one in its component; SL_ERR_NOT_FINITE: at error_row (and error_column where
- *           it stands in A); SL_ERR_UNSUPPORTED: the isa; SL_ERR_TOO_LARGE: L is beyond size_t; SL_ERR_MEMORY.
- *  Cost     O(sum over columns of entries^2); kept are nnz_panels doubles and, by the supernodal method, the update
- *           matrices that wait at once: some 5 % more on 2D meshes, some 30 % on 3D ones, twice that with threads. Mass
- *           adds a forward sweep, 24 bytes a row, and to a solve a few operations for each column that it visits.
- *  Threads  any number of calls at once on one S. options.threads shares one call out, here and in every
- *           sl_factor_refactor: subtrees first, then the rows of each large front. The bits of L do not depend on
- *           their number. The supernodal method alone uses them.
- *  Source   supernodal: multifrontal, [DR83] [Liu92], over tiles; up-looking: [LDL05], [Davis06] 4.7, row by row.
- *  Example  tests/test_factor.c
+ *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
+ *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
+ *                consistency_tolerance, regularization, signs, null_vector; may be NULL.
+ *  stats  [out]  factor; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
+ *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
+ *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
+ *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
+ *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
+ *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa;
+ *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
+ *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
+ *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
+ *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
+ *           with A, 42 bytes per row and, with null pivots, a sweep over L; mass adds a forward
+ *           sweep, 24 bytes per row, and a few operations per visited column in solves.
+ *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
+ *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
+ *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
+ *           threads.
+ *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
+ *           4.7.
+ *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
                                                  const sl_csc *A, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors again with new values of the same pattern. Allocates nothing; the same bits as sl_factor_create gives.
+/** Factors a matrix of the same pattern with new values. Allocates nothing; same bits as
+ *  sl_factor_create.
  *
- *  F      [in,out]  on error F holds no factor and every solve refuses it, until a refactor succeeds.
- *  Returns, Cost    as sl_factor_create, SL_ERR_MEMORY, SL_ERR_TOO_LARGE and SL_ERR_UNSUPPORTED aside.
- *  Threads          nobody else may use F meanwhile.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT and
+ *                   SL_ERR_NOT_FINITE it has no numbers, and every solve refuses it until a
+ *                   refactor succeeds.
+ *  A      [in]      the analyzed pattern, new values.
+ *  stats  [out]     factor; may be NULL.
+ *  Returns, Cost    as sl_factor_create, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
+ *                   SL_ERR_UNSUPPORTED.
+ *  Threads          exclusive use of F.
+ *  Example          tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
 
-/** Factors again after local changes: only the columns of L that they reach, each from all its descendants.
+/** Refactors after local changes: recomputes only the columns of L that the changes reach.
  *
- *  For many changes in one place: the reach of a single vertex has the large separators at its end and costs some
- *  30 % of a whole factorization on a 2D mesh. Results agree with sl_factor_refactor to rounding; columns of L that
- *  no change reaches keep their bits. An up-looking factor is factored whole.
+ *  Meant for many changes in one place. Each recomputed supernode gathers from all its descendants,
+ *  and the reach of a single vertex ends in the large top separators: on a 2D mesh that already
+ *  costs about 30 % of a factorization. Results agree with sl_factor_refactor to rounding; the
+ *  other columns of L keep their bits. An up-looking factor is recomputed completely.
  *
- *  F        [in,out]  holds the factor of a matrix that differs from A in the given columns alone. On error F holds no
- *                     factor, unless the error is ARGUMENT, PATTERN, STATE or MEMORY: then it is as before.
- *  A        [in]      the pattern that was analysed, the new values.
- *  columns  [in]      count columns of A, as A stores its entries; any order, repetitions allowed.
- *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error_row); SL_ERR_STATE: F holds no factor.
- *  Cost     the update matrices of all descendants of the supernodes reached; while it runs 16 bytes an entry of the
- *           columns, 4 a row of A, of which it touches those reached, and 4 a row of the tallest supernode. With mass the
- *           forward sweep for the weights is a whole one.
- *  Threads  nobody else may use F meanwhile.
- *  Source   left-looking supernodes [NP93] over the reach of the changes.
- *  Example  tests/test_changed.c
+ *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
+ *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
+ *                     numbers after other errors.
+ *  A        [in]      the analyzed pattern, new values.
+ *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
+ *                     allowed.
+ *  stats    [out]     factor; may be NULL.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
+ *           F has no numbers.
+ *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
+ *           bytes per entry of the columns, 4 per row of A, of which only those reached are
+ *           touched, and 4 per row of the largest front. With null pivots, one complete
+ *           sweep over L, and another with mass.
+ *  Threads  exclusive use of F.
+ *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
+ *  Example  tests/core/test_refactor_changed.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
                                                            const sl_int *columns, sl_int count,
                                                            sl_stats *stats);
 
-/** Releases a factor; NULL is fine. */
+/** Releases a factor; NULL is allowed. */
 SL_API void sl_factor_free(sl_factor *F);
 
-/** Fills the factor group of stats again. */
+/** Fills the factor group of stats. */
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
-/** The rows whose null pivots were skipped, in the order of elimination.
+/** The rows whose null pivots were skipped, in elimination order.
  *
- *  rows   [out]  the first `most` of them; NULL where most = 0.
- *  count  [out]  how many there are, also above most.
+ *  rows      [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
+ *  capacity  [in]   length of rows.
+ *  count     [out]  how many there are; may exceed capacity.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most,
-                                                    sl_int *count);
+SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows,
+                                                    sl_int capacity, sl_int *count);
 
-/** The rows whose pivots regularization changed, in the order of elimination, and by how much: E of A + E = P' L D L' P.
+/** The rows whose pivots regularization changed, in elimination order, and the diagonal matrix E.
  *
- *  rows    [out]  the first `most` of them; NULL where most = 0.
- *  shifts  [out]  the same number of diagonal entries of E; may be NULL.
- *  count   [out]  how many there are, also above most.
+ *  rows      [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
+ *  shifts    [out]  the diagonal entries of E in these rows; may be NULL.
+ *  capacity  [in]   length of rows and shifts.
+ *  count     [out]  how many there are; may exceed capacity.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows,
-                                                           double *shifts, sl_int most,
+                                                           double *shifts, sl_int capacity,
                                                            sl_int *count);
 
-/** log |det A| and the sign of det A (-1 or 1) from D; det of a 0 x 0 matrix is 1.
+/** log |det A| and the sign of det A (-1 or 1); the determinant of a 0 x 0 matrix is 1.
  *
- *  Where null pivots were skipped it is the determinant of A without their rows and columns: of a Laplacian, in each
- *  component the product of the eigenvalues that are not 0 over the number of rows.
- *
- *  Where regularization changed pivots it is that of A + E. A sum of logarithms: nothing overflows.
+ *  If null pivots were skipped: the determinant of A without their rows and columns. For a
+ *  Laplacian this is, in each component, the product of its nonzero eigenvalues divided by its
+ *  number of rows. If regularization changed pivots: the determinant of A + E. Computed as a sum of
+ *  logarithms, which cannot overflow.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(n).
  */
@@ -118,21 +164,24 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_logdet(const sl_factor *F, double *log
 
 /** L as a matrix in compressed columns, with its unit diagonal, rows ascending.
  *
- *  Its entries are the places of the panels that are not exactly zero: those that relaxation or padding fills with
- *  zeros are left out, and so is an entry of L that came out as zero by cancellation.
+ *  Contains the entries that are not exactly 0: zeros from relaxation and padding are left out, and
+ *  so is an entry that became 0 by cancellation.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE; SL_ERR_TOO_LARGE: 2^31 or more entries; SL_ERR_MEMORY.
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE: 2^31 or more
+ *           entries; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F,
                                                 const sl_options *opt);
 
-/** A look inside; the pointers live as long as F. */
-typedef struct sl_factor_view_t {
+/** Arrays of a factor; valid as long as the factor. */
+typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
-    const double *L; /* panels, laid out as sl_symbolic_view_t tells */
-    const double *D; /* n pivots, in pivot order; DBL_MAX where a null pivot was skipped */
-} sl_factor_view_t;
+    const double *L; /* panels, in the layout described at sl_symbolic_arrays */
+    const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
+} sl_factor_arrays;
 
-SL_API sl_factor_view_t sl_factor_view(const sl_factor *F);
+SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 #endif

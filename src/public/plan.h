@@ -1,91 +1,100 @@
-/* plan.h: local solves: b known on a few rows, x wanted on a few others */
+/* plan.h: local solves: b is known in a few rows, x is wanted in a few others */
 #ifndef SL_PUBLIC_PLAN_H
 #define SL_PUBLIC_PLAN_H
 
-#include "types.h"
+#include "options.h"
+#include "stats.h"
 
-/** Prepares solves of A x = b that know b only on bset and want x only on xset.
+/** Prepares solves of A x = b where b is nonzero only in bset and x is wanted only in xset.
  *
- *  With P A P' = L D L' the forward sweep needs the elimination tree's paths from bset to the roots, the backward
- *  sweep those from xset: each is found by itself, in time proportional to its own size.
+ *  With P A P' = L D L', the forward sweep needs the paths of the elimination tree from bset to the
+ *  roots and the backward sweep those from xset. Each reach is found separately, in time
+ *  proportional to its own size.
  *
  *  out    [out]  the plan, or NULL on error; release with sl_plan_free.
  *  S      [in]   analysis of A, n columns; borrowed, must outlive the plan.
- *  bset   [in]   nb rows of A in 0..n-1, any order, none twice; NULL (with nb ignored): all n. b is 0 elsewhere.
- *  xset   [in]   nx rows of A in 0..n-1, any order, none twice; NULL (with nx ignored): all n.
- *                An empty set is a pointer that is not NULL with nb or nx = 0; nothing is read there.
- *  opt    [in]   allocator, region; may be NULL. Where both sets are inside the region the sweeps end at its boundary,
- *                and nothing above it is looked at; where they are not, or one is NULL, the plan is the same as without.
- *  stats  [out]  the plan group, plan_in_region; error_row: an index out of range or given twice; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithm for rows that skip many ancestors; nothing
- *           O(n); 4 bytes a row of a set, and 4 a row and 32 a supernode reached kept.
+ *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
+ *                twice add up. NULL (nb is ignored): all n.
+ *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
+ *                is ignored): all n. For an empty set pass a pointer that is not NULL, and nb or nx
+ *                = 0; it is not dereferenced.
+ *  opt    [in]   allocator, region; may be NULL. If both sets are inside the region, the sweeps end
+ *                at its boundary. If they are not, or if one is NULL, the region is not used.
+ *  stats  [out]  plan; error.row: an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a region of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     O(nb + nx + rows of the supernodes reached), with a logarithmic factor for rows that
+ *           skip many ancestors; nothing O(n). Keeps 4 bytes per row of a set, and 4 per row and 32
+ *           per supernode reached.
  *  Threads  reads S; the plan is immutable and may be shared.
  *  Source   [Davis06] 3.2, 4.1; [HDA17] 3.
- *  Example  tests/test_plan.c
+ *  Example  tests/core/test_plan.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S,
                                                const sl_int *bset, sl_int nb, const sl_int *xset,
                                                sl_int nx, const sl_options *opt, sl_stats *stats);
 
-/** Releases a plan; NULL is fine. */
+/** Releases a plan; NULL is allowed. */
 SL_API void sl_plan_free(sl_plan *P);
 
-/** Fills the plan group of stats again. */
+/** Fills the plan group of stats. */
 SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 
-/** Solves A x = b on the plan's sets: exactly what the full solve gives there.
+/** Solves A x = b on the sets of a plan: exactly what the full solve gives there.
  *
- *  For the same instruction set and nrhs the result equals sl_factor_solve's bit for bit (the sign of a zero aside);
- *  in a region, to rounding.
+ *  For the same instruction set and nrhs the result equals that of sl_factor_solve bit for bit,
+ *  except for the sign of zeros. In a region it agrees to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
- *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of xset; may be B itself
- *                (then ldx = ldb). On error untouched.
- *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of bset.
+ *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of
+ *                xset. May be B itself (then ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of
+ *                bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or, in a region, other
- *           numbers than those it was made or refilled of; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     2 (b_entries + x_entries) + 4 plan_region_entries flops a right-hand side; nothing O(n); no allocation once
- *           W has grown.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, a factor of another analysis,
+ *           or, in a region, a factor whose numbers are not those that the region was computed
+ *           from; SL_ERR_INCONSISTENT: as in sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 (b_entries + x_entries) + 4 region_entries flops per right-hand side; nothing O(n);
+ *           no allocation once W has grown.
  *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/test_plan.c
+ *  Example  tests/core/test_plan.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
                                               sl_work *W);
 
-/** sl_plan_solve with the right-hand sides interleaved, as in sl_factor_solve_interleaved: the same bits.
+/** sl_plan_solve with interleaved right-hand sides: the same bits.
  *
  *  F      [in]   a factor over the plan's analysis.
- *  X      [out]  nx x nrhs, row-major, ldx >= nrhs elements from row to row, rows in the order of xset; may be B itself
- *                (then ldx = ldb). On error untouched.
- *  B      [in]   nb x nrhs, row-major, ldb >= nrhs elements from row to row, rows in the order of bset.
+ *  X      [out]  nx x nrhs, row-major, ldx >= nrhs elements from row to row, rows in the order of
+ *                xset. May be B itself (then ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs, row-major, ldb >= nrhs elements from row to row, rows in the order of
+ *                bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  scratch; NULL: allocated for this call.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  as sl_plan_solve.
  *  Cost     as sl_plan_solve.
  *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/test_interleaved.c
+ *  Example  tests/core/test_interleaved.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F,
                                                           double *X, size_t ldx, const double *B,
                                                           size_t ldb, sl_int nrhs, sl_work *W);
 
-/** One local solve without a plan object: sl_plan_create and sl_plan_solve in the caller's workspace.
+/** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
- *  X and B as in sl_plan_solve; bset and xset as in sl_plan_create; stats may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: as in sl_factor_solve;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     the sum of both; no allocation once W has grown.
+ *  F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, W as in these two calls; no region.
+ *  stats  [out]  plan (bytes is 0); error.row: an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: as in
+ *           sl_factor_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     the sum of both calls; no allocation once W has grown.
  *  Threads  any number at once on one F, each with its own W.
- *  Example  tests/test_plan.c
+ *  Example  tests/core/test_plan.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, double *X, size_t ldx,
-                                               const sl_int *xset, sl_int nx, const double *B,
-                                               size_t ldb, const sl_int *bset, sl_int nb,
-                                               sl_int nrhs, sl_work *W, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
+                                               const sl_int *xset, sl_int nx, double *X, size_t ldx,
+                                               const double *B, size_t ldb, sl_int nrhs, sl_work *W,
+                                               sl_stats *stats);
 
 #endif

@@ -1,80 +1,108 @@
-/* region.h: regions: parts of the matrix inside which local solves cost the same whatever surrounds them */
+/* region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
 #ifndef SL_PUBLIC_REGION_H
 #define SL_PUBLIC_REGION_H
 
-#include "types.h"
+#include "options.h"
+#include "stats.h"
 
-/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it off: T, whole
- * subtrees of the tree, and S, the boundary, in which all rows of L below them are. For b and x on T and S
+/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it
+ * off. It consists of T, the columns of whole subtrees, and S, the boundary: every row outside T in
+ * which a column of T has an entry of L. For b and x on T and S
  *
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
- * and the backward sweep goes on inside T. With (A^-1)_SS kept, only L inside T is read, and the answer is that of the
- * full solve to rounding. Of an SL_SEMIDEFINITE factor A^-1 is the generalized inverse that its solves apply: 0 in the
- * rows and columns of null pivots; whether b is consistent is not looked at where null rows are outside of the region.
+ * and the backward sweep continues in T. The region keeps (A^-1)_SS, so that a solve reads L in T
+ * only and gives the answer of the full solve to rounding. If null pivots were skipped, A^-1 is the
+ * generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency of b
+ * is then checked only for null rows inside the region.
  */
 
-/** Makes the region for a set of rows: what solves with b and x there need of the inverse.
+/** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
  *
- *  The subtrees are chosen so that a solve with b and x on the whole set reads as little as it can: few large subtrees
- *  have a short boundary and a long way through L, no subtree at all makes the set itself the boundary. Other rows
- *  that happen to be in the subtrees are in the region too.
+ *  The subtrees are chosen so that a solve with b and x on the whole set reads as few numbers as
+ *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
+ *  set itself is the boundary. The other rows of the subtrees belong to the region too.
  *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of sl_plan_create.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. Once it is factored again,
- *                or begun to be, plans in the region are refused until sl_region_refill.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (with count ignored): all n.
- *                An empty set is a pointer that is not NULL with count = 0; nothing is read there.
- *  Z      [in]   a selected inverse of what F holds now, or NULL. It is read where it has all that is needed, as for
- *                a single row or the subtree of one supernode, which then is taken if it costs a solve no more than
- *                twice as much. Otherwise the entries come from forward sweeps, as those of sl_inverse_block.
- *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that bytes_region keeps within
- *                region_bytes; with no boundary at all, which always is possible, solves go to the roots of the tree.
- *  stats  [out]  the region group; error_row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of F as it is; SL_ERR_UNSUPPORTED: a factor
- *           whose solves are centred (options.mass); SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     a plan for the set; and a forward sweep of 8 lanes to the roots for every 8 rows of the boundary, with
- *           (boundary)^2 / 2 times the columns of such a path for the sums, or a binary search an entry of Z.
- *           4 (boundary)^2 bytes kept, and some 100 a row of the boundary.
+ *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
+ *                sl_plan_create.
+ *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
+ *                is refactored, or a refactorization fails, plans in the region are refused until
+ *                sl_region_refactor.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
+ *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
+ *                it is not dereferenced.
+ *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
+ *                all entries needed, as for a single row or the subtree of one supernode; such a
+ *                region is then preferred if it costs a solve at most twice as much. Otherwise
+ *                forward sweeps compute the entries, as in sl_inverse_block.
+ *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
+ *                stats.region.bytes is at most region_bytes. If only a region without boundary
+ *                fits, solves go to the roots of the tree.
+ *  stats  [out]  region; error.row: a row out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
+ *           SL_ERR_UNSUPPORTED: a factor made with options.mass; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
+ *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
+ *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
+ *           boundary.
  *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps; what is above T enters as a Schur complement, whose inverse is (A^-1)_SS.
- *  Example  tests/test_region.c
+ *  Source   [HDA17] 3 for the sweeps. The part of the matrix outside T enters as a Schur
+ *           complement, whose inverse is (A^-1)_SS.
+ *  Example  tests/core/test_region.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
                                                  const sl_int *set, sl_int count,
                                                  const sl_selected *Z, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Computes the numbers of a region again, of what F holds now, in the same memory; its plans hold on.
+/** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
  *
- *  R      [in,out]  on error as before.
- *  F      [in]      a factor over the analysis that R was made for: from now on the only one that fits.
+ *  R      [in,out]  unchanged on error.
+ *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
+ *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
- *  W      [in,out]  scratch; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, one of another analysis, or Z is not of F as it is;
- *           SL_ERR_UNSUPPORTED: as there; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     as sl_region_create, less the plan; no allocation once W has grown.
- *  Threads  nobody else may use R, or a plan in it, meanwhile.
- *  Example  tests/test_region.c
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or Z
+ *           is not of the present F; SL_ERR_UNSUPPORTED: as sl_region_create; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     as sl_region_create without the plan; no allocation once W has grown.
+ *  Threads  exclusive use of R and of its plans.
+ *  Example  tests/core/test_region.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_region_refill(sl_region *R, const sl_factor *F,
-                                                 const sl_selected *Z, sl_work *W);
+SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor *F,
+                                                   const sl_selected *Z, sl_work *W);
 
-/** Releases a region; NULL is fine. */
+/** Releases a region; NULL is allowed. */
 SL_API void sl_region_free(sl_region *R);
 
-/** Fills the region group of stats again. */
+/** Fills the region group of stats. */
 SL_API void sl_region_stats(const sl_region *R, sl_stats *stats);
 
-/** A look inside: arrays that live as long as the object. */
-typedef struct sl_region_view_t {
+/** Arrays of a region; valid as long as the object. */
+typedef struct sl_region_arrays {
     const sl_symbolic *symbolic;
     sl_int n_roots;
-    const sl_int *roots; /* n_roots supernodes, ascending: the subtrees inside hang from them */
+    const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
     sl_int n_boundary;
-    const sl_int *boundary; /* n_boundary rows of A, in the order of elimination */
-} sl_region_view_t;
+    const sl_int *boundary; /* n_boundary rows of A, in elimination order */
+} sl_region_arrays;
 
-SL_API sl_region_view_t sl_region_view(const sl_region *R);
+SL_API sl_region_arrays sl_region_view(const sl_region *R);
+
+/** Grows W to what sl_region_refactor(R, F, Z, W) takes, so that the call allocates nothing, with
+ *  any Z or none.
+ *
+ *  W      [in,out]  the workspace.
+ *  R      [in]      the region.
+ *  F      [in]      a factor over the analysis of R. The size depends on its instruction set, not
+ *                   on its numbers.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F is of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     O(boundary) paths to the roots. The size is exact where the numbers come from forward
+ *           sweeps; where they are copied from Z, no workspace is needed.
+ *  Example  tests/core/test_reserve_inverse.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
+                                                       const sl_factor *F);
 
 #endif

@@ -1,12 +1,12 @@
-/* etree.h: the elimination tree of an ordered graph, postorder, and relabelling along an order */
-#ifndef SLI_ETREE_H
-#define SLI_ETREE_H
+/* etree.h: elimination tree, postorder, and renumbering of the columns */
+#ifndef SLI_ANALYSIS_ETREE_H
+#define SLI_ANALYSIS_ETREE_H
 
 #include "symbolic_types.h"
 
-/* parent[k] := the first row below the diagonal of column k of L, -1 if there is none. ancestor: n
- * of scratch, the paths to the roots found so far, compressed. [Liu90] */
-static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *ancestor) {
+/* parent[k] := the first row below the diagonal of column k of L, or -1. ancestor: n of scratch,
+ * path-compressed links towards the roots found so far. [Liu90] */
+static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
     sl_int k, p;
     for (k = 0; k < n; k++) {
         parent[k] = -1;
@@ -25,15 +25,15 @@ static void sli_etree(sl_int n, const sli_half *rows, sl_int *parent, sl_int *an
     }
 }
 
-/* post[k] := the k-th node of a forest in postorder, children ascending; parent[j] > j is not
- * needed. child, sibling: n of scratch each. */
+/* post[k] := the k-th node of a forest in postorder, with children in ascending order. parent[j] >
+ * j is not required. child, sibling: n of scratch each. */
 static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child,
                           sl_int *sibling) {
     sl_int j, k = 0, root;
     for (j = 0; j < n; j++) {
         child[j] = -1;
     }
-    for (j = n - 1; j >= 0; j--) { /* the lists come out ascending */
+    for (j = n - 1; j >= 0; j--) { /* backwards: the lists then ascend */
         if (parent[j] != -1) {
             sibling[j] = child[parent[j]];
             child[parent[j]] = j;
@@ -45,7 +45,7 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
         }
         j = root;
         for (;;) {
-            /* down to the first leaf; a visited child is taken off its list */
+            /* Descend to the first leaf. A visited child is removed from its list. */
             while (child[j] != -1) {
                 const sl_int c = child[j];
                 child[j] = sibling[c];
@@ -60,8 +60,8 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
     }
 }
 
-/* Renumbers along order (order[k] = the number until now of the new k): old_of, its inverse new_of,
- * and the tree. scratch: 2n. */
+/* Renumbers the columns: order[k] = the old number of the new column k. Updates old_of, its inverse
+ * new_of, and the tree. scratch: 2n. */
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
                         sl_int *parent, sl_int *scratch) {
     sl_int *fresh = scratch, *number = scratch + n, k;

@@ -1,124 +1,132 @@
-/* schedule.h: which worker factors which fronts, and where update matrices wait for the parent's front */
-#ifndef SLI_SCHEDULE_H
-#define SLI_SCHEDULE_H
+/* schedule.h: tasks of the tree of fronts for parallel workers, and the layout of update stacks */
+#ifndef SLI_ANALYSIS_SCHEDULE_H
+#define SLI_ANALYSIS_SCHEDULE_H
 
-#include "parallel.h"
-#include "sort.h"
+#include "../base/parallel.h"
+#include "../base/sort.h"
+#include "../kernels/front.h"
 #include "symbolic_types.h"
 
-/* Tasks are subtrees, runs of supernodes of their own, each done by one worker; the fronts above them
- * come afterwards, one by one, with all workers in each. One worker has one task, everything. */
+/* A task is a subtree, a run of consecutive supernodes, that is factored by one worker. The fronts
+ * above all tasks follow one by one, with all workers in each. A single worker has one task: the
+ * whole forest. */
 typedef struct sli_schedule {
     sl_int workers;
     sl_int n_tasks, n_tops;
-    sl_int *first, *last;  /* n_tasks: supernodes of a task */
-    sl_int *worker;        /* n_tasks: who does it */
-    sl_int *top;           /* n_tops: the other supernodes, ascending */
-    sl_off *waiting_begin; /* n_supers: where each one's update matrix waits, in doubles */
-    sl_off waiting;        /* doubles for all of them */
+    sl_int *first, *last; /* n_tasks: supernodes first..last */
+    sl_int *worker;       /* n_tasks: its worker */
+    sl_int *top;          /* n_tops: supernodes above the tasks, ascending */
+    sl_off *stack_begin;  /* n_supers: start of each update matrix, in doubles */
+    sl_off stack;         /* doubles of all stacks together */
 } sli_schedule;
 
-/* A forest of fronts, numbered in postorder: all supernodes of an analysis, or those of a reach. */
+/* A forest of fronts numbered in postorder: all supernodes of an analysis, or those of a reach. */
 typedef struct sli_forest {
     sl_int count;
     const sl_int *parent; /* count: -1 at a root */
-    const sl_int *low;    /* count: the first of the subtree */
+    const sl_int *low;    /* count: first of the subtree */
 } sli_forest;
 
-/* What the planning needs only while it runs. */
-typedef struct sli_planning {
-    double *flops;   /* count: of the front, then of the subtree */
-    double *load;    /* workers */
-    sl_int *side;    /* count: the stack of a supernode, 2 more in a task */
+/* Scratch of the scheduling. */
+typedef struct sli_schedule_work {
+    double *flops;   /* count: of the front, later of the subtree */
+    double *load;    /* workers: flops assigned */
+    sl_int *side;    /* count: 0 or 1, the stack; plus 2 within a task */
     uint64_t *order; /* count: tasks, the largest last */
     uint64_t *scratch;
-} sli_planning;
+} sli_schedule_work;
 
-/* Tasks this much smaller than a worker's share even out what no estimate knows. */
-#define SLI_TASKS_A_WORKER 8
+/* Tasks per worker, on average. Small tasks even out the error of the flop estimate. */
+#define SLI_TASKS_PER_WORKER 8
 
-/* A front of this many flops takes some 50 us, and is shared out at 1 or 2 us a step by OpenMP, at more by others. */
+/* A front of this many flops takes about 50 us. Sharing it among workers costs 1 to 2 us a step
+ * with OpenMP, more with other thread pools. */
 #define SLI_SHARED_FLOPS 4e6
 
-/* Doubles that a supernode leaves to its parent: the update matrix and the magnitudes of its rows. */
-SLI_INLINE sl_off sli_waiting_size(const sli_step *s) {
+/* Doubles that a supernode passes to its parent: the update matrix and the magnitudes of its
+ * rows. */
+SLI_INLINE sl_off sli_update_size(const sli_step *s) {
     const sl_int tiles = sli_update_tiles(s->width, s->below);
     return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)tiles;
 }
 
-/* Flops of a front: sum over its columns of (entries)^2. */
+/* Flops of a front: the sum of (entries)^2 over its columns. */
 SLI_INLINE double sli_front_flops(const sli_step *s) {
     const double w = s->width, h = w + s->below;
     return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
 }
 
-/* Where the update matrices of some supernodes, handed over in ascending order, wait: supernodes of
- * even and of odd depth have a stack each, which grow towards each other. When a supernode is done,
- * its children are the top of the other stack, so that nothing ever moves. */
+/* Two update stacks that grow towards each other, one for supernodes of even depth and one for odd
+ * depth. Supernodes are pushed in ascending order. When a supernode is done, its children are on
+ * top of the other stack, so that no update matrix is ever moved. */
 typedef struct sli_stacks {
     sl_off top[2];
     sl_off most;
 } sli_stacks;
 
+/* Pushes the update matrix of supernode s, then pops those of its children: they are free once s is
+ * factored. Within a task only children of the same task are on these stacks. */
 static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
                             sl_off *begin) {
     const int own = side[s] & 1, in_task = side[s] & 2;
-    const sl_off size = sli_waiting_size(&S->steps[s]);
+    const sl_off size = sli_update_size(&S->steps[s]);
     sl_int c;
     begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
     k->top[own] += size;
     k->most = k->top[0] + k->top[1] > k->most ? k->top[0] + k->top[1] : k->most;
-    for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
         if ((side[c] & 2) == in_task) {
-            k->top[1 - own] -= sli_waiting_size(&S->steps[c]);
+            k->top[1 - own] -= sli_update_size(&S->steps[c]);
         }
     }
 }
 
-/* The second stack counts from the end, which is known now. */
+/* Turns a position into a final one: the second stack counts from the end, which is known only
+ * now. */
 SLI_INLINE void sli_stacks_settle(const sli_stacks *k, sl_int s, const sl_int *side, sl_off base,
                                   sl_off *begin) {
     begin[s] += base + ((side[s] & 1) == 0 ? 0 : k->most);
 }
 
-/* Inside their tasks the supernodes of a worker use the same two stacks, task after task; the roots
- * of tasks have to wait for the fronts above and have places of their own, as the fronts above have
- * their own stacks. */
-static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
+/* Lays out the update stacks. All tasks of a worker use its two stacks, one task after the other.
+ * The update matrices of task roots wait for the fronts above and have memory of their own; so have
+ * the stacks of the fronts above. */
+static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
     sli_stacks k;
     sl_int m, s, worker;
-    p->waiting = 0;
+    p->stack = 0;
     for (worker = 0; worker < p->workers; worker++) {
         memset(&k, 0, sizeof k);
         for (m = 0; m < p->n_tasks; m++) {
             k.top[0] = k.top[1] = 0;
             for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
-                sli_stacks_push(&k, S, s, side, p->waiting_begin);
+                sli_stacks_push(&k, S, s, side, p->stack_begin);
             }
         }
         for (m = 0; m < p->n_tasks; m++) {
             for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
-                sli_stacks_settle(&k, s, side, p->waiting, p->waiting_begin);
+                sli_stacks_settle(&k, s, side, p->stack, p->stack_begin);
             }
         }
-        p->waiting += k.most;
+        p->stack += k.most;
     }
     for (m = 0; m < p->n_tasks; m++) {
-        p->waiting_begin[p->last[m]] = p->waiting;
-        p->waiting += sli_waiting_size(&S->steps[p->last[m]]);
+        p->stack_begin[p->last[m]] = p->stack;
+        p->stack += sli_update_size(&S->steps[p->last[m]]);
     }
     memset(&k, 0, sizeof k);
     for (m = 0; m < p->n_tops; m++) {
-        sli_stacks_push(&k, S, p->top[m], side, p->waiting_begin);
+        sli_stacks_push(&k, S, p->top[m], side, p->stack_begin);
     }
     for (m = 0; m < p->n_tops; m++) {
-        sli_stacks_settle(&k, p->top[m], side, p->waiting, p->waiting_begin);
+        sli_stacks_settle(&k, p->top[m], side, p->stack, p->stack_begin);
     }
-    p->waiting += k.most;
+    p->stack += k.most;
 }
 
-/* Subtrees of at most limit flops whose parent has more, in ascending order of flops. */
-static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w, double limit) {
+/* Finds the tasks: largest subtrees of at most `limit` flops, in ascending order of flops. */
+static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
+                           double limit) {
     const double scale = limit > 0.0 ? 1e9 / limit : 0.0;
     sl_int s;
     p->n_tasks = p->n_tops = 0;
@@ -133,8 +141,8 @@ static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w
     sli_sort(w->order, p->n_tasks, w->scratch);
 }
 
-/* The largest tasks first, each to the worker who has least. */
-static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w) {
+/* Assigns the tasks, the largest first, each to the worker with the least load. */
+static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w) {
     sl_int m, k;
     for (k = 0; k < p->workers; k++) {
         w->load[k] = 0.0;
@@ -152,8 +160,9 @@ static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_planning *
     }
 }
 
-/* Tasks and tops for p->workers. w->flops: of the fronts, where there is more than one worker. */
-static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w) {
+/* Finds tasks and tops for p->workers. w->flops: those of the fronts, read if there are several
+ * workers. */
+static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w) {
     double total = 0.0;
     sl_int s;
     if (p->workers == 1) {
@@ -172,13 +181,13 @@ static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_planning *w
             total += w->flops[s];
         }
     }
-    sli_find_tasks(p, f, w, total / ((double)p->workers * SLI_TASKS_A_WORKER));
+    sli_find_tasks(p, f, w, total / ((double)p->workers * SLI_TASKS_PER_WORKER));
     sli_share_tasks(p, f, w);
 }
 
-/* Plans for p->workers. The arrays of p and w have room. */
-static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_planning *w) {
-    const sli_forest f = {S->n_supers, S->super_parent, S->descendant};
+/* Fills a schedule for p->workers. The arrays of p and w have room. */
+static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedule_work *w) {
+    const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
     sl_int s, m;
     for (s = 0; s < S->n_supers; s++) {
         w->flops[s] = sli_front_flops(&S->steps[s]);
@@ -190,7 +199,7 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_plannin
     for (m = 0; m < p->n_tops; m++) {
         w->side[p->top[m]] &= 1;
     }
-    sli_plan_waiting(p, S, w->side);
+    sli_plan_stacks(p, S, w->side);
 }
 
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
@@ -199,10 +208,11 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
     p->last = SLI_TAKE(b, sl_int, tasks);
     p->worker = SLI_TAKE(b, sl_int, tasks);
     p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
-    p->waiting_begin = SLI_TAKE(b, sl_off, fronts);
+    p->stack_begin = SLI_TAKE(b, sl_off, fronts);
 }
 
-static void sli_planning_layout(sli_planning *w, sli_block *b, sl_int count, sl_int workers) {
+static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
+                                     sl_int workers) {
     w->flops = SLI_TAKE(b, double, count);
     w->load = SLI_TAKE(b, double, workers);
     w->side = SLI_TAKE(b, sl_int, count);

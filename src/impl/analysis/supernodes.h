@@ -1,26 +1,26 @@
-/* supernodes.h: fundamental supernodes, and their relaxed amalgamation over the whole assembly tree */
-#ifndef SLI_SUPERNODES_H
-#define SLI_SUPERNODES_H
+/* supernodes.h: fundamental supernodes, and relaxed amalgamation over the whole assembly tree */
+#ifndef SLI_ANALYSIS_SUPERNODES_H
+#define SLI_ANALYSIS_SUPERNODES_H
 
 #include "etree.h"
-#include "sort.h"
+#include "../base/sort.h"
 
-/* Supernodes under construction, all arrays of n. A group is named by its top fundamental
- * supernode. */
-typedef struct sli_groups {
-    sl_int count;   /* fundamental supernodes */
-    sl_int *first;  /* n + 1: first column of each */
-    sl_int *parent; /* parent supernode, -1 at a root */
-    sl_int *width;  /* columns of the group so far */
-    sl_int *below;  /* rows below it */
-    double *zeros;  /* stored places of the group that L does not fill */
-    sl_int *group;  /* the supernode it was merged into, itself while on top; at last the top */
-} sli_groups;
+/* Supernodes during amalgamation; all arrays have n entries. A merged supernode is identified by
+ * the fundamental supernode on its top. */
+typedef struct sli_amalgamation {
+    sl_int count;        /* fundamental supernodes */
+    sl_int *first;       /* n + 1: first column of each */
+    sl_int *parent;      /* parent supernode, -1 at a root */
+    sl_int *width;       /* columns so far */
+    sl_int *below;       /* rows below */
+    double *zeros;       /* entries stored so far that L does not have */
+    sl_int *merged_into; /* the supernode it was merged into, or itself; finally the new number */
+} sli_amalgamation;
 
-/* Runs of columns with the same structure, each the only child of the next: count falls by one
- * along the run. */
+/* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
+ * the next. The column count falls by one along a run. */
 static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
-                            sl_int *super_of, sli_groups *g) {
+                            sl_int *super_of, sli_amalgamation *g) {
     sl_int j, s = -1;
     memset(children, 0, (size_t)n * sizeof(sl_int));
     for (j = 0; j < n; j++) {
@@ -42,31 +42,32 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
         g->below[s] = counts[last] - 1;
         g->parent[s] = parent[last] == -1 ? -1 : super_of[parent[last]];
         g->zeros[s] = 0.0;
-        g->group[s] = s;
+        g->merged_into[s] = s;
     }
 }
 
-/* Most zeros of a group of up to 8 columns: on a path 28 of 44 places are, 0.64, and on 2D grids no
- * such group has more. Every group's places stay below 1 / (1 - 0.70) = 3.34 times its entries,
- * also where short columns hang on tall ones. */
+/* Largest share of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44 entries,
+ * 0.64, and 2D grids have no more. It bounds the stored entries of each supernode by 1 / (1 - 0.70)
+ * = 3.34 times its entries of L, even where short columns are children of tall ones. */
 #define SLI_ZEROS_SMALL 0.70
 
-/* Whether a group of some width may hold a fraction z of zeros. Small panels cost their calls, not
- * their flops; the thresholds gave the fastest solves over 2D and 3D meshes at 2-3 % more flops. */
+/* Returns whether a supernode of this width may have a share z of zeros. The cost of small panels
+ * is their calls, not their flops. The thresholds gave the fastest solves on 2D and 3D meshes, at
+ * 2-3 % more flops. */
 static int sli_may_merge(sl_int width, double z) {
     return (width <= 8 && z < SLI_ZEROS_SMALL) || (width <= 16 && z < 0.30) ||
            (width <= 48 && z < 0.15) || z < 0.05;
 }
 
-/* Zeros that joining child c to p adds: c's columns grow to p's rows. */
-static double sli_new_zeros(const sli_groups *g, sl_int c, sl_int p) {
+/* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
+static double sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
     return (double)g->width[c] * (double)(g->width[p] + g->below[p] - g->below[c]);
 }
 
-/* Joins the children of p, cheapest first, as long as the zeros allow. list: the children, keyed by
- * rank. */
-static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int count,
-                               uint64_t *scratch) {
+/* Merges children into p while the share of zeros allows it, those with the fewest new zeros first.
+ * list: the children. */
+static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *list, sl_int count,
+                                    uint64_t *scratch) {
     sl_int k;
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]);
@@ -77,19 +78,19 @@ static void sli_merge_children(sli_groups *g, sl_int p, uint64_t *list, sl_int c
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
         const double zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
-        const double places = (double)width * (0.5 * (width + 1.0) + g->below[p]);
-        if (sli_may_merge(width, zeros / places)) {
+        const double stored = (double)width * (0.5 * (width + 1.0) + g->below[p]);
+        if (sli_may_merge(width, zeros / stored)) {
             g->width[p] = width;
             g->zeros[p] = zeros;
-            g->group[c] = p;
+            g->merged_into[c] = p;
         }
     }
 }
 
-/* Every supernode in turn takes in its children, which come before it. child, sibling: lists of
- * children; list, scratch: room for all of them. */
-static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *list,
-                      uint64_t *scratch) {
+/* Amalgamates bottom up: each supernode merges children, which come before it. child, sibling:
+ * lists of children; list, scratch: room for all supernodes. */
+static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
+                           uint64_t *scratch) {
     sl_int s, c, count;
     for (s = 0; s < g->count; s++) {
         child[s] = -1;
@@ -100,7 +101,7 @@ static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *l
             list[count++] = sli_keyed(0, c);
         }
         if (count > 0) {
-            sli_merge_children(g, s, list, count, scratch);
+            sli_amalgamate_children(g, s, list, count, scratch);
         }
         if (g->parent[s] != -1) {
             sibling[s] = child[g->parent[s]];
@@ -109,59 +110,75 @@ static void sli_relax(sli_groups *g, sl_int *child, sl_int *sibling, uint64_t *l
     }
 }
 
-/* Numbers the groups in a postorder of their tree and lays their columns side by side: order[k] =
- * old column of the new k. On return the arrays describe the groups in their new numbers, and count
- * is how many there are. scratch: 5n. */
-static void sli_renumber_groups(sli_groups *g, sl_int n, sl_int *order, sl_int *super_of,
-                                sl_int *scratch) {
-    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
-           *at = scratch + 3 * (size_t)n;
-    sl_int *more = scratch + 4 * (size_t)n;
-    sl_int s, k, groups = 0, column = 0;
-    for (s = g->count - 1; s >= 0; s--) { /* parents come first, so that their group is final */
-        g->group[s] = g->group[s] == s ? s : g->group[g->group[s]];
+/* Finds the supernodes after amalgamation: top[k] := the fundamental supernode on top of the k-th,
+ * tree[k] := its parent, merged_into[s] := the k that s now belongs to. Returns their number.
+ * sequence: the columns in the order that numbers the supernodes, by their last columns; NULL: 0,
+ * 1, ... number: n of scratch. */
+static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequence,
+                            const sl_int *super_of, sl_int *top, sl_int *tree, sl_int *number) {
+    sl_int s, k, count = 0;
+    for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
+        g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
     }
-    for (s = 0; s < g->count; s++) {
-        if (g->group[s] == s) {
-            at[s] = groups;
-            top[groups++] = s;
+    for (k = 0; k < n; k++) {
+        const sl_int column = sequence == NULL ? k : sequence[k];
+        s = super_of[column];
+        if (g->merged_into[s] == s && column == g->first[s + 1] - 1) {
+            number[s] = count;
+            top[count++] = s;
         }
     }
-    for (k = 0; k < groups; k++) {
+    for (k = 0; k < count; k++) {
         const sl_int up = g->parent[top[k]];
-        tree[k] = up == -1 ? -1 : at[g->group[up]];
+        tree[k] = up == -1 ? -1 : number[g->merged_into[up]];
     }
-    for (s = 0; s < g->count; s++) { /* from here on: the group's place in top */
-        g->group[s] = at[g->group[s]];
+    for (s = 0; s < g->count; s++) {
+        g->merged_into[s] = number[g->merged_into[s]];
     }
-    sli_postorder(tree, groups, post, at, more);
-    for (k = 0; k < groups; k++) {
-        more[post[k]] = k;
-        at[post[k]] = column; /* where the group's next column goes */
+    return count;
+}
+
+/* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
+ * = the old number of the new column k. On return super_of and the arrays of g refer to the new
+ * numbers, and g->count is the number of supernodes.
+ *
+ * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
+ * by their last columns in the sequence, and the columns of a supernode keep its order. So a
+ * sequence that is a postorder of the supernodes is kept as it is. scratch: 5n.
+ */
+static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
+                                  sl_int *order, sl_int *super_of, sl_int *scratch) {
+    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
+           *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
+    const sl_int count = sli_find_tops(g, n, sequence, super_of, top, tree, at);
+    sl_int k, c, column = 0;
+    sli_postorder(tree, count, post, at, number);
+    for (k = 0; k < count; k++) {
+        number[post[k]] = k;
+        at[post[k]] = column; /* where the next column of the supernode goes */
         column += g->width[top[post[k]]];
     }
-    for (s = 0; s < g->count; s++) {
-        sl_int *next = &at[g->group[s]];
-        for (k = g->first[s]; k < g->first[s + 1]; k++) {
-            super_of[*next] = more[g->group[s]];
-            order[(*next)++] = k;
-        }
+    for (k = 0; k < n; k++) {
+        const sl_int from = sequence == NULL ? k : sequence[k];
+        order[at[g->merged_into[super_of[from]]]++] = from;
     }
-    for (k = 0; k < groups;
-         k++) { /* group and at are done with: they carry the sizes to the new numbers */
+    /* merged_into and at are free now: they hold the sizes by new number. */
+    for (k = 0; k < count; k++) {
         at[k] = g->width[top[post[k]]];
-        g->group[k] = g->below[top[post[k]]];
+        g->merged_into[k] = g->below[top[post[k]]];
     }
     column = 0;
-    for (k = 0; k < groups; k++) {
+    for (k = 0; k < count; k++) {
         g->first[k] = column;
         g->width[k] = at[k];
-        g->below[k] = g->group[k];
-        g->parent[k] = tree[post[k]] == -1 ? -1 : more[tree[post[k]]];
-        column += at[k];
+        g->below[k] = g->merged_into[k];
+        g->parent[k] = tree[post[k]] == -1 ? -1 : number[tree[post[k]]];
+        for (c = 0; c < at[k]; c++) {
+            super_of[column++] = k;
+        }
     }
-    g->first[groups] = n;
-    g->count = groups;
+    g->first[count] = n;
+    g->count = count;
 }
 
 #endif

@@ -1,31 +1,30 @@
-/* symbolic.h: the analysis, from the pattern of A to the places of L */
-#ifndef SLI_SYMBOLIC_H
-#define SLI_SYMBOLIC_H
+/* symbolic.h: the analysis: from the pattern of A to the supernodes and the storage of L */
+#ifndef SLI_ANALYSIS_SYMBOLIC_H
+#define SLI_ANALYSIS_SYMBOLIC_H
 
 #include "counts.h"
-#include "fronts.h"
-#include "graph.h"
-#include "order.h"
+#include "../ordering/graph.h"
+#include "../ordering/order.h"
 #include "structure.h"
 #include "supernodes.h"
+#include "../matrix/csc_triangle.h"
 
-/* What the analysis needs only while it runs. Rows are numbered three times: as in A, in the order
- * that was asked for (rows, columns), and in the postorder of the supernodes that comes of it
- * (everything else). */
+/* Scratch of the analysis. Rows have three numberings: that of A; the order found or given, used
+ * by rows, columns and perm; and the final postorder of supernodes, used by everything else. */
 typedef struct sli_analysis {
     sl_int n;
-    sli_half rows, columns;
-    sli_groups groups;
-    sl_int *perm;                       /* n: the order asked for */
+    sli_pattern rows, columns;
+    sli_amalgamation amalgamation;
+    sl_int *perm;                       /* n: the order found or given */
     sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
     uint64_t *list;                     /* 2n */
-    sli_nest nest;                      /* n each: the tree of separators, by rows of A */
+    sli_septree septree;                /* n each: by rows of A */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
-    const uint64_t n = (uint64_t)rows; /* 5 n may pass 2^32 */
+    const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
     w->n = rows;
     w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
     w->rows.to = SLI_TAKE(b, sl_int, nnz);
@@ -39,15 +38,15 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->counts = SLI_TAKE(b, sl_int, n);
     w->super_of = SLI_TAKE(b, sl_int, n);
     w->scratch = SLI_TAKE(b, sl_int, 5 * n);
-    w->groups.first = SLI_TAKE(b, sl_int, n + 1);
-    w->groups.parent = SLI_TAKE(b, sl_int, n);
-    w->groups.width = SLI_TAKE(b, sl_int, n);
-    w->groups.below = SLI_TAKE(b, sl_int, n);
-    w->groups.zeros = SLI_TAKE(b, double, n);
-    w->groups.group = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
+    w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.width = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.below = SLI_TAKE(b, sl_int, n);
+    w->amalgamation.zeros = SLI_TAKE(b, double, n);
+    w->amalgamation.merged_into = SLI_TAKE(b, sl_int, n);
     w->list = SLI_TAKE(b, uint64_t, 2 * n);
-    w->nest.of = SLI_TAKE(b, sl_int, n);
-    w->nest.parent = SLI_TAKE(b, sl_int, n + 1);
+    w->septree.node_of = SLI_TAKE(b, sl_int, n);
+    w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
@@ -64,19 +63,21 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->rows = SLI_TAKE(b, sl_int, rows);
     S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->steps = SLI_TAKE(b, sli_step, supers);
-    S->descendant = SLI_TAKE(b, sl_int, supers);
-    S->places = SLI_TAKE(b, sl_int, rows);
-    S->map_begin = SLI_TAKE(b, sl_off, supers + 1);
-    S->map_from = SLI_TAKE(b, sl_int, entries);
-    S->map_to = SLI_TAKE(b, sl_off, entries);
-    S->part_of = SLI_TAKE(b, sl_int, S->n_parts > 0 ? n : 0);
-    S->part_parent = SLI_TAKE(b, sl_int, S->n_parts);
-    S->part_level = SLI_TAKE(b, sl_int, S->n_parts);
+    S->first_descendant = SLI_TAKE(b, sl_int, supers);
+    S->relative = SLI_TAKE(b, sl_int, rows);
+    S->scatter_begin = SLI_TAKE(b, sl_off, supers + 1);
+    S->scatter_from = SLI_TAKE(b, sl_int, entries);
+    S->scatter_to = SLI_TAKE(b, sl_off, entries);
+    S->node_of = SLI_TAKE(b, sl_int, S->n_nodes > 0 ? n : 0);
+    S->node_parent = SLI_TAKE(b, sl_int, S->n_nodes);
+    S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
-/* Tree, counts and supernodes in their final numbering. */
-static void sli_analyse_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
+/* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
+static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
     const sl_int n = w->n;
+    const int keeps_order =
+        opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
     sl_int *order = w->scratch, *more = w->scratch + n;
     sl_int k;
     sli_order_natural(n, w->old_of);
@@ -84,13 +85,14 @@ static void sli_analyse_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     sli_postorder(w->parent, n, order, more, more + n);
     sli_relabel(order, n, w->old_of, w->new_of, w->parent, more);
     sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
-    sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->groups);
-    stats->supernodes_fundamental = w->groups.count;
+    sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
+    stats->symbolic.supernodes_fundamental = w->amalgamation.count;
     if (opt == NULL || opt->relaxation != SL_RELAXATION_NONE) {
-        sli_relax(&w->groups, order, more, w->list, w->list + n);
+        sli_amalgamate(&w->amalgamation, order, more, w->list, w->list + n);
     }
-    order = (sl_int *)(void *)w->list; /* renumbering needs all of scratch */
-    sli_renumber_groups(&w->groups, n, order, w->super_of, w->scratch);
+    order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
+    sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
+                          w->scratch);
     for (k = 0; k < n; k++) {
         w->scratch[k] = w->counts[order[k]];
     }
@@ -100,35 +102,44 @@ static void sli_analyse_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     sli_relabel(order, n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
-/* The figures that a user asks about. depth: n of scratch. */
-static void sli_analyse_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
+/* Fills the statistics. depth: n of scratch. */
+static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
     sl_int k;
-    stats->n = S->n;
-    stats->supernodes = S->n_supers;
-    stats->nnz_panels = S->panel_begin[S->n_supers];
+    stats->symbolic.n = S->n;
+    stats->symbolic.supernodes = S->n_supers;
+    stats->symbolic.nnz_panels = S->panel_begin[S->n_supers];
     for (k = S->n - 1; k >= 0; k--) {
         const double count = S->counts[k];
         depth[k] = S->parent[k] == -1 ? 1 : depth[S->parent[k]] + 1;
-        stats->tree_height = sli_max(stats->tree_height, depth[k]);
-        stats->components += S->parent[k] == -1;
-        stats->nnz_l += S->counts[k];
-        stats->flops += count * count;
+        stats->symbolic.tree_height = sli_max(stats->symbolic.tree_height, depth[k]);
+        stats->symbolic.components += S->parent[k] == -1;
+        stats->symbolic.nnz_l += S->counts[k];
+        stats->symbolic.flops += count * count;
     }
 }
 
-/* The tree of separators, whose nodes stand below their parents, by columns of L. */
-static void sli_fill_parts(sl_symbolic *S, const sli_nest *nest) {
+/* Copies the separator tree, indexed by columns of L. Parents have higher numbers. */
+static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
     sl_int k;
-    for (k = 0; k < S->n && S->n_parts > 0; k++) {
-        S->part_of[k] = nest->of[S->perm[k]];
+    for (k = 0; k < S->n && S->n_nodes > 0; k++) {
+        S->node_of[k] = septree->node_of[S->perm[k]];
     }
-    for (k = S->n_parts - 1; k >= 0; k--) {
-        S->part_parent[k] = nest->parent[k];
-        S->part_level[k] = nest->parent[k] == -1 ? 0 : S->part_level[nest->parent[k]] + 1;
+    for (k = S->n_nodes - 1; k >= 0; k--) {
+        S->node_parent[k] = septree->parent[k];
+        S->node_level[k] = septree->parent[k] == -1 ? 0 : S->node_level[septree->parent[k]] + 1;
     }
 }
 
-/* Copies the tree out of the workspace and fills everything that hangs on it. */
+/* Hashes what determines the object. Plans, regions and selected inverses keep the hash, and notice
+ * by it that their analysis was released and another one created at its address. */
+static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
+    const sl_int kind = (sl_int)triangle;
+    S->identity = sli_hash_ints(S->pattern, &kind, 1);
+    S->identity = sli_hash_ints(S->identity, S->perm, S->n);
+    S->identity = sli_hash_ints(S->identity, S->super_first, (sl_off)S->n_supers + 1);
+}
+
+/* Copies the tree out of the scratch and fills everything that depends on it. */
 static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
     sl_int s, k;
@@ -139,24 +150,26 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     memcpy(S->parent, w->parent, bytes);
     memcpy(S->counts, w->counts, bytes);
     memcpy(S->super_of, w->super_of, bytes);
-    memcpy(S->super_first, w->groups.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
-    memcpy(S->super_parent, w->groups.parent, (size_t)S->n_supers * sizeof(sl_int));
+    memcpy(S->super_first, w->amalgamation.first, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+    memcpy(S->super_parent, w->amalgamation.parent, (size_t)S->n_supers * sizeof(sl_int));
     S->rows_begin[0] = 0;
     S->panel_begin[0] = 0;
     for (s = 0; s < S->n_supers; s++) {
-        S->rows_begin[s + 1] = S->rows_begin[s] + w->groups.below[s];
+        S->rows_begin[s + 1] = S->rows_begin[s] + w->amalgamation.below[s];
         S->panel_begin[s + 1] =
-            S->panel_begin[s] + sli_panel_size(w->groups.width[s], w->groups.below[s]);
+            S->panel_begin[s] + sli_panel_size(w->amalgamation.width[s], w->amalgamation.below[s]);
     }
-    /* list has 4n words of 4 bytes: the ends of the rows in one half, the marks in the other */
-    sli_count_map(S, &w->columns, w->old_of);
+    /* list has 2n words of 8 bytes: one half for the ends of the row lists, the other for the
+     * marks. */
+    sli_scatter_map_count(S, &w->columns, w->old_of);
     sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
                        (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
     sli_fill_descendants(S);
-    sli_fill_places(S, w->scratch);
-    sli_fill_parts(S, &w->nest);
-    sli_analyse_stats(S, w->scratch, stats);
+    sli_fill_relative(S, w->scratch);
+    sli_fill_septree(S, &w->septree);
+    sli_fill_identity(S, stats->symbolic.triangle);
+    sli_analyze_stats(S, w->scratch, stats);
 }
 
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
@@ -169,8 +182,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     int pass;
     sl_status status;
     started = sli_seconds();
-    status = sli_order(A, stats->triangle, opt, w->perm, w->scratch, &w->nest, a, stats);
-    stats->seconds_order = sli_seconds() - started;
+    status =
+        sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree, a, stats);
+    stats->symbolic.seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
     }
@@ -178,56 +192,42 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     for (s = 0; s < w->n; s++) {
         w->scratch[w->perm[s]] = s;
     }
-    sli_halves_fill(A, stats->triangle, w->scratch, &w->rows, &w->columns);
-    stats->nnz_a = w->rows.begin[w->n];
-    stats->seconds_tree = -sli_seconds();
-    sli_analyse_tree(w, opt, stats);
-    stats->seconds_tree += sli_seconds();
+    sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+    stats->symbolic.nnz_a = w->rows.begin[w->n];
+    stats->symbolic.seconds_tree = -sli_seconds();
+    sli_analyze_tree(w, opt, stats);
+    stats->symbolic.seconds_tree += sli_seconds();
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.n = A->n_cols;
-    draft.n_supers = w->groups.count;
-    draft.n_parts = w->nest.count;
+    draft.n_supers = w->amalgamation.count;
+    draft.n_nodes = w->septree.count;
     draft.nnz_input = sli_nnz(A);
-    draft.fingerprint = sli_fingerprint(A);
-    for (s = 0; s < w->groups.count; s++) {
-        rows += w->groups.below[s];
+    (void)sli_pattern_hash(A, &draft.pattern);
+    for (s = 0; s < w->amalgamation.count; s++) {
+        rows += w->amalgamation.below[s];
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        sli_symbolic_layout(&draft, &b, rows, stats->nnz_a);
-        stats->bytes_symbolic = b.used;
+        sli_symbolic_layout(&draft, &b, rows, stats->symbolic.nnz_a);
+        stats->symbolic.bytes = b.used;
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
-    stats->seconds_structure = -sli_seconds();
+    stats->symbolic.seconds_structure = -sli_seconds();
     sli_symbolic_fill(&draft, w, stats);
-    stats->seconds_structure += sli_seconds();
-    stats->seconds_analyse += sli_seconds() - started;
+    stats->symbolic.seconds_structure += sli_seconds();
+    stats->symbolic.seconds_analyze += sli_seconds() - started;
     draft.stats = *stats;
     *out = (sl_symbolic *)(void *)b.base;
     **out = draft;
     return SL_OK;
 }
 
-/* Copies the symbolic group from one struct to the other. */
+/* Copies the symbolic group. */
 static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
-    to->n = from->n;
-    to->triangle = from->triangle;
-    to->nnz_a = from->nnz_a;
-    to->nnz_l = from->nnz_l;
-    to->nnz_panels = from->nnz_panels;
-    to->flops = from->flops;
-    to->supernodes = from->supernodes;
-    to->supernodes_fundamental = from->supernodes_fundamental;
-    to->tree_height = from->tree_height;
-    to->components = from->components;
-    to->seconds_order = from->seconds_order;
-    to->seconds_analyse = from->seconds_analyse;
-    to->seconds_tree = from->seconds_tree;
-    to->seconds_structure = from->seconds_structure;
-    to->bytes_symbolic = from->bytes_symbolic;
+    to->symbolic = from->symbolic;
 }
 
 SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
@@ -248,7 +248,8 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || !sli_allocator_is_whole(opt) ||
+    if (A->n_rows != A->n_cols ||
+        !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) ||
         (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
          opt->relaxation != SL_RELAXATION_NONE)) {
         return SL_ERR_ARGUMENT;
@@ -256,18 +257,18 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     memset(&w, 0, sizeof w);
     memset(&found, 0, sizeof found);
     sli_stats_clear_error(&found);
-    status = sli_csc_triangle(A, &found.triangle, opt, stats);
+    status = sli_csc_triangle(A, &found.symbolic.triangle, opt, stats);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_analysis_layout(&w, &b, A->n_cols, sli_nnz(A));
         status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     if (status == SL_OK) {
-        found.seconds_analyse = sli_seconds() - started;
+        found.symbolic.seconds_analyze = sli_seconds() - started;
         status = sli_symbolic_make(out, A, opt, &w, &a, &found);
         if (stats != NULL && status == SL_OK) {
             sli_symbolic_stats_copy(&found, stats);
         } else if (stats != NULL) {
-            stats->error_row = found.error_row;
+            stats->error.row = found.error.row;
         }
         sli_free(&a, b.base);
     }
@@ -288,8 +289,8 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
     }
 }
 
-SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S) {
-    sl_symbolic_view_t v;
+SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
+    sl_symbolic_arrays v;
     memset(&v, 0, sizeof v);
     if (S != NULL) {
         v.n = S->n;
@@ -304,10 +305,10 @@ SL_API sl_symbolic_view_t sl_symbolic_view(const sl_symbolic *S) {
         v.rows_begin = S->rows_begin;
         v.rows = S->rows;
         v.panel_begin = S->panel_begin;
-        v.n_parts = S->n_parts;
-        v.part_of = S->n_parts > 0 ? S->part_of : NULL;
-        v.part_parent = S->n_parts > 0 ? S->part_parent : NULL;
-        v.part_level = S->n_parts > 0 ? S->part_level : NULL;
+        v.n_nodes = S->n_nodes;
+        v.node_of = S->n_nodes > 0 ? S->node_of : NULL;
+        v.node_parent = S->n_nodes > 0 ? S->node_parent : NULL;
+        v.node_level = S->n_nodes > 0 ? S->node_level : NULL;
     }
     return v;
 }

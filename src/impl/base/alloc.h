@@ -1,25 +1,25 @@
-/* alloc.h: memory: 64-byte aligned blocks that cannot overflow, cut into arrays in one go */
-#ifndef SLI_ALLOC_H
-#define SLI_ALLOC_H
+/* alloc.h: the allocator: 64-byte aligned blocks, cut into arrays with overflow checks */
+#ifndef SLI_BASE_ALLOC_H
+#define SLI_BASE_ALLOC_H
 
-#include "../public/types.h"
-#include "base.h"
+#include "options.h"
 
 #define SLI_ALIGN ((size_t)64) /* a cache line, and the widest register */
 
-/* Large blocks in huge pages, where the system gives them: on a factor of 34 to 410 MB full solves
- * took 20 to 23 % less time, refactorizations 3 %. */
+/* Blocks of at least this size ask the system for huge pages. With a factor of 34 to 410 MB, full
+ * solves took 20 to 23 % less time, refactorizations 3 %. */
 #define SLI_HUGE_BLOCK ((size_t)4 << 20)
-#define SLI_PAGE ((size_t)65536) /* a multiple of what systems have */
+#define SLI_PAGE ((size_t)65536) /* a multiple of the page sizes of systems */
 
-SLI_INLINE void sli_ask_huge_pages(void *block, size_t bytes) {
+/* Asks for huge pages; a block that gets none works as well. errno is unchanged. */
+SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
     if (block != NULL && bytes >= SLI_HUGE_BLOCK) {
         const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
         const int keep = errno;
         (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
                           SLI_HUGE_PAGES);
-        errno = keep; /* a refusal changes nothing */
+        errno = keep;
     }
 #else
     (void)block;
@@ -30,7 +30,7 @@ SLI_INLINE void sli_ask_huge_pages(void *block, size_t bytes) {
 SLI_INLINE void *sli_malloc_default(void *context, size_t bytes) {
     void *block = malloc(bytes);
     (void)context;
-    sli_ask_huge_pages(block, bytes);
+    sli_advise_huge_pages(block, bytes);
     return block;
 }
 
@@ -39,12 +39,7 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
     free(block);
 }
 
-/* Whether the caller gives both functions of an allocator, or none. */
-SLI_INLINE int sli_allocator_is_whole(const sl_options *opt) {
-    return opt == NULL || (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
-}
-
-/* The caller's allocator, or malloc and free. */
+/* The caller's allocator; by default malloc and free. */
 SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     sl_allocator a;
     if (opt != NULL && opt->allocator.allocate != NULL && opt->allocator.release != NULL) {
@@ -56,8 +51,16 @@ SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
     return a;
 }
 
-/* bytes > 0 of aligned memory, or NULL. The pointer that the allocator gave stands just before the
- * block. */
+/* Default options with the allocator a. */
+SLI_INLINE sl_options sli_options_with(const sl_allocator *a) {
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.allocator = *a;
+    return opt;
+}
+
+/* Returns bytes > 0 of aligned memory, or NULL. The pointer from the allocator is stored just
+ * before the block. */
 SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
     unsigned char *raw, *block;
     if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
@@ -81,16 +84,16 @@ SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
     }
 }
 
-/* A block to be cut into arrays. A layout function runs twice over it: with base NULL it only
- * counts, with the block allocated it hands out the pointers, so that sizes are written once. */
+/* A block that is cut into arrays. A layout function runs twice over it: with base NULL it only
+ * counts, with the allocated block it returns the pointers. So every size is written once. */
 typedef struct sli_block {
     unsigned char *base;
     size_t used;
     int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. Counts come in 64 bits:
- * those of L may pass 2^32 where size_t has no more than that. */
+/* The next array of count elements of size bytes; NULL while counting. count has 64 bits because
+ * the counts of L may pass 2^32 where size_t has 32 bits. */
 SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     size_t at = b->used, bytes;
     if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
@@ -106,8 +109,8 @@ SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
     return b->base == NULL ? NULL : b->base + at;
 }
 
-/* Allocates what was counted and rewinds for the second run; at least one byte, so that NULL means
- * failure. */
+/* Allocates what was counted and rewinds for the second run. At least one byte is allocated, so
+ * that NULL means failure. */
 SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
     if (b->overflow) {
         return SL_ERR_TOO_LARGE;
@@ -120,7 +123,7 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
     return SL_OK;
 }
 
-/* Arrays of the two index types and of doubles, cut from a block. */
+/* The next array of count elements of a type. */
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 
 #endif

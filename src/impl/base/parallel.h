@@ -1,11 +1,12 @@
-/* parallel.h: the same work for several workers at once: by the caller's pool, by OpenMP, or one after the other */
-#ifndef SLI_PARALLEL_H
-#define SLI_PARALLEL_H
+/* parallel.h: runs work items on the caller's thread pool, with OpenMP, or one after another */
+#ifndef SLI_BASE_PARALLEL_H
+#define SLI_BASE_PARALLEL_H
 
-#include "../public/types.h"
+#include "../../public/options.h"
 #include "base.h"
 
-/* Workers that a wish for threads comes to. */
+/* The number of workers for the options of threads: their count, or 1 where neither a pool nor
+ * OpenMP is available. */
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #if !defined(_OPENMP)
     if (t->run == NULL) {
@@ -15,7 +16,7 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
     return sli_max(t->count, 1);
 }
 
-/* body(data, k) for k = 0 .. count-1. */
+/* Calls body(data, k) for k = 0 .. count-1. */
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
                          void *data) {
     sl_int k;
@@ -31,9 +32,10 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     }
 }
 
-/* Where worker k's part of the row tiles first .. last-1 begins: parts are equal, or, where the rows grow
- * longer as in a triangle, of equal area. */
-static sl_int sli_part(sl_int first, sl_int last, sl_int k, sl_int workers, int is_triangle) {
+/* Where the range of worker k begins among the row tiles first .. last-1: the ranges have equal
+ * length, or for a triangle, whose rows grow longer, equal area. */
+static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
+                                   int is_triangle) {
     const double share = (double)k / workers;
     return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
 }

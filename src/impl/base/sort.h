@@ -1,11 +1,11 @@
-/* sort.h: sorts keyed numbers: insertion for a few, radix for many */
-#ifndef SLI_SORT_H
-#define SLI_SORT_H
+/* sort.h: sorts pairs (key, value): insertion sort for few, radix sort for many; binary search */
+#ifndef SLI_BASE_SORT_H
+#define SLI_BASE_SORT_H
 
 #include "base.h"
 
-/* A row, column or supernode in the upper half, what belongs to it in the lower: one word to move.
- */
+/* A key in the upper half (a row, column or supernode) and its value in the lower half, in one
+ * word. */
 SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
     return (uint64_t)(uint32_t)key << 32 | (uint32_t)value;
 }
@@ -18,7 +18,7 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
     return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
-/* How many of count ascending numbers are below a bound. */
+/* The number of elements below a bound, of count ascending elements. */
 static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
     sl_int low = 0, high = count;
     while (low < high) {
@@ -32,11 +32,11 @@ static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
     return low;
 }
 
-#define SLI_SORT_SMALL                                                                             \
-    48 /* below this the 256 counters of a radix pass cost more than the moves of insertion */
+/* Up to this count the moves of insertion cost less than the 256 counters of a radix pass. */
+#define SLI_SORT_SMALL 48
 
-/* Sorts by key, ascending, keys non-negative; equal keys stay in order. scratch holds count more.
- * O(count) a byte. */
+/* Sorts by key, ascending and stable; keys are not negative. scratch holds count elements. O(count)
+ * per byte of the largest key. */
 static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     sl_int i, k;
     sl_int largest = 0;

@@ -1,9 +1,13 @@
-/* status.h: status codes in words, and the error fields of stats */
-#ifndef SLI_STATUS_H
-#define SLI_STATUS_H
+/* status.h: status codes as text, and the error group of stats */
+#ifndef SLI_BASE_STATUS_H
+#define SLI_BASE_STATUS_H
 
-#include "../public/types.h"
+#include "../../public/stats.h"
 #include "base.h"
+
+SL_API int sl_version(void) {
+    return SL_VERSION;
+}
 
 SL_API const char *sl_status_string(sl_status status) {
     switch (status) {
@@ -35,23 +39,27 @@ SL_API const char *sl_status_string(sl_status status) {
     return "unknown status";
 }
 
-/* Every call that takes stats starts by forgetting the last error. */
+SL_API size_t sl_stats_size(void) {
+    return sizeof(sl_stats);
+}
+
+/* Every call that takes stats begins with this. */
 SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
     if (stats != NULL) {
-        stats->error_row = -1;
-        stats->error_column = -1;
-        stats->error_line = -1;
-        stats->error_value = 0.0;
+        stats->error.row = -1;
+        stats->error.column = -1;
+        stats->error.line = -1;
+        stats->error.value = 0.0;
     }
 }
 
-/* Names the entry at fault and passes the status on. */
+/* Reports the entry at fault in stats; returns the status. */
 SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column,
                                  double value) {
     if (stats != NULL) {
-        stats->error_row = row;
-        stats->error_column = column;
-        stats->error_value = value;
+        stats->error.row = row;
+        stats->error.column = column;
+        stats->error.value = value;
     }
     return status;
 }

@@ -1,50 +1,53 @@
-/* batch_inverse.h: diagonals of several inverses over one analysis, whole factors shared out among workers */
-#ifndef SLI_BATCH_INVERSE_H
-#define SLI_BATCH_INVERSE_H
+/* batch_diagonal.h: diagonals of the inverses of several factors; a worker takes whole factors */
+#ifndef SLI_BATCH_BATCH_DIAGONAL_H
+#define SLI_BATCH_BATCH_DIAGONAL_H
 
-#include "../public/several.h"
-#include "batch.h"
-#include "inverse_entries.h"
+#include "../../public/several.h"
+#include "batch_solve.h"
+#include "../inverse/entries.h"
 
-typedef struct sli_diagonals {
+/* One call. */
+typedef struct sli_diagonal_batch {
     const sl_factor *const *factors;
     sl_int count, workers;
     double *out; /* n_rows x count */
     size_t ldo;
     const sl_int *rows; /* NULL: all n_rows */
     sl_int n_rows;
-    sl_threads none;
-    sl_work *const *works; /* one a worker, with room for any of the factors */
-} sli_diagonals;
+    sl_threads serial;
+    sl_work *const *works; /* one per worker, with room for every factor */
+} sli_diagonal_batch;
 
-/* One factor's. Inside a loop over several workers none of them begins another. */
-static sli_entries sli_diagonals_entries(const sli_diagonals *d, sl_int k) {
+/* The request for factor k. With several workers, none of them uses threads inside. */
+static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_int k) {
     sli_entries q =
         sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
-    q.threads = d->workers > 1 ? &d->none : q.threads;
+    q.threads = d->workers > 1 ? &d->serial : q.threads;
     return q;
 }
 
-/* Worker w's turns among the factors. */
-static void sli_diagonals_share(void *data, sl_int w) {
-    const sli_diagonals *d = (const sli_diagonals *)data;
+/* Worker w computes every workers-th diagonal. */
+static void sli_diagonal_batch_worker(void *data, sl_int w) {
+    const sli_diagonal_batch *d = (const sli_diagonal_batch *)data;
     sl_int k;
     for (k = w; k < d->count; k += d->workers) {
-        sli_entries q = sli_diagonals_entries(d, k);
+        sli_entries q = sli_diagonal_batch_entries(d, k);
         const sl_status status = sli_entries_run(&q, d->works[w], NULL);
-        SLI_ASSERT(status == SL_OK); /* all that could go wrong was tried before */
+        /* everything that can fail has been tried by sli_diagonal_batch_reserve */
+        SLI_ASSERT(status == SL_OK);
         (void)status;
     }
 }
 
-/* Checks every factor; *at: the one at fault. */
-static sl_status sli_diagonals_check(const sli_diagonals *d, sl_int *at, sl_stats *stats) {
+/* Checks every factor and the rows; *at: the factor at fault, or -1. */
+static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *at,
+                                          sl_stats *stats) {
     for (*at = 0; *at < d->count; ++*at) {
         const sl_factor *F = d->factors[*at];
         if (F == NULL) {
             return SL_ERR_ARGUMENT;
         }
-        if (!F->is_good || F->S != d->factors[0]->S) {
+        if (!F->is_valid || !sli_factor_is_over(F, d->factors[0]->S, d->factors[0]->analysis)) {
             return SL_ERR_STATE;
         }
     }
@@ -52,14 +55,15 @@ static sl_status sli_diagonals_check(const sli_diagonals *d, sl_int *at, sl_stat
     return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
 }
 
-/* Room in every workspace for any of the factors: it depends on the rows, and on the instruction set. */
-static sl_status sli_diagonals_reserve(const sli_diagonals *d) {
+/* Grows every workspace to what any of the factors needs: that depends on the rows and on the
+ * instruction set. */
+static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < d->count && status == SL_OK; k++) {
         if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels ||
-            d->workers == 1) { /* then threads of their own count */
-            sli_entries q = sli_diagonals_entries(d, k);
+            d->workers == 1) { /* one worker: a factor's own threads count */
+            sli_entries q = sli_diagonal_batch_entries(d, k);
             status = sli_entries_prepare(&q, d->works[0]);
         }
     }
@@ -69,8 +73,8 @@ static sl_status sli_diagonals_reserve(const sli_diagonals *d) {
     return status;
 }
 
-/* The same with workspaces of the call's own. */
-static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) {
+/* Reserves and runs, with workspaces for this call if the caller has passed none. */
+static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads *threads) {
     const sl_allocator *a = &d->factors[0]->allocator;
     sl_work *own = NULL, **works = NULL;
     sli_block b = {NULL, 0, 0};
@@ -92,9 +96,9 @@ static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) 
         }
         d->works = works;
     }
-    status = sli_diagonals_reserve(d);
+    status = sli_diagonal_batch_reserve(d);
     if (status == SL_OK) {
-        sli_parallel(threads, d->workers, sli_diagonals_share, d);
+        sli_parallel(threads, d->workers, sli_diagonal_batch_worker, d);
     }
     for (w = 0; w < d->workers && own != NULL; w++) {
         sli_free(a, own[w].block);
@@ -105,21 +109,22 @@ static sl_status sli_diagonals_run(sli_diagonals *d, const sl_threads *threads) 
 
 SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count, double *out,
                                    size_t ldo, const sl_int *rows, sl_int n_rows,
-                                   const sl_threads *threads, sl_work *const *works, sl_int *failed,
+                                   const sl_options *opt, sl_work *const *works, sl_int *failed,
                                    sl_stats *stats) {
-    const sl_threads none = {0, NULL, NULL};
-    sli_diagonals d;
+    const sl_threads serial = {0, NULL, NULL};
+    const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+    sli_diagonal_batch d;
     sl_status status;
     sl_int at = -1;
     sli_stats_clear_error(stats);
-    threads = threads == NULL ? &none : threads;
     if (failed != NULL) {
         *failed = -1;
     }
-    if (count < 0 || (count > 0 && factors == NULL) || threads->count < 0) {
+    if (count < 0 || (count > 0 && factors == NULL) ||
+        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    d.none = none;
+    d.serial = serial;
     d.factors = factors;
     d.count = count;
     d.workers = sli_min(sli_workers(threads), count);
@@ -128,7 +133,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     d.rows = rows;
     d.n_rows = n_rows;
     d.works = works;
-    status = sli_diagonals_check(&d, &at, stats);
+    status = sli_diagonal_batch_check(&d, &at, stats);
     if (failed != NULL) {
         *failed = at;
     }
@@ -139,8 +144,8 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     if (n_rows < 0 || (n_rows > 0 && (out == NULL || ldo < (size_t)n_rows))) {
         return SL_ERR_ARGUMENT;
     }
-    status = works == NULL ? SL_OK : sli_works_check(works, d.workers);
-    return status == SL_OK && n_rows > 0 ? sli_diagonals_run(&d, threads) : status;
+    status = works == NULL ? SL_OK : sli_check_works(works, d.workers);
+    return status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
 }
 
 #endif

@@ -1,25 +1,27 @@
-/* batch.h: independent solves spread over workers by the entries of L that they read */
-#ifndef SLI_BATCH_H
-#define SLI_BATCH_H
+/* batch_solve.h: many independent solves, shared among workers by the entries of L they read */
+#ifndef SLI_BATCH_BATCH_SOLVE_H
+#define SLI_BATCH_BATCH_SOLVE_H
 
-#include "../public/batch.h"
-#include "parallel.h"
-#include "plan.h"
+#include "../../public/batch.h"
+#include "../base/parallel.h"
+#include "../solve/plan.h"
 
-typedef struct sli_batch {
-    const sl_factor *F; /* of requests that name none */
+/* One call. */
+typedef struct sli_solve_batch {
+    const sl_factor *F; /* of requests without a factor */
     const sl_request *requests;
     sl_int count, workers;
+    sli_layout layout;     /* of every X and B */
     sl_off blocks;         /* of up to 8 right-hand sides */
     double total;          /* entries of L that all blocks read */
-    sl_work *const *works; /* one a worker, or NULL */
-    unsigned char *memory; /* then `bytes` a worker */
+    sl_work *const *works; /* one per worker; NULL: memory is used */
+    unsigned char *memory; /* `bytes` per worker */
     size_t bytes;
-    int checks;      /* some factor wants to know whether its right-hand sides are consistent: */
-    int only_checks; /* looks for a right-hand side that is not consistent, and writes no X */
-} sli_batch;
+    int checks;      /* 1: some factor requires consistent right-hand sides */
+    int only_checks; /* 1: this pass checks the right-hand sides and writes no X */
+} sli_solve_batch;
 
-SLI_INLINE const sl_factor *sli_request_factor(const sli_batch *b, const sl_request *r) {
+SLI_INLINE const sl_factor *sli_request_factor(const sli_solve_batch *b, const sl_request *r) {
     return r->factor != NULL ? r->factor : b->F;
 }
 
@@ -27,34 +29,30 @@ static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
     return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
 }
 
-SLI_INLINE sli_layout sli_request_layout(const sl_request *r) {
-    return r->is_interleaved ? SLI_INTERLEAVED : SLI_COLUMN_MAJOR;
-}
-
-/* What one block of 8 right-hand sides reads, and one for the call itself. */
+/* The weight of a block of 8 right-hand sides: the entries that it reads, and 1 for the call. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
     return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
-           (double)q->shore.entries;
+           (double)q->boundary.entries;
 }
 
-/* Right-hand sides of a request that start before some share of the batch: whole blocks of 8, from
- * `before`, what the requests before it weigh. */
-static sl_int sli_blocks_before(double share, double before, double weight, sl_int nrhs) {
-    const double blocks = ceil((share - before) / weight);
+/* Right-hand sides of a request that begin before a point of the batch, given by weight; `before`
+ * is the weight of the requests before this one. Only whole blocks of 8 are counted. */
+static sl_int sli_blocks_before(double point, double before, double weight, sl_int nrhs) {
+    const double blocks = ceil((point - before) / weight);
     return blocks <= 0.0 ? 0 : blocks * 8.0 >= nrhs ? nrhs : (sl_int)blocks * 8;
 }
 
-/* Worker k's scratch. */
-static void *sli_batch_memory(const sli_batch *b, sl_int k) {
+/* The scratch of worker k. */
+static void *sli_solve_batch_memory(const sli_solve_batch *b, sl_int k) {
     return b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
 }
 
-/* Right-hand sides first .. last-1 of a request. */
-static sl_status sli_batch_part(const sli_batch *b, const sl_request *r, const sli_query *q,
-                                sl_int first, sl_int last, void *memory) {
+/* Solves for the right-hand sides first .. last-1 of a request, or only checks them. */
+static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_request *r,
+                                         const sli_query *q, sl_int first, sl_int last,
+                                         void *memory) {
     const sl_factor *F = sli_request_factor(b, r);
-    const sli_layout layout = sli_request_layout(r);
-    const sli_dense x_at = sli_dense_of(layout, r->ldx), b_at = sli_dense_of(layout, r->ldb);
+    const sli_dense x_at = sli_dense_of(b->layout, r->ldx), b_at = sli_dense_of(b->layout, r->ldb);
     const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
     if (b->only_checks) {
         return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
@@ -63,12 +61,12 @@ static sl_status sli_batch_part(const sli_batch *b, const sl_request *r, const s
                             memory);
 }
 
-/* Worker k's share of the batch. Where it checks, it leaves the first request that failed, or -1, in its
- * memory. */
-static void sli_batch_share(void *data, sl_int k) {
-    const sli_batch *b = (const sli_batch *)data;
+/* Worker k solves an equal share of the weight. When checking, it leaves the first request that
+ * failed, or -1, in its scratch. */
+static void sli_solve_batch_worker(void *data, sl_int k) {
+    const sli_solve_batch *b = (const sli_solve_batch *)data;
     const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
-    void *memory = sli_batch_memory(b, k);
+    void *memory = sli_solve_batch_memory(b, k);
     double before = 0.0;
     sl_int m, failed = -1;
     for (m = 0; m < b->count && before < to && failed == -1; m++) {
@@ -79,7 +77,8 @@ static void sli_batch_share(void *data, sl_int k) {
         const sl_int first = sli_blocks_before(from, before, weight, r->nrhs);
         const sl_int last =
             k + 1 == b->workers ? r->nrhs : sli_blocks_before(to, before, weight, r->nrhs);
-        if (first < last && q.nx > 0 && sli_batch_part(b, r, &q, first, last, memory) != SL_OK) {
+        if (first < last && q.nx > 0 &&
+            sli_solve_batch_columns(b, r, &q, first, last, memory) != SL_OK) {
             failed = m;
         }
         before += weight * (sli_tiles(r->nrhs));
@@ -89,21 +88,24 @@ static void sli_batch_share(void *data, sl_int k) {
     }
 }
 
-/* Whether every right-hand side is consistent; *at: the first request with one that is not. */
-static sl_status sli_batch_consistent(sli_batch *b, const sl_threads *threads, sl_int *at) {
+/* Checks that every right-hand side is consistent; *at: the first request with one that is not, or
+ * -1. */
+static sl_status sli_solve_batch_consistent(sli_solve_batch *b, const sl_threads *threads,
+                                            sl_int *at) {
     sl_int k, failed;
     b->only_checks = 1;
-    sli_parallel(threads, b->workers, sli_batch_share, b);
+    sli_parallel(threads, b->workers, sli_solve_batch_worker, b);
     b->only_checks = 0;
     for (k = 0; k < b->workers && *at == -1; k++) { /* later workers have later requests */
-        memcpy(&failed, sli_batch_memory(b, k), sizeof failed);
+        memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
         *at = failed;
     }
     return *at == -1 ? SL_OK : SL_ERR_INCONSISTENT;
 }
 
-/* Checks every request; weighs them and finds the scratch that they need. */
-static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
+/* Checks every request, sums the weights, and finds the size of the scratch; *at: the request at
+ * fault, or -1. */
+static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
     for (*at = 0; *at < b->count; ++*at) {
         const sl_request *r = &b->requests[*at];
         const sl_factor *F = sli_request_factor(b, r);
@@ -114,8 +116,7 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
             return SL_ERR_ARGUMENT;
         }
         q = sli_request_query(F, r);
-        status =
-            sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, sli_request_layout(r), r->nrhs);
+        status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, b->layout, r->nrhs);
         if (status != SL_OK) {
             return status;
         }
@@ -136,8 +137,8 @@ static sl_status sli_batch_check(sli_batch *b, sl_int *at) {
     return SL_OK;
 }
 
-/* Refuses workspaces that are not there, or given twice. */
-static sl_status sli_works_check(sl_work *const *works, sl_int workers) {
+/* Refuses missing workspaces and one that is given twice. */
+static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
     sl_int k, other;
     for (k = 0; k < workers; k++) {
         if (works[k] == NULL) {
@@ -152,10 +153,12 @@ static sl_status sli_works_check(sl_work *const *works, sl_int workers) {
     return SL_OK;
 }
 
-/* Scratch for every worker: in the caller's workspaces, or in one block of a's to be freed. */
-static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works, const sl_allocator *a) {
+/* Reserves scratch for every worker: in the caller's workspaces, or in one block from `a` that the
+ * caller of this function frees. */
+static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
+                                         const sl_allocator *a) {
     sli_block block = {NULL, 0, 0};
-    sl_status status = works == NULL ? SL_OK : sli_works_check(works, b->workers);
+    sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
     sl_int k;
     int pass;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
@@ -173,38 +176,40 @@ static sl_status sli_batch_reserve(sli_batch *b, sl_work *const *works, const sl
     return status;
 }
 
-SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
-                                const sl_threads *threads, sl_work *const *works, sl_int *failed) {
-    sl_threads none;
-    sli_batch b;
+static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *requests, sl_int count,
+                                     sli_layout layout, const sl_options *opt,
+                                     sl_work *const *works, sl_int *failed) {
+    const sl_threads serial = {0, NULL, NULL};
+    const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
+    sli_solve_batch b;
     sl_status status;
     sl_int at = -1;
-    memset(&none, 0, sizeof none);
     memset(&b, 0, sizeof b);
-    threads = threads == NULL ? &none : threads;
     if (failed != NULL) {
         *failed = -1;
     }
-    if (count < 0 || (count > 0 && requests == NULL) || threads->count < 0) {
+    if (count < 0 || (count > 0 && requests == NULL) ||
+        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    if (F != NULL && !F->is_good) {
+    if (F != NULL && !F->is_valid) {
         return SL_ERR_STATE;
     }
     b.F = F;
     b.requests = requests;
     b.count = count;
-    status = sli_batch_check(&b, &at);
+    b.layout = layout;
+    status = sli_solve_batch_check(&b, &at);
     b.workers = sli_workers(threads);
     b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
     if (status == SL_OK && b.blocks > 0) {
         const sl_allocator *a = &sli_request_factor(&b, requests)->allocator;
-        status = sli_batch_reserve(&b, works, a);
+        status = sli_solve_batch_reserve(&b, works, a);
         if (status == SL_OK && b.checks) {
-            status = sli_batch_consistent(&b, threads, &at);
+            status = sli_solve_batch_consistent(&b, threads, &at);
         }
         if (status == SL_OK) {
-            sli_parallel(threads, b.workers, sli_batch_share, &b);
+            sli_parallel(threads, b.workers, sli_solve_batch_worker, &b);
         }
         if (works == NULL) {
             sli_free(a, b.memory);
@@ -214,6 +219,17 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
         *failed = at;
     }
     return status;
+}
+
+SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
+                                const sl_options *opt, sl_work *const *works, sl_int *failed) {
+    return sli_solve_batch_run(F, requests, count, SLI_COLUMN_MAJOR, opt, works, failed);
+}
+
+SL_API sl_status sl_batch_solve_interleaved(const sl_factor *F, const sl_request *requests,
+                                            sl_int count, const sl_options *opt,
+                                            sl_work *const *works, sl_int *failed) {
+    return sli_solve_batch_run(F, requests, count, SLI_INTERLEAVED, opt, works, failed);
 }
 
 #endif

@@ -1,11 +1,11 @@
-/* combination.h: factorizations of weighted sums of value arrays that stand in the order of the analysis */
-#ifndef SLI_COMBINATION_H
-#define SLI_COMBINATION_H
+/* combination.h: factorization of a weighted sum of value arrays in the order of the scatter map */
+#ifndef SLI_FACTOR_COMBINATION_H
+#define SLI_FACTOR_COMBINATION_H
 
-#include "../public/several.h"
+#include "../../public/several.h"
 #include "factor.h"
 
-/* A sum as the source of a factorization. */
+/* Describes a sum as the source of a factorization; checks its arguments. */
 static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
                                    const double *const *values, sl_int terms, sli_source *from) {
     sl_int t;
@@ -13,7 +13,7 @@ static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficie
         return SL_ERR_ARGUMENT;
     }
     for (t = 0; t < terms; t++) {
-        if (values[t] == NULL && S->map_begin[S->n_supers] > 0) {
+        if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
             return SL_ERR_ARGUMENT;
         }
     }
@@ -35,11 +35,11 @@ SL_API sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (S == NULL || !sli_factor_wishes_are_sound(opt)) {
+    if (S == NULL || !sli_factor_options_are_valid(opt)) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_source_of_sum(S, coefficients, values, terms, &from);
-    return status == SL_OK ? sli_factor_make(out, S, &from, opt, stats) : status;
+    return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
 }
 
 SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coefficients,
@@ -52,9 +52,15 @@ SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coef
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    sli_factor_begin(F);
+    if (!sli_factor_is_over(F, F->S, F->analysis)) {
+        return SL_ERR_STATE;
+    }
     status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
-    return status == SL_OK ? sli_factor_numbers(F, &from, started, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_factor_begin(F);
+    return sli_factor_numbers(F, &from, started, stats);
 }
 
 #endif

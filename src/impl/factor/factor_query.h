@@ -1,6 +1,6 @@
-/* factor_ask.h: what can be asked of a factor: statistics, the determinant, L as a matrix, a look inside */
-#ifndef SLI_FACTOR_ASK_H
-#define SLI_FACTOR_ASK_H
+/* factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
+#ifndef SLI_FACTOR_FACTOR_QUERY_H
+#define SLI_FACTOR_FACTOR_QUERY_H
 
 #include "factor.h"
 
@@ -17,24 +17,24 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     if (F == NULL || log_abs_det == NULL || sign == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     for (k = 0; k < F->S->n; k++) {
         sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
     }
     *log_abs_det = sum;
-    *sign = F->stats.negative % 2 == 0 ? 1.0 : -1.0;
+    *sign = F->stats.factor.negative % 2 == 0 ? 1.0 : -1.0;
     return SL_OK;
 }
 
-/* Where rows can be listed. */
+/* Checks the arguments of a call that lists rows. */
 static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int most,
                                 const sl_int *count) {
     if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    return F->is_good ? SL_OK : SL_ERR_STATE;
+    return F->is_valid ? SL_OK : SL_ERR_STATE;
 }
 
 SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
@@ -57,7 +57,7 @@ SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, do
     if (status != SL_OK) {
         return status;
     }
-    *count = F->stats.regularized;
+    *count = F->stats.factor.regularized;
     for (m = 0; m < sli_min(most, *count); m++) {
         rows[m] = F->S->perm[F->regularized[m]];
         if (shifts != NULL) {
@@ -67,8 +67,8 @@ SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, do
     return SL_OK;
 }
 
-/* Entries of L: the nonzero places of the panels and the unit diagonal. M NULL: only counts them.
- */
+/* Counts the entries of L: the unit diagonal and the nonzeros of the panels. Writes them to M
+ * unless M is NULL. */
 static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
     const sl_symbolic *S = F->S;
     sl_int s, j, r;
@@ -103,10 +103,10 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL || !sli_allocator_is_whole(opt)) {
+    if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     count = sli_factor_entries(F, NULL);
@@ -121,8 +121,8 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
     return status;
 }
 
-SL_API sl_factor_view_t sl_factor_view(const sl_factor *F) {
-    sl_factor_view_t v = {NULL, NULL, NULL};
+SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
+    sl_factor_arrays v = {NULL, NULL, NULL};
     if (F != NULL) {
         v.symbolic = F->S;
         v.L = F->L;

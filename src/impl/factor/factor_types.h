@@ -1,77 +1,122 @@
-/* factor_parts.h: the factor object, and what both ways to factor share: loading a panel, taking a pivot */
-#ifndef SLI_FACTOR_PARTS_H
-#define SLI_FACTOR_PARTS_H
+/* factor_types.h: the factor object, and what both methods share: panel loading, pivot checks */
+#ifndef SLI_FACTOR_FACTOR_TYPES_H
+#define SLI_FACTOR_FACTOR_TYPES_H
 
-#include "csc.h"
-#include "schedule.h"
-#include "select.h"
-#include "status.h"
+#include "../matrix/csc.h"
+#include "../analysis/schedule.h"
+#include "../kernels/dispatch.h"
+#include "../base/status.h"
 
-/* Where a factorization takes the entries of its matrix from: A, or a sum of arrays in the order of the
- * analysis's map. */
+/* The source of a factorization's entries: a matrix A, or a weighted sum of value arrays in the
+ * order of the scatter map. */
 typedef struct sli_source {
     const sl_csc *A;             /* NULL: the sum over t of coefficients[t] values[t] */
-    const double *const *values; /* terms arrays of map_begin[n_supers] */
+    const double *const *values; /* terms arrays, scatter_begin[n_supers] values each */
     const double *coefficients;  /* terms */
     sl_int terms;
 } sli_source;
 
-/* The first thing that went wrong in a factorization. */
+/* The first failure of a factorization. */
 typedef struct sli_failure {
     sl_status status;
-    sl_int super; /* the supernode it happened in */
+    sl_int super; /* the supernode in which it occurred */
     sl_int pivot; /* the pivot that is null or not finite, or -1 */
-    sl_off
-        position; /* the entry that is not finite, in the order of the map, or -1: a coefficient */
+    /* the entry that is not finite, as a position in the scatter map; -1: a coefficient */
+    sl_off position;
     double value;
 } sli_failure;
 
 struct sl_factor {
     sl_allocator allocator;
-    sl_stats stats;       /* the factor group and the error fields */
+    sl_stats stats;       /* the factor group and the error group */
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
     sli_pivot_rule rule;
-    sl_definiteness definiteness;
+    sl_null_pivots null_pivots;
     sl_method method;
-    int is_good;         /* L and D hold a factor */
-    sl_status status;    /* what the last factorization came to */
-    uint64_t generation; /* of the numbers: how often they were begun anew */
-    double *L;           /* the panels */
+    int is_valid;        /* L and D hold a factor */
+    sl_status status;    /* of the last factorization */
+    /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
+     * numbers keeps it */
+    sli_hash identity;
+    uint64_t generation; /* counts factorizations, also those that give the same numbers again */
+    sli_hash analysis;   /* the identity of S */
+    double *L;           /* the panels of all supernodes */
     double *D;           /* n pivots */
-    sl_int *
-        regularized; /* n: the pivots that regularization changed, ascending; NULL: there is none */
+    /* n: the pivots that regularization changed, ascending; NULL: no regularization */
+    sl_int *regularized;
+
     /* null pivots */
-    double consistency; /* what |z' b| may be against the sum of |b|; negative: not looked at */
-    int checks;         /* there are null pivots, and solves look whether b is consistent */
-    int is_centred;     /* there are null pivots, and solves are centred by mass: */
+    double consistency; /* the bound on |z' b| relative to the sum of |b|; negative: no check */
+    int checks;         /* there are null pivots, and solves check that b is consistent */
+    int is_centered;    /* there are null pivots, and solves center x by the weights in mass */
     sl_int n_nulls;
-    sl_int *nulls; /* n: n_nulls null pivots, ascending */
+    sl_int *nulls; /* n: the n_nulls skipped pivots, ascending */
     sl_int n_anchors;
-    sl_int *anchors; /* a tree each: the null pivots that weights take care of, ascending */
-    double *mass;    /* n, in pivot order; NULL: none */
-    double *centre;  /* n: v = D^-1 L^-1 m / z' m */
-    double *squares; /* a tree each: v' D v of the one of each anchor */
-    double *divide;  /* n: D with 1 for null pivots: x is given there */
-    double *centre_scratch;
-    double *buffer; /* kernel scratch, for each worker */
-    /* multifrontal; what a worker needs stands once for each */
+    /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
+    sl_int *anchors;
+    double *mass; /* n: the weights m in pivot order; NULL: none */
+    double *z;    /* n: the assumed null vectors of all components, in pivot order */
+    /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h) */
+    double *g;
+    sl_int *last; /* n: the last pivot of the component of each row */
+    double *product, *size; /* n: scratch: A v and |A| |v| */
+    sl_int *entries;        /* n: scratch: entries of each row */
+    /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
+    double *center;
+    double *squares;  /* components: w' D^+ w of the tree of each anchor */
+    double *ratios;   /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
+    double *divisors; /* n: D, with 1 at the anchors, where the backward sweep is given x itself */
+    double *center_scratch;
+    double *buffer; /* kernel scratch, one piece a worker */
+
+    /* multifrontal; scratch arrays hold one piece a worker */
     sl_threads threads;
     sli_schedule schedule;
-    double *waiting;       /* schedule.waiting: update matrices on their way to the parents */
-    double *magnitude;     /* rows of the tallest front: what its diagonal was made of */
-    double *inverse;       /* SLI_FRONT_INVERSE */
-    sli_failure *failures; /* one */
+    double *stack; /* the update stack: update matrices until their parents assemble them */
+    /* rows of the tallest front: the sum of the magnitudes that went into each diagonal entry */
+    double *magnitude;
+    double *reciprocals;   /* SLI_FRONT_RECIPROCALS */
+    sli_failure *failures; /* the first failure of a worker */
+
     /* up-looking */
-    double *x;        /* n: updates on their way up row k; all 0 between rows */
-    sl_int *head;     /* n: first supernode whose next row is k, -1 for none */
-    sl_int *next;     /* n_supers: the others, as a list */
-    sl_int *position; /* n_supers: how many rows below have been done */
-    uint64_t *list;   /* n_supers: the reach of row k */
+    double *x;        /* n: row k while it is computed; all 0 between rows */
+    sl_int *head;     /* n: the first supernode whose next row is k, -1 for none */
+    sl_int *next;     /* n_supers: the next supernode in the same list, -1 at the end */
+    sl_int *position; /* n_supers: how many rows below each supernode are computed */
+    uint64_t *list;   /* n_supers: the supernodes in the reach of row k */
     uint64_t *list_scratch;
 };
 
-/* Fills a failure in and returns its status. */
+/* The numbers of a factor at one time. */
+typedef struct sli_numbers {
+    const sl_factor *F;
+    sli_hash identity;
+    uint64_t generation; /* 0: none */
+} sli_numbers;
+
+SLI_INLINE sli_numbers sli_numbers_of(const sl_factor *F) {
+    sli_numbers numbers;
+    numbers.F = F;
+    numbers.identity = F->identity;
+    numbers.generation = F->generation;
+    return numbers;
+}
+
+/* Does F hold these numbers? Also false for another factor that was created at the same address. */
+SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F) {
+    return numbers->F == F && numbers->generation == F->generation &&
+           sli_hash_equals(numbers->identity, F->identity);
+}
+
+/* Is F a factor over the analysis S, with this identity? Also false if the analysis of F was
+ * released and another one created at its address. */
+SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_hash identity) {
+    return F->S == S && sli_hash_equals(F->analysis, S->identity) &&
+           sli_hash_equals(identity, S->identity);
+}
+
+/* Fills in a failure and returns its status. */
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
                               sl_off position, double value) {
     f->status = status;
@@ -88,10 +133,10 @@ SLI_INLINE void sli_keep_first_failure(sli_failure *f, const sli_failure *other)
     }
 }
 
-/* The column of A that holds position p. */
+/* Returns the column of A that holds position p. */
 static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     sl_int low = 0, high = A->n_cols - 1;
-    while (low < high) { /* the last column that starts at or before p */
+    while (low < high) { /* finds the last column that begins at or before p */
         const sl_int middle = low + (high - low + 1) / 2;
         if (A->p[middle] <= p) {
             low = middle;
@@ -102,15 +147,17 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Adds the entries first .. last-1 of the map to supernode s's panel: each from its own place in x, or,
- * with map_from NULL, x holds them alone. */
-SLI_ALWAYS_INLINE sl_status sli_panel_add_entries(const sl_factor *F, sl_int s, sl_off first,
-                                                  sl_off last, const double *x,
-                                                  const sl_int *map_from, sli_failure *failure) {
-    const sl_off *to = F->S->map_to;
+/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s. With
+ * scatter_from, x is A's value array and scatter_from[m] the position of entry m; without, x[0] is
+ * the value of entry `first`. */
+SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, sl_off first,
+                                                   sl_off last, const double *x,
+                                                   const sl_int *scatter_from,
+                                                   sli_failure *failure) {
+    const sl_off *to = F->S->scatter_to;
     sl_off m;
     for (m = first; m < last; m++) {
-        const double a = map_from != NULL ? x[map_from[m]] : x[m - first];
+        const double a = scatter_from != NULL ? x[scatter_from[m]] : x[m - first];
         if (!sli_is_finite(a)) {
             return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
@@ -119,44 +166,43 @@ SLI_ALWAYS_INLINE sl_status sli_panel_add_entries(const sl_factor *F, sl_int s, 
     return SL_OK;
 }
 
-#define SLI_SUMMED 64 /* entries that are summed at a time: most supernodes have no more */
+#define SLI_SUM_ENTRIES 64 /* entries that are summed at a time; most supernodes have no more */
 
-/* sums := the entries of the map from first on */
+/* sums := the weighted sums of the map's entries first .. first+count-1 */
 static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
     sl_int k, t;
     memset(sums, 0, (size_t)count * sizeof(double));
     for (t = 0; t < from->terms; t++) {
         const double c = from->coefficients[t], *v = from->values[t] + first;
         for (k = 0; k < count; k++) {
-            const double product = c * v[k]; /* rounded, as in a sum that the caller makes */
+            const double product = c * v[k]; /* rounded, as in a sum that the caller computes */
             sums[k] += product;
         }
     }
 }
 
-/* Adds the matrix's entries to supernode s's panel. */
-static sl_status sli_panel_add(const sl_factor *F, const sli_source *from, sl_int s,
-                               sli_failure *failure) {
+/* Adds the matrix's entries to the panel of supernode s. */
+static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s,
+                                sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    const sl_off end = S->map_begin[s + 1];
-    sl_off m = S->map_begin[s], last;
-    double sums[SLI_SUMMED];
+    const sl_off end = S->scatter_begin[s + 1];
+    sl_off m = S->scatter_begin[s], last;
+    double sums[SLI_SUM_ENTRIES];
     sl_status status = SL_OK;
     if (from->A != NULL) {
-        return sli_panel_add_entries(F, s, m, end, from->A->x, S->map_from, failure);
+        return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
     }
     for (; m < end && status == SL_OK; m = last) {
-        last = end - m < SLI_SUMMED ? end : m + SLI_SUMMED;
+        last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
         sli_source_sum(from, m, (sl_int)(last - m), sums);
-        status = sli_panel_add_entries(F, s, m, last, sums, NULL, failure);
+        status = sli_panel_load_entries(F, s, m, last, sums, NULL, failure);
     }
     return status;
 }
 
-/* Refuses a pivot that is not a number or null against what it was made of. */
 /* Was pivot k null and skipped? */
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-    return F->definiteness == SL_SEMIDEFINITE && F->D[k] == SLI_NULL_PIVOT;
+    return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
 }
 
 /* Was pivot k changed by regularization? */
@@ -164,7 +210,8 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
     return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
 }
 
-/* Refuses a pivot that is not a number, or null against what it was made of and not replaced. */
+/* Refuses a pivot that is not finite, or one that is null against the magnitudes it was computed
+ * from and was not replaced. */
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
                                      sli_failure *failure) {
     if (!sli_is_finite(pivot)) {
@@ -173,31 +220,37 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot,
     if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
     }
+    if (F->null_pivots == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
+        !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
+    }
     return SL_OK;
 }
 
-/* Counts and bounds of the first pivots. */
+/* Counts the first pivots by sign and records their least and largest magnitude. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_stats *stats = &F->stats;
     sl_int k;
-    stats->positive = stats->negative = stats->null = stats->regularized = 0;
-    stats->pivot_min = stats->pivot_max = 0.0;
+    stats->factor.positive = stats->factor.negative = stats->factor.null =
+        stats->factor.regularized = stats->factor.weak = 0;
+    stats->factor.pivot_min = stats->factor.pivot_max = 0.0;
     for (k = 0; k < count; k++) {
         const double size = fabs(F->D[k]);
         if (sli_is_skipped(F, k)) {
-            stats->null++;
+            stats->factor.null++;
             continue;
         }
+        stats->factor.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
         if (sli_is_regularized(F, k)) {
-            F->regularized[stats->regularized++] = k;
+            F->regularized[stats->factor.regularized++] = k;
         }
-        if (stats->positive + stats->negative == 0) {
-            stats->pivot_min = size;
+        if (stats->factor.positive + stats->factor.negative == 0) {
+            stats->factor.pivot_min = size;
         }
-        stats->positive += F->D[k] > 0.0;
-        stats->negative += F->D[k] < 0.0;
-        stats->pivot_min = size < stats->pivot_min ? size : stats->pivot_min;
-        stats->pivot_max = size > stats->pivot_max ? size : stats->pivot_max;
+        stats->factor.positive += F->D[k] > 0.0;
+        stats->factor.negative += F->D[k] < 0.0;
+        stats->factor.pivot_min = size < stats->factor.pivot_min ? size : stats->factor.pivot_min;
+        stats->factor.pivot_max = size > stats->factor.pivot_max ? size : stats->factor.pivot_max;
     }
 }
 

@@ -1,15 +1,15 @@
-/* multifrontal.h: the supernodal factorization: front by front, each handing its update matrix to its parent */
-#ifndef SLI_MULTIFRONTAL_H
-#define SLI_MULTIFRONTAL_H
+/* multifrontal.h: supernodal factorization: fronts in postorder pass update matrices upward */
+#ifndef SLI_FACTOR_MULTIFRONTAL_H
+#define SLI_FACTOR_MULTIFRONTAL_H
 
-#include "factor_parts.h"
+#include "factor_types.h"
 
-/* One call's worth of work for several workers: the subtrees that they do by themselves, then a front
- * above them in which each takes some row tiles. */
+/* What the workers of one parallel call share. First each worker factors whole subtrees; then all
+ * workers factor the fronts above them together, each on its own row tiles. */
 typedef struct sli_job {
     sl_factor *F;
     const sli_source *from;
-    sl_int super, group; /* the front, and its group of column tiles */
+    sl_int super, group; /* the current front, and its current group of column tiles */
     sli_front front;
 } sli_job;
 
@@ -20,10 +20,10 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.panel = F->L + step->panel;
     f.width = step->width;
     f.below = step->below;
-    f.update = F->waiting + F->schedule.waiting_begin[s];
+    f.update = F->stack + F->schedule.stack_begin[s];
     f.D = F->D + step->column;
     f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
-    f.inverse = F->inverse + (ptrdiff_t)worker * SLI_FRONT_INVERSE;
+    f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
     f.rule = &F->rule;
     f.column = step->column;
     return f;
@@ -44,10 +44,11 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
     }
 }
 
-/* The matrix's entries onto the cleared panel, and what its diagonal is made of so far. */
+/* Adds the matrix's entries to the cleared panel and starts the magnitudes of its diagonal with
+ * them. */
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                                 sli_failure *failure) {
-    const sl_status status = sli_panel_add(F, from, s, failure);
+    const sl_status status = sli_panel_load(F, from, s, failure);
     sl_int k;
     for (k = 0; k < f->width; k++) {
         f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
@@ -58,27 +59,28 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
     return status;
 }
 
-/* What the children hand over to row tiles t0 .. t1-1, the last child first. */
+/* Extend-add: assembles the children's update matrices into row tiles t0 .. t1-1, the last child
+ * first. */
 static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int t0,
                                sl_int t1) {
     const sl_symbolic *S = F->S;
     sl_int c, k;
-    for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
-        const sl_int *places = S->places + S->rows_begin[c];
-        const double *from = F->waiting + F->schedule.waiting_begin[c];
+        const sl_int *relative = S->relative + S->rows_begin[c];
+        const double *from = F->stack + F->schedule.stack_begin[c];
         const double *magnitude = from + child->width % SLI_TILE +
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-        const sl_int first = sli_lower_bound(places, child->below, SLI_TILE * t0);
-        const sl_int last = sli_lower_bound(places, child->below, SLI_TILE * t1);
-        F->kernels->assemble(f, from, child->width % SLI_TILE, places, child->below, first, last);
+        const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
+        const sl_int last = sli_lower_bound(relative, child->below, SLI_TILE * t1);
+        F->kernels->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
         for (k = first; k < last; k++) {
-            f->magnitude[places[k]] += magnitude[k];
+            f->magnitude[relative[k]] += magnitude[k];
         }
     }
 }
 
-/* The magnitudes of the rows below go where the update matrix waits. */
+/* Stores the magnitudes of the rows below next to the update matrix, for the parent. */
 static void sli_front_hand_over(const sli_front *f) {
     const sl_int tiles = sli_update_tiles(f->width, f->below);
     memcpy(f->update + sli_triangle_offset(tiles),
@@ -86,7 +88,7 @@ static void sli_front_hand_over(const sli_front *f) {
            SLI_TILE * (size_t)tiles * sizeof(double));
 }
 
-/* A null pivot that nothing was done about is a failure. */
+/* Refuses pivots that are not finite, and null pivots that were not replaced. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
@@ -98,17 +100,17 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
     return status;
 }
 
-/* The panel of a front, from A and all updates to L. */
+/* Factors the panel of an assembled front: its columns of L and D. */
 static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
     const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
     sl_int c0;
-    for (c0 = 0; c0 < ends; c0 += SLI_GROUP) {
+    for (c0 = 0; c0 < ends; c0 += SLI_GROUP_TILES) {
         kernels->pivots(f, c0, scratch);
-        kernels->rows(f, c0, sli_min(c0 + SLI_GROUP, ends), tiles, scratch);
+        kernels->rows(f, c0, sli_min(c0 + SLI_GROUP_TILES, ends), tiles, scratch);
     }
 }
 
-/* The update matrix of a front, from what the children handed over to what the parent gets. */
+/* Computes the update matrix of a front from the assembled front and its panel. */
 static void sli_front_update(const sli_kernels *kernels, const sli_front *f, double *scratch) {
     const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
     if (f->below > 0) {
@@ -116,9 +118,9 @@ static void sli_front_update(const sli_kernels *kernels, const sli_front *f, dou
     }
 }
 
-/* The whole of supernode s's front by one worker. */
-static sl_status sli_front_alone(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
-                                 sli_failure *failure) {
+/* Factors the front of supernode s on one worker. */
+static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+                                  sli_failure *failure) {
     const sli_front f = sli_front_of(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
@@ -135,19 +137,20 @@ static sl_status sli_front_alone(sl_factor *F, const sli_source *from, sl_int s,
     return sli_front_check(F, &f, s, failure);
 }
 
-/* Worker k's subtrees. A failure ends its subtree only: the first failure of all must be found. */
-static void sli_do_tasks(void *data, sl_int k) {
+/* Factors worker k's subtrees. A failure ends the subtree only: the failure to report is the first
+ * one in the order of supernodes, and another subtree may hold it. */
+static void sli_run_tasks(void *data, sl_int k) {
     const sli_job *job = (const sli_job *)data;
-    const sli_schedule *plan = &job->F->schedule;
+    const sli_schedule *schedule = &job->F->schedule;
     sl_int m, s;
-    for (m = 0; m < plan->n_tasks; m++) {
+    for (m = 0; m < schedule->n_tasks; m++) {
         sli_failure failure;
         sl_status status = SL_OK;
-        if (plan->worker[m] != k) {
+        if (schedule->worker[m] != k) {
             continue;
         }
-        for (s = plan->first[m]; s <= plan->last[m] && status == SL_OK; s++) {
-            status = sli_front_alone(job->F, job->from, s, k, &failure);
+        for (s = schedule->first[m]; s <= schedule->last[m] && status == SL_OK; s++) {
+            status = sli_front_factor(job->F, job->from, s, k, &failure);
             if (status != SL_OK) {
                 sli_keep_first_failure(&job->F->failures[k], &failure);
             }
@@ -158,24 +161,25 @@ static void sli_do_tasks(void *data, sl_int k) {
 static void sli_shared_clear(void *data, sl_int k) {
     const sli_job *job = (const sli_job *)data;
     const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    sli_front_clear(&job->front, sli_part(0, tiles, k, workers, 1),
-                    sli_part(0, tiles, k + 1, workers, 1));
+    sli_front_clear(&job->front, sli_tile_range_begin(0, tiles, k, workers, 1),
+                    sli_tile_range_begin(0, tiles, k + 1, workers, 1));
 }
 
 static void sli_shared_assemble(void *data, sl_int k) {
     const sli_job *job = (const sli_job *)data;
     const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    sli_front_assemble(job->F, &job->front, job->super, sli_part(0, tiles, k, workers, 1),
-                       sli_part(0, tiles, k + 1, workers, 1));
+    sli_front_assemble(job->F, &job->front, job->super,
+                       sli_tile_range_begin(0, tiles, k, workers, 1),
+                       sli_tile_range_begin(0, tiles, k + 1, workers, 1));
 }
 
 static void sli_shared_rows(void *data, sl_int k) {
     const sli_job *job = (const sli_job *)data;
     const sl_factor *F = job->F;
     const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    const sl_int c1 = sli_min(job->group + SLI_GROUP, sli_tiles(job->front.width));
-    F->kernels->rows(&job->front, job->group, sli_part(c1, tiles, k, workers, 0),
-                     sli_part(c1, tiles, k + 1, workers, 0),
+    const sl_int c1 = sli_min(job->group + SLI_GROUP_TILES, sli_tiles(job->front.width));
+    F->kernels->rows(&job->front, job->group, sli_tile_range_begin(c1, tiles, k, workers, 0),
+                     sli_tile_range_begin(c1, tiles, k + 1, workers, 0),
                      F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
 }
 
@@ -184,13 +188,13 @@ static void sli_shared_update(void *data, sl_int k) {
     const sl_factor *F = job->F;
     const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
     const sl_int whole = job->front.width / SLI_TILE;
-    F->kernels->update(&job->front, whole, tiles, sli_part(whole, tiles, k, workers, 1),
-                       sli_part(whole, tiles, k + 1, workers, 1),
+    F->kernels->update(&job->front, whole, tiles, sli_tile_range_begin(whole, tiles, k, workers, 1),
+                       sli_tile_range_begin(whole, tiles, k + 1, workers, 1),
                        F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
 }
 
-/* The whole of a front by all workers. */
-static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
+/* Factors a front on all workers. */
+static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
     sl_factor *F = job->F;
     const sl_threads *threads = &F->threads;
     const sl_int workers = F->schedule.workers;
@@ -202,7 +206,7 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
         return status;
     }
     sli_parallel(threads, workers, sli_shared_assemble, job);
-    for (job->group = 0; job->group < sli_tiles(job->front.width); job->group += SLI_GROUP) {
+    for (job->group = 0; job->group < sli_tiles(job->front.width); job->group += SLI_GROUP_TILES) {
         F->kernels->pivots(&job->front, job->group, F->buffer);
         sli_parallel(threads, workers, sli_shared_rows, job);
     }
@@ -213,32 +217,32 @@ static sl_status sli_front_shared(sli_job *job, sli_failure *failure) {
     return sli_front_check(F, &job->front, job->super, failure);
 }
 
-/* The whole factorization. The matrix fits the analysis. [DR83], [Liu92] */
+/* Factors the whole matrix, which has the analyzed pattern. [DR83], [Liu92] */
 static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
-    const sli_schedule *plan = &F->schedule;
+    const sli_schedule *schedule = &F->schedule;
     sli_job job;
     sl_int m, k;
     memset(&job, 0, sizeof job);
     job.F = F;
     job.from = from;
-    for (k = 0; k < plan->workers; k++) {
+    for (k = 0; k < schedule->workers; k++) {
         F->failures[k].status = SL_OK;
     }
-    sli_parallel(&F->threads, plan->workers, sli_do_tasks, &job);
-    for (k = 0; k < plan->workers; k++) {
+    sli_parallel(&F->threads, schedule->workers, sli_run_tasks, &job);
+    for (k = 0; k < schedule->workers; k++) {
         sli_keep_first_failure(failure, &F->failures[k]);
     }
-    for (m = 0; m < plan->n_tops; m++) {
+    for (m = 0; m < schedule->n_tops; m++) {
         sli_failure here;
         here.status = SL_OK;
-        job.super = plan->top[m];
+        job.super = schedule->top[m];
         if (failure->status != SL_OK && failure->super < job.super) {
-            break; /* the fronts before a failure may fail before it */
+            break; /* only an earlier front could still fail before this one */
         }
         if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
-            (void)sli_front_shared(&job, &here);
+            (void)sli_front_factor_shared(&job, &here);
         } else {
-            (void)sli_front_alone(F, from, job.super, 0, &here);
+            (void)sli_front_factor(F, from, job.super, 0, &here);
         }
         sli_keep_first_failure(failure, &here);
     }

@@ -1,20 +1,34 @@
-/* nullspace.h: null pivots in solves: is a right-hand side consistent, and the solution that is centred by weights */
-#ifndef SLI_NULLSPACE_H
-#define SLI_NULLSPACE_H
+/* nullspace.h: after a factorization: the null pivots, and constants for centered solves */
+#ifndef SLI_FACTOR_NULLSPACE_H
+#define SLI_FACTOR_NULLSPACE_H
 
-#include "factor_parts.h"
-#include "reach.h"
+#include "../analysis/reach.h"
+#include "factor_types.h"
+#include "null_vectors.h"
 
-/* A null pivot k, skipped, has the null vector z = P' L^-T e_k, 1 in its own row, and z' b = (L^-1 P b)(k): the
- * forward sweep tells by how much b fails to be consistent.
+/* A skipped null pivot k has the null vector z = P' L^-T e_k, which is 1 in the pivot's own row.
+ * The forward sweep computes z' b = (L^-1 P b)(k), which shows by how much b is inconsistent.
  *
- * Centred solves, in a component (a tree) with one null pivot and weights m: of A x = b - c m with c = z' b / z' m the x
- * with m' x = 0. With w = L^-1 P m / z' m and y = L^-1 P b that is P x = L^-T (D^+ (y - c' w) + t e_k), c' = y(k),
- * t = - w' D^+ (y - c' w): a dot product over the columns of the forward sweep, a difference over those of the
- * backward sweep, both in their vectors. Kept are v = D^+ w and, for each component, w' D^+ w. Columns that a local solve leaves out are exact zeros in the dot product of the full
- * one, so that both have the same bits. */
+ * Rounding in pivots that are almost null, as where a weak spring joins two grids, changes this z
+ * by O(1). Where the null vector z is known, z' b is therefore computed from it. With y = L^-1 P b
+ * and g = L' P z it is g' y, a dot product over the columns of the forward sweep; g would be 0 but
+ * for the entry of the null pivot if L had no rounding errors. The result replaces y(k).
+ *
+ * Centered solves. Take a component (a tree) with one null pivot, and weights m. Wanted is the x
+ * with m' x = 0 that solves A x = b - c m, where c = z' b / z' m makes the right-hand side
+ * consistent. With
+ *
+ *    w = L^-1 P m / z' m,  y = L^-1 P b,  c' = y(k),  t = - w' D^+ (y - c' w),
+ *
+ * the solution is P x = L^-T (D^+ (y - c' w) + t e_k). This takes one dot product over the columns
+ * of the forward sweep and one vector update over those of the backward sweep. Stored are v = D^+ w
+ * and, for each component, w' D^+ w. Columns that a local solve leaves out contribute exact zeros
+ * to the dot product of the full solve, so both give the same bits.
+ *
+ * The null pivot k that the weights fix in this way is called the anchor of its component. */
 
-/* The weights in pivot order. A component without any, such as a vertex without a face, gets 1 for each row. */
+/* Copies the weights to pivot order. A component whose weights are all 0, such as a vertex without
+ * a face, gets weight 1 in each row. */
 static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
     const sl_symbolic *S = F->S;
     sl_int k, first = 0, any = 0;
@@ -35,8 +49,8 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     return SL_OK;
 }
 
-/* flags(k): 1 where row k of L has an entry that is not 0, else 0. */
-static void sli_rows_used(const sl_factor *F, double *flags) {
+/* flags(k) := 1 if row k of L has a nonzero, else 0. */
+static void sli_rows_nonzero(const sl_factor *F, double *flags) {
     const sl_symbolic *S = F->S;
     sl_int s, r, j;
     memset(flags, 0, (size_t)S->n * sizeof(double));
@@ -53,12 +67,13 @@ static void sli_rows_used(const sl_factor *F, double *flags) {
     }
 }
 
-/* The null pivot of each tree whose vector the weights tell apart. A row of zeros, as of a vertex whose faces are all
- * degenerate, is a component by itself: its row of L is empty, its x is 0. Besides those a tree may have one. */
-static sl_status sli_anchors_make(sl_factor *F, sli_failure *failure) {
+/* Finds the anchor of each tree. A row of zeros, such as that of a vertex whose faces are all
+ * degenerate, is a component by itself: its row of L is empty and its x is 0. Apart from such rows
+ * a tree may have one null pivot. */
+static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    double *used = F->divide;
-    int is_known = 0;
+    double *used = F->divisors;
+    int has_used = 0;
     sl_int k, m = 0, first;
     F->n_anchors = 0;
     for (k = 0; k < S->n && m < F->n_nulls; k++) {
@@ -70,9 +85,9 @@ static sl_status sli_anchors_make(sl_factor *F, sli_failure *failure) {
         }
         if (m - first == 1) {
             anchor = F->nulls[first++];
-        } else if (m - first > 1 && !is_known) {
-            sli_rows_used(F, used);
-            is_known = 1;
+        } else if (m - first > 1 && !has_used) {
+            sli_rows_nonzero(F, used);
+            has_used = 1;
         }
         for (; first < m; first++) {
             const sl_int null = F->nulls[first];
@@ -88,12 +103,13 @@ static sl_status sli_anchors_make(sl_factor *F, sli_failure *failure) {
     return SL_OK;
 }
 
-/* v on the columns of one tree, first .. root, which hold w z'm; total: the sum of |m| there; m: the number of its anchor,
- * if it has one. */
-static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
+/* Computes v on the columns first .. root of one tree, where F->center holds z' m w on entry. total
+ * is the sum of |m| in the tree. m is the number of its anchor, or that of a later tree's if it has
+ * none. Where z' m is 0 the weights do not fix the null vector, and the null pivot is refused. */
+static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
                                  sli_failure *failure) {
     const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
-    double *v = F->centre, a, sum = 0.0;
+    double *v = F->center, a, sum = 0.0, z_m = 0.0, size = 0.0;
     sl_int k;
     if (anchor > root) {
         memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
@@ -101,33 +117,45 @@ static sl_status sli_centre_tree(sl_factor *F, sl_int first, sl_int root, double
     }
     a = v[anchor];
     if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
-        return sli_fail(failure, SL_ERR_ARGUMENT, F->S->super_of[anchor], anchor, -1, a);
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, a);
+    }
+    F->ratios[m] = 1.0;
+    if (F->g[anchor] != 0.0) {
+        for (k = first; k <= root; k++) {
+            const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
+            z_m += term;
+            size += fabs(term);
+        }
+        if (!sli_is_finite(z_m) || !(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
+            return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
+        }
+        F->ratios[m] = a / z_m;
     }
     for (k = first; k <= root; k++) {
         const double w = v[k] / a;
         v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
         sum += w * v[k];
     }
-    F->divide[anchor] = 1.0;
+    F->divisors[anchor] = 1.0;
     F->squares[m] = sum;
     return SL_OK;
 }
 
-/* v and what else centring needs, by one forward sweep. */
-static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
+/* Computes v, the divisors and w' D^+ w of every tree, by one forward sweep. */
+static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    sl_status status = sli_anchors_make(F, failure);
+    sl_status status = sli_anchors_find(F, failure);
     double total = 0.0;
     sl_int k, first = 0, m = 0;
-    memcpy(F->divide, F->D, (size_t)S->n * sizeof(double));
-    memcpy(F->centre, F->mass, (size_t)S->n * sizeof(double));
-    F->kernels->forward[SLI_LANES_1](all.count, all.steps, all.rows, F->L, F->centre,
-                                     F->centre_scratch);
+    memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
+    memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
+    F->kernels->forward[SLI_NRHS_1](all.count, all.steps, all.rows, F->L, F->center,
+                                    F->center_scratch);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->mass[k]);
         if (S->parent[k] == -1) {
-            status = sli_centre_tree(F, first, k, total, m, failure);
+            status = sli_center_tree(F, first, k, total, m, failure);
             m += m < F->n_anchors && F->anchors[m] <= k;
             total = 0.0;
             first = k + 1;
@@ -136,8 +164,87 @@ static sl_status sli_centre_make(sl_factor *F, sli_failure *failure) {
     return status;
 }
 
-/* What solves need to know of null pivots, once a factor is made. */
-static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
+/* g := L' g, in place: ascending, because a column needs the rows below it only. */
+static void sli_null_vectors_multiply(sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    double *z = F->center_scratch;
+    sl_int s, t, j, r;
+    for (s = 0; s < S->n_supers; s++) {
+        const sli_step *step = &S->steps[s];
+        const sl_int w = step->width, height = w + step->below;
+        const sl_int *rows = S->rows + S->rows_begin[s];
+        double *g = F->g + step->column;
+        for (r = 0; r < SLI_TILE * sli_tiles(height); r++) {
+            z[r] = r < w ? g[r] : r < height ? F->g[rows[r - w]] : 0.0;
+        }
+        for (t = 0; t < sli_tiles(height); t++) {
+            const double *tile = F->L + step->panel + sli_tile_offset(w, t);
+            for (j = 0; j < sli_min(w, SLI_TILE * (t + 1)); j++) {
+                const double *l = tile + SLI_TILE * (ptrdiff_t)j, *x = z + SLI_TILE * (ptrdiff_t)t;
+                /* g(j) += L(rows, j)' z(rows); the pairs are independent of each other */
+                g[j] += ((l[0] * x[0] + l[1] * x[1]) + (l[2] * x[2] + l[3] * x[3])) +
+                        ((l[4] * x[4] + l[5] * x[5]) + (l[6] * x[6] + l[7] * x[7]));
+            }
+        }
+    }
+}
+
+/* Checks the null pivots that the tolerance has found: a random combination z of their null vectors
+ * L^-T e_k has A z = 0 up to rounding if A is semidefinite. If it is indefinite, a pivot can be
+ * null although its column is not, and A z is as large as |A| |z|. */
+static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
+                                        sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    const sli_reach all = sli_reach_all(S);
+    sli_null_work w;
+    double *z = F->g;
+    uint64_t random = 1;
+    sl_int k, m, first = -1;
+    memset(&w, 0, sizeof w);
+    memset(z, 0, (size_t)S->n * sizeof(double));
+    for (m = 0; m < F->n_nulls; m++) {
+        k = F->nulls[m];
+        if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
+            random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+            /* divided by D(k), which is SLI_NULL_PIVOT, it is between 0.5 and 1 */
+            z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
+            first = first == -1 ? k : first;
+        }
+    }
+    if (first == -1) {
+        return SL_OK;
+    }
+    F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
+                                     F->center_scratch);
+    w.product = F->product;
+    w.size = F->size;
+    sli_null_product(F, from, z, &w);
+    for (k = 0; k < S->n; k++) {
+        if (!(fabs(w.product[k]) <= 1e-4 * w.size[k])) {
+            return sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
+        }
+    }
+    return SL_OK;
+}
+
+/* Counts the components without a null pivot. */
+static sl_int sli_regular_components(const sl_factor *F) {
+    sl_int k, m, count = 0;
+    for (k = 0; k < F->S->n; k++) {
+        F->entries[k] = F->last[k] == k;
+    }
+    for (m = 0; m < F->n_nulls; m++) {
+        F->entries[F->last[F->nulls[m]]] = 0;
+    }
+    for (k = 0; k < F->S->n; k++) {
+        count += F->entries[k];
+    }
+    return count;
+}
+
+/* Finds the null pivots of a new factorization and prepares solves with them. */
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
+    sl_status status;
     sl_int k;
     F->n_nulls = 0;
     for (k = 0; k < F->S->n; k++) {
@@ -145,199 +252,15 @@ static sl_status sli_nulls_make(sl_factor *F, sli_failure *failure) {
             F->nulls[F->n_nulls++] = k;
         }
     }
-    F->is_centred = F->mass != NULL && F->n_nulls > 0;
+    F->stats.factor.regular = sli_regular_components(F);
+    F->is_centered = F->mass != NULL && F->n_nulls > 0;
     F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-    return F->is_centred ? sli_centre_make(F, failure) : SL_OK;
+    status = sli_null_pivots_verify(F, from, failure);
+    if (status == SL_OK && F->n_nulls > 0) {
+        sli_null_vectors_load(F);
+        sli_null_vectors_multiply(F);
+    }
+    return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
-
-/* Sums over the columns of a step, from a whole tile on, in 8 chains so that none waits for another: number f of the
- * step's doubles goes to chain f % 8, in a local sweep as in the full one. Called with constant lanes. */
-SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
-                                       sl_int lanes) {
-    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
-    ptrdiff_t f = 0;
-    sl_int q;
-    for (; f + SLI_TILE <= count; f += SLI_TILE) {
-        SLI_UNROLL
-        for (q = 0; q < SLI_TILE; q++) {
-            chains[q] += fabs(row[f + q]);
-        }
-    }
-    for (q = 0; f < count; q++) {
-        chains[q] += fabs(row[f++]);
-    }
-}
-
-SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
-                                      sl_int columns, sl_int lanes) {
-    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
-    ptrdiff_t f = 0;
-    sl_int q;
-    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
-        SLI_UNROLL
-        for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
-            chains[q] += v[q / lanes] * row[f + q];
-        }
-    }
-    for (q = 0; f < count; q++) {
-        chains[q] += v[q / lanes] * row[f++];
-    }
-}
-
-/* The chains of each lane, one after the other. */
-static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
-    sl_int q;
-    for (q = 0; q < lanes; q++) {
-        sums[q] = chains[q];
-    }
-    for (; q < SLI_TILE; q++) {
-        sums[q % lanes] += chains[q];
-    }
-}
-
-/* Calls a body for a constant number of lanes. */
-#define SLI_FOR_LANES(lanes, call)                                                                 \
-    if ((lanes) == 1) {                                                                            \
-        call(1);                                                                                   \
-    } else if ((lanes) == 2) {                                                                     \
-        call(2);                                                                                   \
-    } else if ((lanes) == 4) {                                                                     \
-        call(4);                                                                                   \
-    } else {                                                                                       \
-        call(8);                                                                                   \
-    }
-
-/* norms(r) = sum of |b| in a packed block of right-hand sides */
-static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
-    double chains[SLI_TILE];
-    sl_int s;
-    memset(chains, 0, sizeof chains);
-    for (s = 0; s < R->count; s++) {
-        const sl_int columns = sli_step_columns(&R->steps[s]);
-        const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
-#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
-        SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
-    }
-    sli_chains_sum(chains, lanes, norms);
-}
-
-/* The columns of a whole tree, as the one whose root is a step of a reach. */
-typedef struct sli_whole_tree {
-    sl_int first, root;
-} sli_whole_tree;
-
-SLI_INLINE sli_whole_tree sli_whole_tree_of(const sl_symbolic *S, const sli_step *root) {
-    const sl_int super = S->super_of[root->column];
-    sli_whole_tree tree;
-    tree.first = S->super_first[S->descendant[super]];
-    tree.root = S->super_first[super + 1] - 1;
-    return tree;
-}
-
-/* After the forward sweep: is |z' b| small at every null pivot? A NaN passes, and so does what overflows: they show in
- * x. */
-static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
-                             const double *norms) {
-    sl_int s, m, r;
-    for (s = 0; s < R->count; s++) {
-        sli_whole_tree tree;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        tree = sli_whole_tree_of(F->S, &R->steps[s]);
-        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
-             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-            const sl_int at = sli_reach_place_of(R, F->nulls[m]);
-            for (r = 0; at != -1 && r < lanes; r++) {
-                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
-                    return 0;
-                }
-            }
-        }
-    }
-    return 1;
-}
-
-/* What centring takes from one tree of the forward sweep. */
-typedef struct sli_shares {
-    double c[SLI_TILE], t[SLI_TILE];
-} sli_shares;
-
-/* The tree that begins at step s; returns the step after its root. m: the number of its anchor, or -1. */
-static sl_int sli_centre_ask(const sl_factor *F, const sli_reach *R, sl_int s, const double *y,
-                             sl_int lanes, sl_int *m, sli_whole_tree *tree, sli_shares *share) {
-    double chains[SLI_TILE], sums[SLI_TILE];
-    sl_int r, at, up = s;
-    memset(share, 0, sizeof *share);
-    memset(chains, 0, sizeof chains);
-    while (up != -1) {
-        const sli_step *step = &R->steps[s++];
-        const double *v = F->centre + step->column, *row = y + (ptrdiff_t)step->base * lanes;
-        const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
-        SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
-        up = step->up;
-    }
-    *tree = sli_whole_tree_of(F->S, &R->steps[s - 1]);
-    *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
-    if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
-        *m = -1;
-        return s;
-    }
-    at = sli_reach_place_of(R, F->anchors[*m]);
-    if (at != -1) {
-        memcpy(share->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
-    }
-    sli_chains_sum(chains, lanes, sums);
-    for (r = 0; r < lanes; r++) {
-        share->t[r] = share->c[r] * F->squares[*m] - sums[r];
-    }
-    return s;
-}
-
-/* y - c w on the columns of a step of the backward sweep. Called with constant lanes. */
-SLI_ALWAYS_INLINE void sli_centre_give(double *row, const double *v, const double *D,
-                                       sl_int columns, const double *c, sl_int lanes) {
-    sl_int k, r;
-    for (k = 0; k < columns; k++, row += lanes) {
-        const double w = v[k] * D[k];
-        SLI_UNROLL
-        for (r = 0; r < lanes; r++) {
-            row[r] -= c[r] * w;
-        }
-    }
-}
-
-/* Between the sweeps: y in the columns of the one reach, x, which may be y, in those of the other. Trees ascend in both;
- * where b has no row there is nothing to do. */
-static void sli_centre(const sl_factor *F, const sli_reach *from, const double *y,
-                       const sli_reach *to, double *x, sl_int lanes) {
-    sl_int s = 0, at = 0, m;
-    while (s < from->count && at < to->count) {
-        sli_shares share;
-        sli_whole_tree tree;
-        sl_int place;
-        s = sli_centre_ask(F, from, s, y, lanes, &m, &tree, &share);
-        for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-            const sli_step *step = &to->steps[at];
-            const double *v = F->centre + step->column, *D = F->D + step->column;
-            double *row = x + (ptrdiff_t)step->base * lanes;
-            const sl_int columns = sli_step_columns(step);
-            if (m != -1 && step->column >= tree.first) {
-#define SLI_CALL(constant) sli_centre_give(row, v, D, columns, share.c, constant)
-                SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
-            }
-        }
-        place = m != -1 ? sli_reach_place_of(to, F->anchors[m]) : -1;
-        if (place != -1) { /* x is given there */
-            memcpy(x + (ptrdiff_t)place * lanes, share.t, (size_t)lanes * sizeof(double));
-        }
-    }
-}
-
-#undef SLI_FOR_LANES
 
 #endif

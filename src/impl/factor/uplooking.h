@@ -1,12 +1,12 @@
-/* uplooking.h: the up-looking factorization: row k of L is a sparse triangular solve over the reach of row k of A */
-#ifndef SLI_UPLOOKING_H
-#define SLI_UPLOOKING_H
+/* uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
+#ifndef SLI_FACTOR_UPLOOKING_H
+#define SLI_FACTOR_UPLOOKING_H
 
-#include "factor_parts.h"
-#include "sort.h"
+#include "factor_types.h"
+#include "../base/sort.h"
 
-/* Hangs supernode s onto the list of its next row, if it has one. */
-static void sli_wait_for_row(sl_factor *F, sl_int s) {
+/* Links supernode s into the list of its next row below, if it has one. */
+static void sli_row_link(sl_factor *F, sl_int s) {
     const sl_off at = F->S->rows_begin[s] + F->position[s];
     if (at < F->S->rows_begin[s + 1]) {
         const sl_int k = F->S->rows[at];
@@ -15,17 +15,17 @@ static void sli_wait_for_row(sl_factor *F, sl_int s) {
     }
 }
 
-/* Row q of supernode s, local numbering; see sli_row_kernel. */
-static void sli_do_row(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
+/* Computes local row q of supernode s. See sli_row_kernel. */
+static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int first = S->super_first[s];
     F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s],
                     F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
-/* Row k: the supernodes that wait for it, in ascending order so that descendants come first, then
- * its own. */
-static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
+/* Computes row k: first from the supernodes linked to it, ascending so that descendants come first,
+ * then from its own. */
+static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
     sl_int s, m, count = 0;
@@ -35,16 +35,16 @@ static void sli_do_all_rows(sl_factor *F, sl_int k, double *pivot, double *magni
     sli_sort(F->list, count, F->list_scratch);
     for (m = 0; m < count; m++) {
         s = sli_key(F->list[m]);
-        sli_do_row(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
+        sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
         F->position[s]++;
-        sli_wait_for_row(F, s);
+        sli_row_link(F, s);
     }
     if (k > S->super_first[own]) {
-        sli_do_row(F, own, k - S->super_first[own], pivot, magnitude);
+        sli_row_solve(F, own, k - S->super_first[own], pivot, magnitude);
     }
 }
 
-/* The whole factorization. The matrix fits the analysis. [LDL05], [Davis06] 4.7 */
+/* Factors the whole matrix, which has the analyzed pattern. [LDL05], [Davis06] 4.7 */
 static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
@@ -59,7 +59,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_add(F, from, s, failure);
+            status = sli_panel_load(F, from, s, failure);
             if (status != SL_OK) {
                 break;
             }
@@ -68,13 +68,13 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         pivot = *diagonal;
         magnitude = fabs(pivot);
         *diagonal = 0.0;
-        sli_do_all_rows(F, k, &pivot, &magnitude);
-        pivot = F->rule.replaces ? sli_pivot_ruled(&F->rule, k, pivot, magnitude) : pivot;
+        sli_row_solve_all(F, k, &pivot, &magnitude);
+        pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
         F->D[k] = pivot;
         status = sli_check_pivot(F, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
-            sli_wait_for_row(F, s);
+            sli_row_link(F, s);
         }
     }
     return status;

@@ -1,14 +1,15 @@
-/* inverse.h: bilinear forms of A^-1: forward sweeps, then sums over common columns weighted by 1/D */
-#ifndef SLI_INVERSE_H
-#define SLI_INVERSE_H
+/* bilinear.h: bilinear forms c' A^-1 b: a forward sweep, then a sum over columns weighted by 1/D */
+#ifndef SLI_INVERSE_BILINEAR_H
+#define SLI_INVERSE_BILINEAR_H
 
-#include "../public/inverse.h"
-#include "groups.h"
-#include "plan.h"
+#include "../../public/inverse.h"
+#include "row_sets.h"
+#include "unit_vectors.h"
+#include "../solve/work.h"
 
-/* z = y / d in every lane, by one division. Where 1/d is out of range or short of digits, each for
- * itself. */
-SLI_ALWAYS_INLINE void sli_weigh(double *z, const double *y, double d, sl_int lanes) {
+/* z = y / d in every lane, by one division and products with the quotient. If 1/d overflows or is
+ * denormal, each lane is divided by d. */
+SLI_ALWAYS_INLINE void sli_divide_lanes(double *z, const double *y, double d, sl_int lanes) {
     const double inverse = 1.0 / d, size = fabs(inverse);
     sl_int k;
     if (size >= DBL_MIN && size <= DBL_MAX) {
@@ -22,7 +23,8 @@ SLI_ALWAYS_INLINE void sli_weigh(double *z, const double *y, double d, sl_int la
     }
 }
 
-/* sums[m] = y_i' D^-1 y_j over one sweep, for the lanes i = first[m], j = second[m]. */
+/* sums[m] = y_i' D^-1 y_j over the columns of a sweep, with lanes i = first[m] and j = second[m].
+ */
 static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count,
                           const sl_int *first, const sl_int *second, double *sums) {
     sl_int s, k, m;
@@ -34,7 +36,7 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
         const double *d = F->D + step->column, *y = f->y + (ptrdiff_t)step->base * f->lanes;
         for (k = 0; k < sli_step_columns(step); k++, y += f->lanes) {
             double z[SLI_LANES_MAX];
-            sli_weigh(z, y, d[k], f->lanes);
+            sli_divide_lanes(z, y, d[k], f->lanes);
             for (m = 0; m < count; m++) { /* sum(m) += y(k, i) / d(k) y(k, j) */
                 sums[m] += z[first[m]] * y[second[m]];
             }
@@ -42,59 +44,46 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
     }
 }
 
-/* Clears what a call says of its sweeps. */
-static void sli_inverse_stats(sl_stats *stats) {
+/* Clears the inverse group: nothing requested yet. */
+static void sli_inverse_clear_stats(sl_stats *stats) {
     if (stats != NULL) {
-        sli_query none;
-        memset(&none, 0, sizeof none);
-        sli_query_stats(&none, stats);
-        stats->bytes_plan = 0;
+        memset(&stats->inverse, 0, sizeof stats->inverse);
     }
 }
 
-/* Refuses rows out of range. */
-static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
-                                int is_column, sl_stats *stats) {
-    sl_int k;
-    for (k = 0; k < count && rows != NULL; k++) {
-        if (rows[k] < 0 || rows[k] >= S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, is_column ? -1 : rows[k],
-                               is_column ? rows[k] : -1, 0.0);
-        }
-    }
-    return SL_OK;
-}
-
-/* c' A^-1 b: two lanes over the reach of both sets, one where they are the same. */
+/* One call: c and b are two lanes of one sweep over the joint reach of both sets, or one lane if
+ * they are the same vector. */
 typedef struct sli_bilinear {
     const sl_factor *F;
-    const sl_int *set[2];
+    const sl_int *set[2]; /* of c, of b; NULL: all rows */
     const double *values[2];
     sl_int count[2];
-    sl_int vectors;
-    uint64_t *seeds, *scratch; /* count[0] + count[1] in all, unless a set is NULL */
+    sl_int vectors;            /* 1 or 2 */
+    uint64_t *seeds, *scratch; /* count[0] + count[1] each; 0 if a set is NULL */
     sli_forward forward;
 } sli_bilinear;
 
-SLI_INLINE int sli_bilinear_is_whole(const sli_bilinear *q) {
+/* Does the sweep read all of L? */
+SLI_INLINE int sli_bilinear_is_dense(const sli_bilinear *q) {
     return q->set[0] == NULL || q->set[1] == NULL;
 }
 
-static void sli_bilinear_lay_seeds(void *form, sli_block *b) {
+static void sli_bilinear_layout_seeds(void *form, sli_block *b) {
     sli_bilinear *q = (sli_bilinear *)form;
     const uint64_t count =
-        sli_bilinear_is_whole(q) ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
+        sli_bilinear_is_dense(q) ? 0 : (uint64_t)q->count[0] + (uint64_t)q->count[1];
     q->seeds = SLI_TAKE(b, uint64_t, count);
     q->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
-/* The columns of both sets ascending, each with its place behind one another, and their reach. */
+/* Sorts the columns of both sets, each with its index in the concatenated sets, and measures their
+ * reach. */
 static void sli_bilinear_measure(void *form) {
     sli_bilinear *q = (sli_bilinear *)form;
     const sl_symbolic *S = q->F->S;
     const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
     sl_int k;
-    if (sli_bilinear_is_whole(q)) {
+    if (sli_bilinear_is_dense(q)) {
         q->forward.reach = sli_reach_all(S);
         return;
     }
@@ -105,31 +94,31 @@ static void sli_bilinear_measure(void *form) {
     sli_reach_measure(S, q->seeds, total, &q->forward.reach);
 }
 
-static void sli_bilinear_lay_sweep(void *form, sli_block *b) {
+static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
     sli_bilinear *q = (sli_bilinear *)form;
-    sli_room room = {0, 0, 0, 0};
-    sli_room_add(&room, &q->forward.reach, q->vectors);
-    if (sli_bilinear_is_whole(q)) { /* the analysis has them */
-        room.steps = room.rows = 0;
+    sli_capacity capacity = {0, 0, 0, 0};
+    sli_capacity_add(&capacity, &q->forward.reach, q->vectors);
+    if (sli_bilinear_is_dense(q)) { /* those of the analysis are used */
+        capacity.steps = capacity.rows = 0;
     }
-    sli_forward_layout(&q->forward, b, &room);
-    sli_forward_layout_run(&q->forward, b, &room);
+    sli_forward_layout(&q->forward, b, &capacity);
+    sli_forward_layout_run(&q->forward, b, &capacity);
 }
 
-/* Both vectors into the sweep. */
+/* Compiles the reach and scatters both vectors into the lanes. */
 static void sli_bilinear_pack(sli_bilinear *q) {
     const sl_symbolic *S = q->F->S;
     sli_forward *f = &q->forward;
     const sl_int nc = q->count[0], total = nc + (q->vectors == 2 ? q->count[1] : 0);
     sl_int k, lane, at = 0;
-    if (!sli_bilinear_is_whole(q)) {
+    if (!sli_bilinear_is_dense(q)) {
         sli_reach_fill(S, q->seeds, total, f->steps, f->rows, &f->reach);
         sli_forward_clear(f, q->vectors);
         for (k = 0; k < total; k++) {
-            const sl_int place = sli_reach_place(&f->reach, &at, sli_key(q->seeds[k]));
+            const sl_int row = sli_reach_index(&f->reach, &at, sli_key(q->seeds[k]));
             const sl_int from = sli_value(q->seeds[k]);
             lane = from >= nc;
-            f->y[(ptrdiff_t)place * f->lanes + lane] += q->values[lane][from - lane * nc];
+            f->y[(ptrdiff_t)row * f->lanes + lane] += q->values[lane][from - lane * nc];
         }
         return;
     }
@@ -143,10 +132,10 @@ static void sli_bilinear_pack(sli_bilinear *q) {
     }
 }
 
-static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_lay_seeds, sli_bilinear_measure},
-                                                 {sli_bilinear_lay_sweep, NULL}};
+static const sli_stage sli_bilinear_stages[2] = {{sli_bilinear_layout_seeds, sli_bilinear_measure},
+                                                 {sli_bilinear_layout_sweep, NULL}};
 
-static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
+static sl_status sli_bilinear_run(sli_bilinear *q, double *out, sl_work *W, sl_stats *stats) {
     const sl_int first = 0, second = q->vectors - 1;
     const sl_status status = sli_work_stages(W, sli_bilinear_stages, 2, q);
     if (status == SL_OK) {
@@ -157,9 +146,9 @@ static sl_status sli_inverse_form(sli_bilinear *q, double *out, sl_work *W, sl_s
     return status;
 }
 
-SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *cset,
-                                     const double *c, sl_int nc, const sl_int *bset,
-                                     const double *b, sl_int nb, sl_work *W, sl_stats *stats) {
+SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_int *bset,
+                                     const double *b, sl_int nb, const sl_int *cset,
+                                     const double *c, sl_int nc, sl_work *W, sl_stats *stats) {
     sl_work own;
     sli_bilinear q;
     sl_status status;
@@ -172,7 +161,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
@@ -183,7 +172,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     if (status != SL_OK) {
         return status;
     }
-    sli_inverse_stats(stats);
+    sli_inverse_clear_stats(stats);
     if (nc == 0 || nb == 0) {
         *out = 0.0;
         return SL_OK;
@@ -198,7 +187,7 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     q.count[1] = nb;
     q.vectors = cset == bset && c == b && nc == nb ? 1 : 2;
     own = sli_work_own(&F->allocator);
-    status = sli_inverse_form(&q, out, W == NULL ? &own : W, stats);
+    status = sli_bilinear_run(&q, out, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
 }

@@ -1,59 +1,62 @@
-/* inverse_entries.h: entries of A^-1 one by one: by forward sweeps, or by a descent that keeps nothing else */
+/* entries.h: entries of A^-1: by forward sweeps or a top-down traversal, whichever is faster */
 #ifndef SLI_INVERSE_ENTRIES_H
 #define SLI_INVERSE_ENTRIES_H
 
-#include "descent_run.h"
-#include "inverse.h"
+#include "traversal_run.h"
+#include "bilinear.h"
 
-/* One call. The descent comes in question where every entry has a place in the pattern of L: it is met in the front of
- * its first column. */
+/* One call for entries. A traversal is possible if every entry is in the pattern of L: the front of
+ * the entry's first column then has it. */
 typedef struct sli_entries {
     const sl_factor *F;
-    const sl_threads *threads; /* of a descent */
+    const sl_threads *threads; /* for a traversal */
     double *out;
     sli_requests requests;
     sl_inverse_method method;
-    /* forward */
-    sli_room room;
+    /* SL_INVERSE_FORWARD */
+    sli_capacity capacity;
     sli_forward forward;
-    /* descent */
-    sli_descent descent;
-    sli_descending run;
-    sl_int *asked; /* supernodes + 1: the first of the sorted requests that each front answers */
+    /* SL_INVERSE_SELECTED */
+    sli_traversal traversal;
+    sli_traversal_run run;
+    sl_int *first_request; /* supernodes + 1: the sorted requests that each front has */
 } sli_entries;
 
-/* Time of a front of the inverse in that of a forward sweep of one lane over one entry, as the costs of lanes are: of
- * itself, for each of the h^2 numbers that are moved, for each flop of the factorization's front, which is twice as
- * many here. Measured on grids of 1e4 to 1e6 vertices and of 25^3 (Zen 5); NEON, which was not, as AVX2. */
-static const double sli_descent_cost[][3] = {{2000.0, 4.0, 0.35}, /* of any other */
-                                             {2000.0, 4.0, 2.2},  /* plain C */
-                                             {2000.0, 4.0, 0.35}, /* AVX2 */
-                                             {2000.0, 4.0, 0.2}}; /* AVX-512 */
+/* Time of a front of the inverse of h rows, in the unit of sli_lanes_cost, which is a forward sweep
+ * of one lane over one entry of L: per front, per entry of the h^2 that are moved, and per flop of
+ * the factorization's front (the inverse needs twice as many). Measured on grids of 1e4 to 1e6
+ * vertices and of 25^3 (Zen 5); NEON was not measured and uses the AVX2 row. */
+static const double sli_traversal_cost[][3] = {{2000.0, 4.0, 0.35}, /* others */
+                                               {2000.0, 4.0, 2.2},  /* plain C */
+                                               {2000.0, 4.0, 0.35}, /* AVX2 */
+                                               {2000.0, 4.0, 0.2}}; /* AVX-512 */
 
-/* The whole diagonal needs no list of requests. */
+/* The whole diagonal: there is no list of requests. */
 SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
     return q->requests.rows == NULL;
 }
 
-/* The first column of the k-th request: the front that has its entry is that column's. */
+/* The first column of the k-th request; the front of its supernode has the entry. */
 SLI_INLINE sl_int sli_entries_column(const sli_entries *q, sl_int k) {
     return sli_min(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
 }
 
-/* Where the k-th request stands in supernode s, that of its first column, or -1: no place in the pattern. */
+/* The local row of the k-th request in supernode s, that of its first column; -1 if the entry is
+ * not in the pattern of L. */
 SLI_INLINE sl_int sli_entries_row(const sli_entries *q, sl_int s, sl_int k) {
     const sl_int row =
         sli_max(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
-    return sli_descent_row(q->F->S, s, row);
+    return sli_front_row(q->F->S, s, row);
 }
 
+/* Sorts requests by their first column. */
 static void sli_entries_sort(sli_entries *q) {
     sli_requests *r = &q->requests;
     sl_int k;
     for (k = 0; k < r->count; k++) {
         r->order[k] = sli_keyed(sli_entries_column(q, k), k);
     }
-    sli_sort(r->order, r->count, r->taken);
+    sli_sort(r->order, r->count, r->block_size);
 }
 
 static int sli_entries_are_in_pattern(const sli_entries *q) {
@@ -65,11 +68,11 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
     return is_in;
 }
 
-/* Time of a descent of the reach of sorted requests, and its supernodes. */
-static double sli_descent_time(const sli_entries *q, sl_int *supers) {
+/* The time of a traversal of the reach of sorted requests; *supers: its supernodes. */
+static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     const sl_symbolic *S = q->F->S;
     const sli_requests *r = &q->requests;
-    const double *cost = sli_descent_cost[sli_isa_row(q->F->kernels->isa)];
+    const double *cost = sli_traversal_cost[sli_isa_row(q->F->kernels->isa)];
     double time = 0.0;
     sl_int k = 0, s, next;
     *supers = 0;
@@ -85,87 +88,88 @@ static double sli_descent_time(const sli_entries *q, sl_int *supers) {
     return time;
 }
 
-/* Sorts requests, and finds which way is the shorter one: the count of forward sweeps ends where it has passed the
- * descent. */
+/* Sorts requests and chooses the faster method. Counting the forward sweeps stops once they take
+ * longer than the traversal. */
 static void sli_entries_choose(void *call) {
     sli_entries *q = (sli_entries *)call;
-    double descent = HUGE_VAL;
+    double limit = HUGE_VAL;
     sl_int supers = q->F->S->n_supers;
-    memset(&q->room, 0, sizeof q->room);
+    memset(&q->capacity, 0, sizeof q->capacity);
     if (sli_entries_is_all(q)) {
         q->method = SL_INVERSE_SELECTED;
     } else {
         if (q->requests.count > 1 && sli_entries_are_in_pattern(q)) {
             sli_entries_sort(q);
-            descent = sli_descent_time(q, &supers);
+            limit = sli_traversal_time(q, &supers);
         }
-        q->method = sli_requests_group_within(&q->requests, &q->room, descent) < descent
+        q->method = sli_requests_partition_within(&q->requests, &q->capacity, limit) < limit
                         ? SL_INVERSE_FORWARD
                         : SL_INVERSE_SELECTED;
     }
     if (q->method == SL_INVERSE_SELECTED) {
-        q->descent = sli_descent_of(q->F->S, supers, sli_workers(q->threads));
-        q->descent.is_partial = !sli_entries_is_all(q);
+        q->traversal = sli_traversal_of(q->F->S, supers, sli_workers(q->threads));
+        q->traversal.is_partial = !sli_entries_is_all(q);
     }
 }
 
-static void sli_entries_lay_requests(void *call, sli_block *b) {
+static void sli_entries_layout_requests(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
     if (!sli_entries_is_all(q)) {
         sli_requests_layout(&q->requests, b);
     }
 }
 
-static void sli_entries_lay_way(void *call, sli_block *b) {
+static void sli_entries_layout_method(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
     if (q->method == SL_INVERSE_FORWARD) {
-        sli_forward_layout(&q->forward, b, &q->room);
-        sli_forward_layout_run(&q->forward, b, &q->room);
+        sli_forward_layout(&q->forward, b, &q->capacity);
+        sli_forward_layout_run(&q->forward, b, &q->capacity);
     } else {
-        sli_descent_layout(&q->descent, b);
-        sli_descent_layout_planning(&q->descent, b);
-        q->asked =
-            SLI_TAKE(b, sl_int, sli_entries_is_all(q) ? 0 : (uint64_t)q->descent.forest.count + 1);
+        sli_traversal_layout(&q->traversal, b);
+        sli_traversal_layout_work(&q->traversal, b);
+        q->first_request = SLI_TAKE(
+            b, sl_int, sli_entries_is_all(q) ? 0 : (uint64_t)q->traversal.forest.count + 1);
     }
 }
 
-/* The list of the descent, and the requests of each of its supernodes. */
+/* Plans the traversal and lists the requests of each of its fronts. */
 static void sli_entries_plan(void *call) {
     sli_entries *q = (sli_entries *)call;
     const sli_requests *r = &q->requests;
     const int is_all = sli_entries_is_all(q);
-    sl_int k = 0, at;
+    sl_int k = 0, index;
     if (q->method != SL_INVERSE_SELECTED) {
         return;
     }
     if (!is_all) {
         sli_entries_sort(q);
     }
-    sli_descent_plan(&q->descent, is_all ? NULL : r->order, r->count);
-    for (at = 0; at < q->descent.forest.count && !is_all; at++) {
-        const sl_int end = q->F->S->super_first[q->descent.supers[at] + 1];
-        q->asked[at] = k;
+    sli_traversal_plan(&q->traversal, is_all ? NULL : r->order, r->count);
+    for (index = 0; index < q->traversal.forest.count && !is_all; index++) {
+        const sl_int end = q->F->S->super_first[q->traversal.supers[index] + 1];
+        q->first_request[index] = k;
         while (k < r->count && sli_key(r->order[k]) < end) {
             k++;
         }
     }
     if (!is_all) {
-        q->asked[at] = k;
+        q->first_request[index] = k;
     }
 }
 
-static void sli_entries_lay_run(void *call, sli_block *b) {
+static void sli_entries_layout_run(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
     if (q->method == SL_INVERSE_SELECTED) {
-        sli_descent_layout_run(&q->run, &q->descent, b);
+        sli_traversal_layout_run(&q->run, &q->traversal, b);
     }
 }
 
-/* What row tiles t0 .. t1-1 of a front answer. */
-static void sli_entries_take(void *call, sl_int at, const sli_dual *f, sl_int t0, sl_int t1) {
+/* Writes the requested entries that row tiles t0 .. t1-1 of a front have. */
+static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front *f, sl_int t0,
+                              sl_int t1) {
     const sli_entries *q = (const sli_entries *)call;
     const sl_symbolic *S = q->F->S;
-    const sl_int s = q->descent.supers[at], first = S->super_first[s], h = f->width + f->below;
+    const sl_int s = q->traversal.supers[index], first = S->super_first[s], h = f->width + f->below;
     sl_int k, j;
     if (sli_entries_is_all(q)) {
         const sl_int *row = S->perm + first, last = sli_min(SLI_TILE * t1, f->width);
@@ -175,7 +179,7 @@ static void sli_entries_take(void *call, sl_int at, const sli_dual *f, sl_int t0
         }
         return;
     }
-    for (k = q->asked[at]; k < q->asked[at + 1]; k++) {
+    for (k = q->first_request[index]; k < q->first_request[index + 1]; k++) {
         const sl_int request = sli_value(q->requests.order[k]);
         const sl_int r = sli_entries_row(q, s, request), t = r / SLI_TILE;
         if (t >= t0 && t < t1) {
@@ -186,35 +190,36 @@ static void sli_entries_take(void *call, sl_int at, const sli_dual *f, sl_int t0
     }
 }
 
-/* The sums that the sorted requests k .. k+taken-1, one group, ask for. */
-static void sli_entries_answer(const sli_entries *q, const sli_group *g, sl_int k, sl_int taken) {
-    sl_int first[SLI_REQUESTS_MAX], second[SLI_REQUESTS_MAX], m;
-    double sums[SLI_REQUESTS_MAX];
-    for (m = 0; m < taken; m++) {
-        const sl_int at = sli_value(q->requests.order[k + m]);
-        first[m] = sli_group_lane(g, sli_request_row(&q->requests, at));
-        second[m] = sli_group_lane(g, sli_request_column(&q->requests, at));
+/* Writes the entries of the sorted requests k .. k+block_size-1, which are one block. */
+static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, sl_int k,
+                              sl_int block_size) {
+    sl_int first[SLI_BLOCK_REQUESTS_MAX], second[SLI_BLOCK_REQUESTS_MAX], m;
+    double sums[SLI_BLOCK_REQUESTS_MAX];
+    for (m = 0; m < block_size; m++) {
+        const sl_int index = sli_value(q->requests.order[k + m]);
+        first[m] = sli_rhs_block_lane(block, sli_request_row(&q->requests, index));
+        second[m] = sli_rhs_block_lane(block, sli_request_column(&q->requests, index));
     }
-    sli_pair_sums(q->F, &q->forward, taken, first, second, sums);
-    for (m = 0; m < taken; m++) {
+    sli_pair_sums(q->F, &q->forward, block_size, first, second, sums);
+    for (m = 0; m < block_size; m++) {
         q->out[sli_value(q->requests.order[k + m])] = sums[m];
     }
 }
 
-/* Group after group. */
+/* Sweeps and sums block after block. */
 static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     sl_int k = 0, m;
-    for (m = 0; m < q->requests.n_groups; m++) {
-        const sl_int taken = (sl_int)q->requests.taken[m];
-        sli_group g;
-        sli_group_again(&q->requests, k, taken, &g);
-        sli_forward_group(&q->forward, q->F, &g, stats);
-        sli_entries_answer(q, &g, k, taken);
-        k += taken;
+    for (m = 0; m < q->requests.n_blocks; m++) {
+        const sl_int block_size = (sl_int)q->requests.block_size[m];
+        sli_rhs_block block;
+        sli_rhs_block_rebuild(&q->requests, k, block_size, &block);
+        sli_forward_unit_vectors(&q->forward, q->F, &block, stats);
+        sli_entries_write(q, &block, k, block_size);
+        k += block_size;
     }
 }
 
-/* A call for count entries, rows NULL for the whole diagonal. */
+/* A call for count entries; rows NULL: the whole diagonal. */
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
                                   const sl_int *columns, sl_int count) {
     sli_entries q;
@@ -226,11 +231,11 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
     return q;
 }
 
-static const sli_stage sli_entries_stages[3] = {{sli_entries_lay_requests, sli_entries_choose},
-                                                {sli_entries_lay_way, sli_entries_plan},
-                                                {sli_entries_lay_run, NULL}};
+static const sli_stage sli_entries_stages[3] = {{sli_entries_layout_requests, sli_entries_choose},
+                                                {sli_entries_layout_method, sli_entries_plan},
+                                                {sli_entries_layout_run, NULL}};
 
-/* Chooses the way and lays everything out; W may grow, nothing else is written. */
+/* Chooses the method and lays out all arrays. Only W is written; it may grow. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
     return sli_work_stages(W, sli_entries_stages, 3, q);
 }
@@ -244,18 +249,16 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
         sli_entries_forward(q, stats);
     } else {
         q->run.F = q->F;
-        q->run.d = &q->descent;
+        q->run.traversal = &q->traversal;
         q->run.threads = q->threads;
-        q->run.take = sli_entries_take;
-        q->run.to = q;
-        sli_descend(&q->run);
+        q->run.visit = sli_entries_visit;
+        q->run.context = q;
+        sli_traverse(&q->run);
     }
-    if (stats != NULL) {
-        stats->inverse_method = q->method;
-        if (q->method == SL_INVERSE_SELECTED) {
-            sli_descent_stats(&q->descent, stats);
-            stats->z_entries = 0;
-        }
+    if (stats != NULL && q->method == SL_INVERSE_SELECTED) {
+        stats->inverse.method = SL_INVERSE_SELECTED;
+        stats->inverse.supernodes = q->traversal.forest.count;
+        stats->inverse.columns = sli_traversal_count_columns(&q->traversal);
     }
     return SL_OK;
 }
@@ -269,7 +272,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
     if (count < 0 || (count > 0 && out == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_good) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     status = sli_check_rows(F->S, rows, count, 0, stats);
@@ -277,7 +280,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
     if (status != SL_OK) {
         return status;
     }
-    sli_inverse_stats(stats);
+    sli_inverse_clear_stats(stats);
     q = sli_entries_of(F, out, rows, columns, count);
     own = sli_work_own(&F->allocator);
     status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;

@@ -1,14 +1,15 @@
-/* region.h: regions: the object, and its part of the inverse by forward sweeps or out of a selected inverse */
-#ifndef SLI_REGION_H
-#define SLI_REGION_H
+/* region.h: regions: creation, and their part of the inverse by sweeps or a selected inverse */
+#ifndef SLI_INVERSE_REGION_H
+#define SLI_INVERSE_REGION_H
 
-#include "inverse_block.h"
+#include "block.h"
 #include "region_choose.h"
+#include "selected_query.h"
 
-/* The object, all but its numbers. */
-static void sli_region_take(sl_region *R, const sli_choice *c) {
+/* Fills the allocated object from the choice, all but its numbers. */
+static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
     const sl_symbolic *S = c->S;
-    const sl_int n = R->fence.n_rows;
+    const sl_int n = R->extent.n_rows;
     sl_int k, i, n_roots = 0, n_rows = 0;
     R->inside = 0;
     for (k = 0; k < c->reach.count; k++) {
@@ -17,23 +18,26 @@ static void sli_region_take(sl_region *R, const sli_choice *c) {
         if (c->is_inside[k]) {
             if (step->up == -1 || !c->is_inside[step->up]) {
                 R->roots[n_roots++] = s;
-                R->inside += S->super_first[s + 1] - S->super_first[S->descendant[s]];
+                R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
             }
             continue;
         }
         for (i = 0; i < sli_step_columns(step); i++) {
-            if (c->wanted[step->base + i] > 0) {
+            if (c->needed[step->base + i] > 0) {
                 R->rows[n_rows++] = step->column + i;
             }
         }
     }
-    SLI_ASSERT(n_roots == R->fence.n_roots && n_rows == n);
-    R->fence.roots = R->roots;
-    R->fence.rows = R->rows;
+    SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == n);
+    R->extent.roots = R->roots;
+    R->extent.rows = R->rows;
+    R->analysis = S->identity;
+    R->identity = sli_hash_ints(R->analysis, R->roots, n_roots);
+    R->identity = sli_hash_ints(R->identity, R->rows, n_rows);
     R->begin[0] = 0;
     for (k = 0; k < n; k++) {
-        R->asked[k] = S->perm[R->rows[k]];
-        R->places[k] = n + k;
+        R->requested[k] = S->perm[R->rows[k]];
+        R->relative[k] = n + k;
     }
     for (k = 0; k < n; k += SLI_REGION_COLUMNS) {
         sl_off *begin = &R->begin[k / SLI_REGION_COLUMNS];
@@ -43,9 +47,10 @@ static void sli_region_take(sl_region *R, const sli_choice *c) {
     memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n)] * sizeof *R->Z);
 }
 
-static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const sl_int *set,
-                                   sl_int count, int may_copy, const sl_options *opt,
-                                   const sl_allocator *a, sl_stats *stats) {
+/* Chooses and makes the object, without its numbers. may_copy: there is a selected inverse. */
+static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_int *set,
+                                sl_int count, int may_copy, const sl_options *opt,
+                                const sl_allocator *a, sl_stats *stats) {
     sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sli_choice c;
     sl_region draft;
@@ -55,7 +60,7 @@ static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const 
     memset(&draft, 0, sizeof draft);
     c.S = S;
     c.count = set == NULL ? S->n : count;
-    c.most = opt == NULL ? 0 : opt->region_bytes;
+    c.bytes_max = opt == NULL ? 0 : opt->region_bytes;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
         c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
@@ -70,23 +75,23 @@ static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const 
         status = pass == 0 ? sli_block_alloc(&rest, a) : SL_OK;
     }
     if (status == SL_OK) {
-        sli_choice_begin(&c);
+        sli_choice_init(&c);
         sli_choice_sweep(&c);
         sli_choice_improve(&c);
         if (may_copy && c.boundary > 1) {
-            sli_choice_one(&c);
+            sli_choice_single_subtree(&c);
         }
         draft.allocator = *a;
         draft.S = S;
-        draft.fence.n_roots = c.n_roots;
-        draft.fence.n_rows = c.boundary;
+        draft.extent.n_roots = c.n_roots;
+        draft.extent.n_rows = c.boundary;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_region_layout(&draft, &kept);
         status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
     }
     if (status == SL_OK) {
-        sli_region_take(&draft, &c);
+        sli_region_from_choice(&draft, &c);
         *out = (sl_region *)(void *)kept.base;
         **out = draft;
     }
@@ -95,30 +100,31 @@ static sl_status sli_region_choose(sl_region **out, const sl_symbolic *S, const 
     return status;
 }
 
-/* Keeps the entry of two rows of the boundary, in its lower triangle. */
-static void sli_region_put(void *to, sl_int row, sl_int column, double z) {
-    sl_region *R = (sl_region *)to;
+/* Stores the entry of two rows of the boundary, given by their indices, in the lower triangle. */
+static void sli_region_write(void *context, sl_int row, sl_int column, double z) {
+    sl_region *R = (sl_region *)context;
     const sl_int low = sli_min(row, column), high = sli_max(row, column);
     const sl_int first = low - low % SLI_REGION_COLUMNS;
-    const sl_int width = sli_min(SLI_REGION_COLUMNS, R->fence.n_rows - first);
+    const sl_int width = sli_min(SLI_REGION_COLUMNS, R->extent.n_rows - first);
     R->Z[R->begin[first / SLI_REGION_COLUMNS] +
          sli_panel_at(width, width + high - first, low - first)] = low == high ? -0.5 * z : -z;
 }
 
-/* All entries out of a selected inverse; 0, and nothing done, where it has not got them. */
+/* Copies all entries from a selected inverse; returns 0 and changes nothing if one is missing
+ * there. */
 static int sli_region_copy(sl_region *R, const sl_selected *Z) {
-    const sl_int *rows = R->fence.rows;
+    const sl_int *rows = R->extent.rows;
     sl_int i, j;
     int pass;
     for (pass = 0; pass < 2; pass++) {
-        for (j = 0; j < R->fence.n_rows; j++) {
-            for (i = j; i < R->fence.n_rows; i++) {
-                const sl_off at = sli_selected_at(Z, rows[i], rows[j]);
+        for (j = 0; j < R->extent.n_rows; j++) {
+            for (i = j; i < R->extent.n_rows; i++) {
+                const sl_off at = sli_selected_position(Z, rows[i], rows[j]);
                 if (at == -1) {
                     return 0;
                 }
                 if (pass == 1) {
-                    sli_region_put(R, i, j, Z->Z[at]);
+                    sli_region_write(R, i, j, Z->Z[at]);
                 }
             }
         }
@@ -126,33 +132,33 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
     return 1;
 }
 
-/* The numbers. F and Z fit. */
+/* Computes the numbers. F and Z are valid and belong to R. */
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
                                  sl_work *W) {
     const double started = sli_seconds();
     sl_work own = sli_work_own(&R->allocator);
     sl_status status = SL_OK;
     const int is_copied = Z != NULL && sli_region_copy(R, Z);
-    if (!is_copied) { /* fails before it writes anything, or not at all */
-        status = sli_inverse_among(F, R->asked, R->fence.n_rows, sli_region_put, R,
-                                   W == NULL ? &own : W);
+    if (!is_copied) { /* an error comes before anything is written */
+        status = sli_inverse_all_pairs(F, R->requested, R->extent.n_rows, sli_region_write, R,
+                                       W == NULL ? &own : W);
         sli_free(&own.allocator, own.block);
     }
     if (status == SL_OK) {
-        R->F = F;
-        R->generation = F->generation;
+        R->numbers = sli_numbers_of(F);
         R->is_copied = is_copied;
         R->seconds = sli_seconds() - started;
     }
     return status;
 }
 
-/* Is Z, where there is one, of what F holds? What centring adds to b is not 0 outside of any region. */
-static sl_status sli_region_check(const sl_factor *F, const sl_selected *Z) {
-    if (!F->is_good || (Z != NULL && (Z->F != F || Z->generation != F->generation))) {
+/* Refuses a failed factor, a Z that is not of its present numbers, and centered solves: what
+ * centering adds to b is not 0 outside of the region. */
+static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *Z) {
+    if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
         return SL_ERR_STATE;
     }
-    return F->is_centred ? SL_ERR_UNSUPPORTED : SL_OK;
+    return F->is_centered ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
@@ -167,12 +173,13 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (F == NULL || (set != NULL && count < 0) || !sli_allocator_is_whole(opt)) {
+    if (F == NULL || (set != NULL && count < 0) ||
+        !sli_options_are_valid(opt, SLI_READS_REGION_BYTES)) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_region_check(F, Z);
-    status = status == SL_OK ? sli_region_choose(&R, F->S, set, count, Z != NULL, opt, &a, stats)
-                             : status;
+    status = sli_region_check_factor(F, Z);
+    status =
+        status == SL_OK ? sli_region_new(&R, F->S, set, count, Z != NULL, opt, &a, stats) : status;
     if (status == SL_OK) {
         status = sli_region_fill(R, F, Z, NULL);
         R->seconds = sli_seconds() - started;
@@ -186,20 +193,29 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     return status;
 }
 
-SL_API sl_status sl_region_refill(sl_region *R, const sl_factor *F, const sl_selected *Z,
-                                  sl_work *W) {
+SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_selected *Z,
+                                    sl_work *W) {
     sl_status status;
     if (R == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (F->S != R->S) {
+    if (!sli_factor_is_over(F, R->S, R->analysis)) {
         return SL_ERR_STATE;
     }
-    status = sli_region_check(F, Z);
+    status = sli_region_check_factor(F, Z);
     if (status == SL_OK) {
         status = sli_region_fill(R, F, Z, W);
     }
     return status;
+}
+
+SL_API sl_status sl_work_reserve_region(sl_work *W, const sl_region *R, const sl_factor *F) {
+    if (W == NULL || R == NULL || F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_factor_is_over(F, R->S, R->analysis)
+               ? sli_inverse_all_pairs_prepare(F, R->requested, R->extent.n_rows, W)
+               : SL_ERR_STATE;
 }
 
 SL_API void sl_region_free(sl_region *R) {
@@ -212,24 +228,24 @@ SL_API void sl_region_free(sl_region *R) {
 SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
     sli_stats_clear_error(stats);
     if (R != NULL && stats != NULL) {
-        stats->region_rows = R->inside + R->fence.n_rows;
-        stats->region_boundary = R->fence.n_rows;
-        stats->region_subtrees = R->fence.n_roots;
-        stats->region_entries = R->begin[sli_region_chunks(R->fence.n_rows)];
-        stats->region_is_copied = R->is_copied;
-        stats->seconds_region = R->seconds;
-        stats->bytes_region = R->bytes;
+        stats->region.rows = R->inside + R->extent.n_rows;
+        stats->region.boundary = R->extent.n_rows;
+        stats->region.subtrees = R->extent.n_roots;
+        stats->region.entries = R->begin[sli_region_chunks(R->extent.n_rows)];
+        stats->region.is_copied = R->is_copied;
+        stats->region.seconds = R->seconds;
+        stats->region.bytes = R->bytes;
     }
 }
 
-SL_API sl_region_view_t sl_region_view(const sl_region *R) {
-    sl_region_view_t v = {NULL, 0, NULL, 0, NULL};
+SL_API sl_region_arrays sl_region_view(const sl_region *R) {
+    sl_region_arrays v = {NULL, 0, NULL, 0, NULL};
     if (R != NULL) {
         v.symbolic = R->S;
-        v.n_roots = R->fence.n_roots;
-        v.roots = R->fence.roots;
-        v.n_boundary = R->fence.n_rows;
-        v.boundary = R->asked;
+        v.n_roots = R->extent.n_roots;
+        v.roots = R->extent.roots;
+        v.n_boundary = R->extent.n_rows;
+        v.boundary = R->requested;
     }
     return v;
 }

@@ -1,31 +1,32 @@
-/* selected_ask.h: what can be asked of a selected inverse: its diagonal, its entries, a look inside */
-#ifndef SLI_SELECTED_ASK_H
-#define SLI_SELECTED_ASK_H
+/* selected_query.h: reads a selected inverse: its diagonal, entries, statistics, arrays */
+#ifndef SLI_INVERSE_SELECTED_QUERY_H
+#define SLI_INVERSE_SELECTED_QUERY_H
 
 #include "selected.h"
 
-/* The place of supernode s in the list, or -1. */
+/* The position of supernode s in the list, or -1. */
 SLI_INLINE sl_int sli_selected_find(const sl_selected *Z, sl_int s) {
     sl_int at = s;
-    if (Z->descent.forest.count < Z->descent.S->n_supers) {
-        at = sli_lower_bound(Z->descent.supers, Z->descent.forest.count, s);
+    if (Z->traversal.forest.count < Z->traversal.S->n_supers) {
+        at = sli_lower_bound(Z->traversal.supers, Z->traversal.forest.count, s);
     }
-    return at < Z->descent.forest.count && Z->descent.supers[at] == s ? at : -1;
+    return at < Z->traversal.forest.count && Z->traversal.supers[at] == s ? at : -1;
 }
 
-/* Where the entry of pivots k and l stands in Z, or -1. */
-static sl_off sli_selected_at(const sl_selected *Z, sl_int k, sl_int l) {
-    const sl_symbolic *S = Z->descent.S;
+/* The position in Z of the entry of pivots k and l, or -1. */
+static sl_off sli_selected_position(const sl_selected *Z, sl_int k, sl_int l) {
+    const sl_symbolic *S = Z->traversal.S;
     const sl_int column = sli_min(k, l), s = S->super_of[column], at = sli_selected_find(Z, s);
-    const sl_int r = at == -1 ? -1 : sli_descent_row(S, s, sli_max(k, l));
+    const sl_int r = at == -1 ? -1 : sli_front_row(S, s, sli_max(k, l));
     return r == -1 ? -1
                    : Z->begin[at] + sli_panel_at(S->steps[s].width, r, column - S->super_first[s]);
 }
 
-/* All entries asked for are looked up before the first is written: out stays untouched on error. */
-static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_int *rows,
-                                  const sl_int *columns, sl_int count, sl_stats *stats) {
-    const sl_symbolic *S = Z->descent.S;
+/* Copies the requested entries. All of them are looked up before the first is written, so that out
+ * is unchanged on error. */
+static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_int *rows,
+                                   const sl_int *columns, sl_int count, sl_stats *stats) {
+    const sl_symbolic *S = Z->traversal.S;
     sl_int k;
     int pass;
     for (pass = 0; pass < 2; pass++) {
@@ -35,7 +36,7 @@ static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_in
             if (pass == 0 && (i < 0 || i >= S->n || j < 0 || j >= S->n)) {
                 return sli_fail_at(stats, SL_ERR_ARGUMENT, i, columns == NULL ? -1 : j, 0.0);
             }
-            at = sli_selected_at(Z, S->iperm[i], S->iperm[j]);
+            at = sli_selected_position(Z, S->iperm[i], S->iperm[j]);
             if (at == -1) {
                 return sli_fail_at(stats, SL_ERR_PATTERN, i, columns == NULL ? -1 : j, 0.0);
             }
@@ -47,9 +48,10 @@ static sl_status sli_selected_ask(const sl_selected *Z, double *out, const sl_in
     return SL_OK;
 }
 
-/* The diagonal in the order of the panels: looked up row by row it took a twelfth of the whole time. */
-static void sli_selected_all(const sl_selected *Z, double *out) {
-    const sl_symbolic *S = Z->descent.S;
+/* The whole diagonal, read panel by panel. Looking it up row by row took a twelfth of the time of
+ * the whole inverse. */
+static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
+    const sl_symbolic *S = Z->traversal.S;
     sl_int s, j;
     for (s = 0; s < S->n_supers; s++) {
         const sl_int width = S->steps[s].width, *row = S->perm + S->super_first[s];
@@ -65,15 +67,15 @@ SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const s
     if (Z == NULL || (rows != NULL && count < 0)) {
         return SL_ERR_ARGUMENT;
     }
-    count = rows == NULL ? Z->descent.S->n : count;
+    count = rows == NULL ? Z->traversal.S->n : count;
     if (count > 0 && out == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (rows == NULL && Z->descent.forest.count == Z->descent.S->n_supers) {
-        sli_selected_all(Z, out);
+    if (rows == NULL && Z->traversal.forest.count == Z->traversal.S->n_supers) {
+        sli_selected_read_diagonal(Z, out);
         return SL_OK;
     }
-    return sli_selected_ask(Z, out, rows, NULL, count, stats);
+    return sli_selected_read(Z, out, rows, NULL, count, stats);
 }
 
 SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
@@ -82,15 +84,26 @@ SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl
     if (Z == NULL || count < 0 || (count > 0 && (out == NULL || rows == NULL || columns == NULL))) {
         return SL_ERR_ARGUMENT;
     }
-    return sli_selected_ask(Z, out, rows, columns, count, stats);
+    return sli_selected_read(Z, out, rows, columns, count, stats);
 }
 
-SL_API sl_selected_view_t sl_selected_view(const sl_selected *Z) {
-    sl_selected_view_t v = {NULL, 0, NULL, NULL, NULL};
+SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats) {
+    sli_stats_clear_error(stats);
+    if (Z != NULL && stats != NULL) {
+        stats->selected.supernodes = Z->traversal.forest.count;
+        stats->selected.columns = sli_traversal_count_columns(&Z->traversal);
+        stats->selected.entries = Z->begin[Z->traversal.forest.count];
+        stats->selected.seconds = Z->seconds;
+        stats->selected.bytes = Z->bytes;
+    }
+}
+
+SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
+    sl_selected_arrays v = {NULL, 0, NULL, NULL, NULL};
     if (Z != NULL) {
-        v.symbolic = Z->descent.S;
-        v.count = Z->descent.forest.count;
-        v.supers = Z->descent.supers;
+        v.symbolic = Z->traversal.S;
+        v.count = Z->traversal.forest.count;
+        v.supers = Z->traversal.supers;
         v.begin = Z->begin;
         v.Z = Z->Z;
     }

@@ -1,173 +1,187 @@
-/* descent_run.h: the way of the inverse from the roots to the leaves, gone: front after front, each handed to a taker */
-#ifndef SLI_DESCENT_RUN_H
-#define SLI_DESCENT_RUN_H
+/* traversal_run.h: runs a top-down traversal: computes front after front, calls a visitor */
+#ifndef SLI_INVERSE_TRAVERSAL_RUN_H
+#define SLI_INVERSE_TRAVERSAL_RUN_H
 
-#include "descent.h"
-#include "factor_parts.h"
+#include "traversal.h"
+#include "../factor/factor_types.h"
 
-/* Takes what it wants of row tiles t0 .. t1-1 of the completed front of the k-th supernode of a list. Calls for other
- * tiles, or for other fronts, may run at once. */
-typedef void (*sli_taker)(void *to, sl_int k, const sli_dual *f, sl_int t0, sl_int t1);
+/* Called with each completed front, that of the k-th supernode of the list, to read its row tiles
+ * t0 .. t1-1. Calls for other tiles or other fronts may run at the same time. */
+typedef void (*sli_visitor)(void *context, sl_int k, const sli_inverse_front *f, sl_int t0,
+                            sl_int t1);
 
-/* A run under way; the memory is that of sli_descent_layout_run. */
-typedef struct sli_descending {
+/* A traversal that is running. sli_traversal_layout_run allocates its memory. */
+typedef struct sli_traversal_run {
     const sl_factor *F;
-    const sli_descent *d;
+    const sli_traversal *traversal;
     const sl_threads *threads;
-    sli_taker take;
-    void *to;
+    sli_visitor visit;
+    void *context;
     double *fronts, *scratch;
-    /* the front that all workers share */
+    /* the front that all workers share now */
     sl_int at;
-    sli_dual front;
-    sl_int group;
-    sli_dual_part part;
-} sli_descending;
+    sli_inverse_front front;
+    sl_int group; /* first column of the column group */
+    sli_inverse_phase phase;
+} sli_traversal_run;
 
-static void sli_descent_layout_run(sli_descending *run, const sli_descent *d, sli_block *b) {
-    run->fronts = SLI_TAKE(b, double, d->plan.waiting);
-    run->scratch = SLI_TAKE(b, double, (uint64_t)d->plan.workers *(uint64_t)d->scratch);
+static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
+                                     sli_block *b) {
+    run->fronts = SLI_TAKE(b, double, traversal->schedule.stack);
+    run->scratch =
+        SLI_TAKE(b, double, (uint64_t)traversal->schedule.workers *(uint64_t)traversal->scratch);
 }
 
-static sli_dual sli_dual_of(const sli_descending *run, sl_int k) {
-    const sli_step *step = &run->d->S->steps[run->d->supers[k]];
-    sli_dual f;
+/* The k-th front of the list, as the kernels take it. */
+static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
+    const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
+    sli_inverse_front f;
     f.panel = run->F->L + step->panel;
     f.D = run->F->D + step->column;
-    f.front = run->fronts + run->d->plan.waiting_begin[k];
+    f.front = run->fronts + run->traversal->schedule.stack_begin[k];
     f.width = step->width;
     f.below = step->below;
-    f.first = run->d->first == NULL ? 0 : run->d->first[k];
+    f.first = run->traversal->first == NULL ? 0 : run->traversal->first[k];
     return f;
 }
 
-/* Row tiles t0 .. t1-1 of the rows below, out of the parent's front. */
-static void sli_dual_gather(const sli_descending *run, sl_int k, const sli_dual *f, sl_int t0,
-                            sl_int t1) {
-    const sli_descent *d = run->d;
-    const sl_int up = d->forest.parent[k];
+/* Row tiles t0 .. t1-1 of the rows below, copied from the parent's front. */
+static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sli_inverse_front *f,
+                                sl_int t0, sl_int t1) {
+    const sli_traversal *traversal = run->traversal;
+    const sl_int up = traversal->forest.parent[k];
     if (up != -1) {
-        const sli_dual parent = sli_dual_of(run, up);
-        run->F->kernels->gather(f, parent.front, parent.width + parent.below,
-                                d->S->places + d->S->rows_begin[d->supers[k]], t0, t1);
+        const sli_inverse_front parent = sli_traverse_front(run, up);
+        run->F->kernels->gather(
+            f, parent.front, parent.width + parent.below,
+            traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0, t1);
     }
 }
 
-/* Most of a panel that is asked for before its turn: read from the last to the first they meet no hardware that runs
- * ahead of them, and waiting for L was a fifth of all time on 2D meshes; and so it is with the places of rows. */
+/* Most doubles of a panel that are prefetched. Panels are read from the last to the first, which no
+ * hardware prefetcher follows: without this, waiting for L took a fifth of the time on 2D meshes.
+ * The relative indices are prefetched for the same reason. */
 #define SLI_PANEL_AHEAD ((sl_off)1024)
 
-static void sli_dual_prefetch(const sl_factor *F, sl_int s) {
+static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     const sl_symbolic *S = F->S;
     const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
     const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
     sl_off k;
     for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
-        SLI_PREFETCH(S->places + row + k, 0);
+        SLI_PREFETCH(S->relative + row + k, 0);
     }
     for (k = 0; k < size && k < SLI_PANEL_AHEAD; k += SLI_TILE) {
         SLI_PREFETCH(F->L + first + k, 0);
     }
 }
 
-/* A front whose rows below are there: the rest of it, and the taker. */
-static void sli_dual_complete(const sli_descending *run, sl_int k, const sli_dual *f,
-                              sl_int worker) {
+/* Completes a front whose rows below have been gathered, and visits it. */
+static void sli_traverse_complete(const sli_traversal_run *run, sl_int k,
+                                  const sli_inverse_front *f, sl_int worker) {
     if (k > 0) {
-        sli_dual_prefetch(run->F, run->d->supers[k - 1]);
+        sli_traverse_prefetch(run->F, run->traversal->supers[k - 1]);
     }
-    run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->d->scratch * worker));
-    run->take(run->to, k, f, 0, sli_tiles(f->width + f->below));
+    run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->traversal->scratch * worker));
+    run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
-/* Worker k's tasks, whose roots have taken their parts before. */
-static void sli_descend_tasks(void *data, sl_int k) {
-    const sli_descending *run = (const sli_descending *)data;
-    const sli_schedule *plan = &run->d->plan;
+/* Worker k's tasks. The rows below of their roots have been gathered before. */
+static void sli_traverse_tasks(void *data, sl_int k) {
+    const sli_traversal_run *run = (const sli_traversal_run *)data;
+    const sli_schedule *schedule = &run->traversal->schedule;
     sl_int m, s;
-    for (m = 0; m < plan->n_tasks; m++) {
-        for (s = plan->last[m]; s >= plan->first[m] && plan->worker[m] == k; s--) {
-            const sli_dual f = sli_dual_of(run, s);
-            if (s < plan->last[m]) {
-                sli_dual_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
+    for (m = 0; m < schedule->n_tasks; m++) {
+        for (s = schedule->last[m]; s >= schedule->first[m] && schedule->worker[m] == k; s--) {
+            const sli_inverse_front f = sli_traverse_front(run, s);
+            if (s < schedule->last[m]) {
+                sli_traverse_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
             }
-            sli_dual_complete(run, s, &f, k);
+            sli_traverse_complete(run, s, &f, k);
         }
     }
 }
 
-/* The children of the front at hand that are roots of tasks take their parts: every `workers`-th one from k on. */
-static void sli_descend_to_roots(const sli_descending *run, sl_int k, sl_int workers) {
-    const sli_schedule *plan = &run->d->plan;
-    const sl_int *low = run->d->forest.low;
-    sl_int c, place, count = 0;
+/* Gathers the rows below for children of the current front that are roots of tasks: every
+ * `workers`-th of them, from the k-th on. */
+static void sli_traverse_gather_task_roots(const sli_traversal_run *run, sl_int k, sl_int workers) {
+    const sli_schedule *schedule = &run->traversal->schedule;
+    const sl_int *low = run->traversal->forest.low;
+    sl_int c, top, count = 0;
     for (c = run->at - 1; c >= low[run->at]; c = low[c] - 1) {
-        place = sli_lower_bound(plan->top, plan->n_tops, c);
-        if (plan->top[place] != c && count++ % workers == k) { /* run->at itself is a top */
-            const sli_dual f = sli_dual_of(run, c);
-            sli_dual_gather(run, c, &f, 0, sli_tiles(f.width + f.below));
+        top = sli_lower_bound(schedule->top, schedule->n_tops, c);
+        /* top < n_tops, because run->at is a top above c */
+        if (schedule->top[top] != c && count++ % workers == k) {
+            const sli_inverse_front f = sli_traverse_front(run, c);
+            sli_traverse_gather(run, c, &f, 0, sli_tiles(f.width + f.below));
         }
     }
 }
 
-static void sli_shared_gather(void *data, sl_int k) {
-    const sli_descending *run = (const sli_descending *)data;
-    const sl_int workers = run->d->plan.workers, first = run->front.width / SLI_TILE;
+/* Worker k's range of row tiles of the shared front: gathers, computes a phase, visits. */
+static void sli_traverse_gather_range(void *data, sl_int k) {
+    const sli_traversal_run *run = (const sli_traversal_run *)data;
+    const sl_int workers = run->traversal->schedule.workers, first = run->front.width / SLI_TILE;
     const sl_int tiles = sli_tiles(run->front.width + run->front.below);
-    sli_dual_gather(run, run->at, &run->front, sli_part(first, tiles, k, workers, 0),
-                    sli_part(first, tiles, k + 1, workers, 0));
+    sli_traverse_gather(run, run->at, &run->front,
+                        sli_tile_range_begin(first, tiles, k, workers, 0),
+                        sli_tile_range_begin(first, tiles, k + 1, workers, 0));
 }
 
-static void sli_shared_part(void *data, sl_int k) {
-    const sli_descending *run = (const sli_descending *)data;
-    const sl_int workers = run->d->plan.workers, is_square = run->part == SLI_DUAL_SQUARE;
-    const sli_span all = sli_dual_span(&run->front, run->group, run->part);
-    run->F->kernels->dual(&run->front, run->group, run->part,
-                          sli_part(all.first, all.last, k, workers, is_square),
-                          sli_part(all.first, all.last, k + 1, workers, is_square), run->scratch);
+static void sli_traverse_phase_range(void *data, sl_int k) {
+    const sli_traversal_run *run = (const sli_traversal_run *)data;
+    const sl_int workers = run->traversal->schedule.workers,
+                 is_square = run->phase == SLI_INVERSE_SQUARE;
+    const sli_tile_range all = sli_inverse_tiles(&run->front, run->group, run->phase);
+    run->F->kernels->inverse_phase(
+        &run->front, run->group, run->phase,
+        sli_tile_range_begin(all.first, all.last, k, workers, is_square),
+        sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
-static void sli_shared_take(void *data, sl_int k) {
-    const sli_descending *run = (const sli_descending *)data;
-    const sl_int workers = run->d->plan.workers;
+static void sli_traverse_visit_range(void *data, sl_int k) {
+    const sli_traversal_run *run = (const sli_traversal_run *)data;
+    const sl_int workers = run->traversal->schedule.workers;
     const sl_int tiles = sli_tiles(run->front.width + run->front.below);
-    run->take(run->to, run->at, &run->front, sli_part(0, tiles, k, workers, 0),
-              sli_part(0, tiles, k + 1, workers, 0));
-    sli_descend_to_roots(run, k, workers);
+    run->visit(run->context, run->at, &run->front, sli_tile_range_begin(0, tiles, k, workers, 0),
+               sli_tile_range_begin(0, tiles, k + 1, workers, 0));
+    sli_traverse_gather_task_roots(run, k, workers);
 }
 
-/* The whole of a front by all workers: each row tile goes its own way, so that the bits are the same. */
-static void sli_dual_shared(sli_descending *run) {
-    const sl_int workers = run->d->plan.workers;
-    sl_int part;
-    run->front = sli_dual_of(run, run->at);
-    sli_parallel(run->threads, workers, sli_shared_gather, run);
-    for (run->group = sli_dual_last(&run->front); run->group + SLI_DUAL_COLUMNS > run->front.first;
-         run->group -= SLI_DUAL_COLUMNS) {
-        for (part = 0; part < SLI_DUAL_PARTS; part++) {
-            run->part = (sli_dual_part)part;
-            sli_parallel(run->threads, workers, sli_shared_part, run);
+/* One front by all workers. Each row tile is computed by the same operations as with one worker, so
+ * that the bits are the same. */
+static void sli_traverse_shared(sli_traversal_run *run) {
+    const sl_int workers = run->traversal->schedule.workers;
+    sl_int phase;
+    run->front = sli_traverse_front(run, run->at);
+    sli_parallel(run->threads, workers, sli_traverse_gather_range, run);
+    for (run->group = sli_inverse_last_group(&run->front);
+         run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
+        for (phase = 0; phase < SLI_INVERSE_PHASES; phase++) {
+            run->phase = (sli_inverse_phase)phase;
+            sli_parallel(run->threads, workers, sli_traverse_phase_range, run);
         }
     }
-    sli_parallel(run->threads, workers, sli_shared_take, run);
+    sli_parallel(run->threads, workers, sli_traverse_visit_range, run);
 }
 
-/* All fronts, parents before children. */
-static void sli_descend(sli_descending *run) {
-    const sli_schedule *plan = &run->d->plan;
+/* Computes all fronts, parents before children. */
+static void sli_traverse(sli_traversal_run *run) {
+    const sli_schedule *schedule = &run->traversal->schedule;
     sl_int m;
-    for (m = plan->n_tops - 1; m >= 0; m--) {
-        run->at = plan->top[m];
-        if (2.0 * sli_front_flops(&run->d->S->steps[run->d->supers[run->at]]) >= SLI_SHARED_FLOPS) {
-            sli_dual_shared(run);
+    for (m = schedule->n_tops - 1; m >= 0; m--) {
+        run->at = schedule->top[m];
+        if (2.0 * sli_front_flops(&run->traversal->S->steps[run->traversal->supers[run->at]]) >=
+            SLI_SHARED_FLOPS) {
+            sli_traverse_shared(run);
         } else {
-            const sli_dual f = sli_dual_of(run, run->at);
-            sli_dual_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
-            sli_dual_complete(run, run->at, &f, 0);
-            sli_descend_to_roots(run, 0, 1);
+            const sli_inverse_front f = sli_traverse_front(run, run->at);
+            sli_traverse_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
+            sli_traverse_complete(run, run->at, &f, 0);
+            sli_traverse_gather_task_roots(run, 0, 1);
         }
     }
-    sli_parallel(run->threads, plan->workers, sli_descend_tasks, run);
+    sli_parallel(run->threads, schedule->workers, sli_traverse_tasks, run);
 }
 
 #endif

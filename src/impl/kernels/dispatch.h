@@ -1,12 +1,14 @@
-/* cpu.h: which instruction sets this processor and operating system run */
-#ifndef SLI_CPU_H
-#define SLI_CPU_H
+/* dispatch.h: detects the instruction sets of this processor and selects a kernel table */
+#ifndef SLI_KERNELS_DISPATCH_H
+#define SLI_KERNELS_DISPATCH_H
 
-#include "../public/types.h"
-#include "base.h"
+#include "simd_avx2.h"
+#include "simd_avx512.h"
+#include "simd_neon.h"
+#include "simd_scalar.h"
 
 #if defined(SLI_X86)
-/* The register states that the operating system saves: XCR0. */
+/* XCR0: the register states that the operating system saves. */
 SLI_INLINE unsigned sli_xcr0(void) {
     unsigned low, high;
     __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
@@ -14,8 +16,8 @@ SLI_INLINE unsigned sli_xcr0(void) {
 }
 #endif
 
-/* The best instruction set here. CPUID traps under a hypervisor (microseconds), so this runs once a
- * factor. */
+/* The best instruction set that is compiled in and that the processor and the operating system
+ * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
     unsigned a, b, c, d, xcr0;
@@ -23,16 +25,48 @@ static sl_isa sli_cpu_best(void) {
     if (!__get_cpuid(1, &a, &b, &c, &d) || (c & osxsave_avx_fma) != osxsave_avx_fma) {
         return SL_ISA_SCALAR;
     }
-    xcr0 = sli_xcr0();
+    xcr0 = sli_xcr0(); /* 0x6: SSE and AVX state; 0xe0: AVX-512 state */
     if ((xcr0 & 0x6u) != 0x6u || !__get_cpuid_count(7, 0, &a, &b, &c, &d) || !(b & (1u << 5))) {
-        return SL_ISA_SCALAR;
+        return SL_ISA_SCALAR; /* bit 5: AVX2 */
     }
-    return (xcr0 & 0xe6u) == 0xe6u && (b & (1u << 16)) ? SL_ISA_AVX512 : SL_ISA_AVX2;
+#if defined(SLI_AVX512)
+    if ((xcr0 & 0xe6u) == 0xe6u && (b & (1u << 16))) { /* bit 16: AVX512F */
+        return SL_ISA_AVX512;
+    }
+#endif
+    return SL_ISA_AVX2;
 #elif defined(SLI_ARM)
     return SL_ISA_NEON;
 #else
     return SL_ISA_SCALAR;
 #endif
+}
+
+/* The kernel table of an instruction set; SL_ISA_AUTO: of the best one. NULL if the instruction set
+ * is not compiled in or not supported here. */
+static const sli_kernels *sli_kernels_select(sl_isa isa) {
+    const sl_isa best = sli_cpu_best();
+    if (isa == SL_ISA_AUTO) {
+        isa = best;
+    }
+    if (isa == SL_ISA_SCALAR) {
+        return &sli_kernels_scalar;
+    }
+#if defined(SLI_AVX512)
+    if (isa == SL_ISA_AVX512 && best == SL_ISA_AVX512) {
+        return &sli_kernels_avx512;
+    }
+#endif
+#if defined(SLI_X86)
+    if (isa == SL_ISA_AVX2 && best != SL_ISA_SCALAR) {
+        return &sli_kernels_avx2;
+    }
+#elif defined(SLI_ARM)
+    if (isa == SL_ISA_NEON) {
+        return &sli_kernels_neon;
+    }
+#endif
+    return NULL;
 }
 
 #endif

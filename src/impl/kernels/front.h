@@ -1,41 +1,81 @@
-/* fronts.h: the tree of fronts: the children of each supernode, and where their rows stand in its front */
-#ifndef SLI_FRONTS_H
-#define SLI_FRONTS_H
+/* front.h: a front of the factorization, and the contract of the kernels that work on it */
+#ifndef SLI_KERNELS_FRONT_H
+#define SLI_KERNELS_FRONT_H
 
-#include "symbolic_types.h"
+#include "panel.h"
+#include "pivot_rule.h"
 
-/* The children of s: s - 1, then the one before the first descendant of that, and so on down to s's
- * own first descendant, as supernodes are in postorder. */
-static void sli_fill_descendants(sl_symbolic *S) {
-    sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        S->descendant[s] = s;
-    }
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int up = S->super_parent[s];
-        if (up != -1) {
-            S->descendant[up] = sli_min(S->descendant[up], S->descendant[s]);
-        }
-    }
+/* The front of a supernode with w columns and u rows below is its panel and its update matrix. The
+ * update matrix is the lower triangle, in row tiles as in a panel, that begins at row tile w / 8 of
+ * the front, so that the rows below have the same lane in both. Its first w % 8 rows and columns
+ * and the part above the diagonal are not used. */
+
+/* Position of row tile t of a triangle, in doubles. */
+SLI_INLINE sl_off sli_triangle_offset(sl_int t) {
+    return 32 * (sl_off)t * (t + 1);
 }
 
-/* Local rows in the parent's front. local: n of scratch. */
-static void sli_fill_places(sl_symbolic *S, sl_int *local) {
-    sl_int s, c;
-    sl_off at;
-    for (s = 0; s < S->n_supers; s++) {
-        for (c = S->super_first[s]; c < S->super_first[s + 1]; c++) {
-            local[c] = c - S->super_first[s];
-        }
-        for (at = S->rows_begin[s]; at < S->rows_begin[s + 1]; at++) {
-            local[S->rows[at]] = S->steps[s].width + (sl_int)(at - S->rows_begin[s]);
-        }
-        for (c = s - 1; c >= S->descendant[s]; c = S->descendant[c] - 1) {
-            for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
-                S->places[at] = local[S->rows[at]];
-            }
-        }
-    }
+/* Row tiles of the update matrix of a supernode with w columns and u rows below. */
+SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
+    return u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
 }
+
+/* Blocking of the products: column tiles that are updated together, and columns that they are
+ * updated by at a time. A row tile reads 16 KB of a chunk (fits the first cache), the group 128 KB
+ * (fits the second). */
+#define SLI_GROUP_TILES 8
+#define SLI_CHUNK_COLUMNS 256
+
+/* Doubles of scratch for fronts of some width. */
+SLI_INLINE sl_int sli_front_scratch(sl_int width) {
+    return SLI_GROUP_TILES * SLI_TILE * sli_min(width, SLI_CHUNK_COLUMNS);
+}
+
+/* Doubles in the array `reciprocals` of a front. */
+#define SLI_FRONT_RECIPROCALS (2 * SLI_GROUP_TILES * SLI_TILE)
+
+typedef struct sli_front {
+    double *panel;
+    sl_int width, below;
+    double *update;
+    double *D;         /* width pivots */
+    double *magnitude; /* 8 for each row tile: what the diagonal was computed from, in magnitude */
+    /* 16 for each column tile of a group: 8 values 1/d, then 8 values -sign(d). The first 1/d is 0
+     * if any of them is out of range. */
+    double *reciprocals;
+    const sli_pivot_rule *rule;
+    sl_int column; /* first column of the supernode */
+} sli_front;
+
+/* A front is eliminated by groups of SLI_GROUP_TILES column tiles that begin at tile c0: first the
+ * row tiles of the group's pivots, then all row tiles below them. The update matrix comes last.
+ *
+ * On entry panel and update hold A plus the contributions of the children, and magnitude the sum of
+ * their magnitudes on the diagonal. At the end the panel holds L, D holds the pivots, and L D L' is
+ * subtracted from update. In the rows of the panel magnitude is that of the pivot; in the others it
+ * has grown by |L D L'| on the diagonal. Every row tile is computed independently of the others, so
+ * row tiles may be distributed over threads. The caller looks for null pivots. */
+
+/* The row tiles of a group's pivots. */
+typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch);
+
+/* Row tiles t0 .. t1-1 of a group, all below its pivots. */
+typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                double *scratch);
+
+/* Row tiles t0 .. t1-1 and column tiles c0 .. c1-1 of the update matrix, or of a triangle that is a
+ * part of it. update points to the triangle that begins at tile c0. No tile is before the last tile
+ * of pivots. */
+typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
+                                  double *scratch);
+
+/* Extend-add: adds rows first .. last-1 of a descendant's update matrix to a front, in row i the
+ * columns 0 .. min(i, columns-1). The first `skipped` rows and columns of the matrix are not used;
+ * row 0 is the first after them. relative: the relative indices, ascending: the local row in the
+ * front of each row. Two calls for the same front must not run at the same time on rows of the same
+ * tile of the front. */
+typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
+                                    const sl_int *relative, sl_int columns, sl_int first,
+                                    sl_int last);
 
 #endif

@@ -1,6 +1,6 @@
-/* takahashi.inl.h: a front of the inverse: gathered from the parent's front, completed column group by column group */
+/* inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
-/* C(rows, k) -= A(rows, j) B(k, j), one row tile; A and B: [length][8], C: [columns][8]. */
+/* C(rows, k) -= A(rows, j) B(k, j) for one row tile. A and B: [length][8]; C: [columns][8]. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
                                              double *C, sl_int columns) {
     sl_int k;
@@ -9,13 +9,13 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     }
 }
 
-#define SLI_STORE(k, p)                                                                            \
-    if ((k) < columns) {                                                                           \
-        SLV_STORE((p) + SLI_TILE * (k), a)                                                         \
+#define SLI_STORE(k, p) \
+    if ((k) < columns) { \
+        SLV_STORE((p) + SLI_TILE * (k), a) \
     }
 
-/* The first columns of a tile := 0. Not as a loop: compilers make rep stos of one, and what reads the tile next waits
- * for it. */
+/* Clears the first columns of a tile. Not a loop: compilers turn one into rep stos, and the next
+ * reads of the tile wait for that. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
     SLV_DECLARE(a)
     SLV_ZERO(a)
@@ -26,21 +26,23 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Z of the rows below, row tiles t0 .. t1-1, out of the parent's front: row and column i of theirs is row and
- * column places[i] there. Lanes of other rows get the numbers of a neighbour, which nothing reads. */
-SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from, sl_int height,
-                                          const sl_int *places, sl_int t0, sl_int t1) {
+/* Copies Z of the rows below from the front of the parent: row and column i are row and column
+ * relative[i] there. Lanes that belong to no row below get a copy of a neighbor, which is never
+ * read. */
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const double *from,
+                                          sl_int height, const sl_int *relative, sl_int t0,
+                                          sl_int t1) {
     const sl_int w = f->width, u = f->below;
     sl_int t, i;
     for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {
-            const sl_int place = places[sli_clamp(SLI_TILE * t + i - w, u - 1)];
-            offset[i] = sli_square_offset(height, place / SLI_TILE) + place % SLI_TILE;
+            const sl_int local = relative[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+            offset[i] = sli_square_offset(height, local / SLI_TILE) + local % SLI_TILE;
         }
         for (i = 0; i < u; i++) {
-            const double *x = from + SLI_TILE * (ptrdiff_t)places[i];
+            const double *x = from + SLI_TILE * (ptrdiff_t)relative[i];
             SLV_DECLARE(a)
             SLV_GATHER(a, x, SLI_OFFSET)
             SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
@@ -53,18 +55,18 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_dual *f, const double *from,
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
 #define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
-#define SLI_BEFORE(j, k)                                                                           \
-    if ((j) < (k)) {                                                                               \
-        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k))                                                 \
-        SLV_FNMA(a##k, a##j, b)                                                                    \
+#define SLI_BEFORE(j, k) \
+    if ((j) < (k)) { \
+        SLV_BROADCAST(b, l + SLI_TILE * (j) + (k)) \
+        SLV_FNMA(a##k, a##j, b) \
     }
-#define SLI_SOLVE(k, unused)                                                                       \
-    if ((k) < columns) {                                                                           \
-        SLI_EACH8_AGAIN(SLI_BEFORE, k)                                                             \
+#define SLI_SOLVE(k, unused) \
+    if ((k) < columns) { \
+        SLI_EACH8_AGAIN(SLI_BEFORE, k) \
     }
 
-/* x(rows, k) -= x(rows, j) L(k, j) for j < k in the 8 x 8 unit triangle at l: x := x L'^-1. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x, sl_int columns) {
+/* x := x L'^-1 for the 8 x 8 unit triangle at l: x(rows, k) -= x(rows, j) L(k, j) for j < k. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x, sl_int columns) {
     SLV_DECLARE(b)
     SLI_EACH8(SLI_DECLARE, 0)
     SLI_EACH8(SLI_LOAD, x)
@@ -78,14 +80,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(after_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L'^-1 of a group of m columns from j0 on, row tiles c0 .. c1-1, row tile c from column 8c on, 0 where it
- * has no row; and P = -N D^-1. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j0, sl_int c0,
-                                                     sl_int c1, double *scratch) {
-    const sl_int m = sli_dual_columns(f, j0), tiles = sli_tiles(m), tile_size = SLI_TILE * SLI_TILE;
-    double *N = scratch + SLI_DUAL_ROW * (ptrdiff_t)c0, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW;
+/* N = -L_JJ'^-1 and P = -N D^-1 for the group of m columns from j0 on: row tiles c0 .. c1-1, row
+ * tile c from column 8c on. Rows after the last are 0. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
+                                                      sl_int c0, sl_int c1, double *scratch) {
+    const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
+                 tile_size = SLI_TILE * SLI_TILE;
+    double *N = scratch + SLI_INVERSE_ROW * (ptrdiff_t)c0,
+           *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW;
     sl_int c, t, k;
-    for (c = c0; c < c1; c++, N += SLI_DUAL_ROW, P += SLI_DUAL_ROW) {
+    for (c = c0; c < c1; c++, N += SLI_INVERSE_ROW, P += SLI_INVERSE_ROW) {
         for (t = c; t < tiles; t++) {
             const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
             const double *l =
@@ -100,7 +104,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
                 (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
                  columns);
             }
-            SLV_NAME(after_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+            SLV_NAME(solve_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
         }
         for (k = SLI_TILE * c; k < m; k++) {
             const double minus = -f->D[j0 + k];
@@ -114,15 +118,15 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_inverse)(const sli_dual *f, sl_int j
     }
 }
 
-/* W' = (L_SJ L_JJ^-1)', row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j0, sl_int t0,
-                                                     sl_int t1, double *scratch) {
-    const sl_int m = sli_dual_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = sli_dual_stride(f, j0);
+/* W' = (L_SJ L_JJ^-1)' for row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f, sl_int j0,
+                                                     sl_int t0, sl_int t1, double *scratch) {
+    const sl_int m = sli_inverse_group_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const ptrdiff_t stride = sli_inverse_stride(f, j0);
     const double *N = scratch;
-    double *W = sli_dual_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+    double *W = sli_inverse_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
     sl_int c, t;
-    for (c = 0; c < sli_tiles(m); c++, N += SLI_DUAL_ROW, W += stride) {
+    for (c = 0; c < sli_tiles(m); c++, N += SLI_INVERSE_ROW, W += stride) {
         const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
         for (t = t0; t < t1; t++) {
             double *to = W + tile_size * (ptrdiff_t)(t - t0);
@@ -134,12 +138,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_dual *f, sl_int j
     }
 }
 
-/* Z_SJ -= Z_SS W, row tiles t0 .. t1-1, in chunks as in a factorization. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j0, sl_int t0,
-                                                     sl_int t1, double *scratch) {
-    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
-    const ptrdiff_t stride = sli_dual_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
-    const double *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
+/* Z_SJ = -Z_SS W for row tiles t0 .. t1-1, SLI_CHUNK_COLUMNS columns of Z_SS at a time. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
+                                                     sl_int t0, sl_int t1, double *scratch) {
+    const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
+    const ptrdiff_t stride = sli_inverse_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+    const double *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     sl_int t, c, s;
     for (t = t0; t < t1; t++) {
         double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
@@ -147,8 +151,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
             SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
         }
     }
-    for (s = first; s < h; s += SLI_CHUNK) {
-        const sl_int length = sli_min(SLI_CHUNK, h - s);
+    for (s = first; s < h; s += SLI_CHUNK_COLUMNS) {
+        const sl_int length = sli_min(SLI_CHUNK_COLUMNS, h - s);
         const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
         for (t = t0; t < t1; t++) {
             double *row = f->front + sli_square_offset(h, t);
@@ -174,23 +178,25 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_dual *f, sl_int j
     }
 }
 
-/* The first lanes of some columns of a tile at to become those at from: rows below share the others. */
+/* Copies the first lanes of columns first .. last-1 from one tile to another. The other lanes are
+ * rows below, which are perhaps not computed yet: they are neither read nor written. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
                                              sl_int first, sl_int last) {
-    sl_int k;
+    sl_int k, i;
     SLV_DECLARE(a)
-    SLV_DECLARE(b)
     for (k = first; k < last; k++) {
-        SLV_LOAD(a, from + SLI_TILE * k)
-        SLV_LOAD(b, to + SLI_TILE * k)
-        SLV_FIRST(a, lanes)
-        SLV_BELOW(b, lanes - 1)
-        SLV_ADD(a, b)
-        SLV_STORE(to + SLI_TILE * k, a)
+        if (lanes == SLI_TILE) {
+            SLV_LOAD(a, from + SLI_TILE * k)
+            SLV_STORE(to + SLI_TILE * k, a)
+            continue;
+        }
+        for (i = 0; i < lanes; i++) {
+            to[SLI_TILE * k + i] = from[SLI_TILE * k + i];
+        }
     }
 }
 
-/* Lanes first .. last-1 of the first columns of a tile to the columns and lanes of another. */
+/* Transposes a tile: its lanes first .. last-1 become columns, its first columns become lanes. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
                                               double *to, sl_int columns) {
     if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
@@ -202,10 +208,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
     }
 }
 
-/* Z_JS = Z_SJ', columns of the row tiles t0 .. t1-1. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0, sl_int t0,
-                                                    sl_int t1) {
-    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below;
+/* Z_JS = Z_SJ' for row tiles t0 .. t1-1 of Z_SJ. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
+                                                    sl_int t0, sl_int t1) {
+    const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
     const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
     sl_int t, c;
     for (c = 0; c < sli_tiles(m); c++) {
@@ -220,15 +226,15 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_dual *f, sl_int j0
     }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ, the lower tiles of the group's row tiles t0 .. t1-1 and what mirrors
- * them. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0, sl_int t0,
-                                                    sl_int t1, double *scratch) {
-    const sl_int m = sli_dual_columns(f, j0), h = f->width + f->below, first = j0 + m;
+/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ: the lower tiles of row tiles t0 .. t1-1 of the group, and
+ * their transposes. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, sl_int j0,
+                                                    sl_int t0, sl_int t1, double *scratch) {
+    const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
     const sl_int tile_size = SLI_TILE * SLI_TILE;
-    const ptrdiff_t stride = sli_dual_stride(f, j0);
-    const double *N = scratch, *P = N + SLI_DUAL_GROUP * SLI_DUAL_ROW,
-                 *W = sli_dual_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
+    const ptrdiff_t stride = sli_inverse_stride(f, j0);
+    const double *N = scratch, *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW,
+                 *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
     sl_int c, t;
     for (t = t0; t < t1; t++) {
@@ -239,8 +245,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
             double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
             SLV_NAME(clear)(x, SLI_TILE);
             SLV_NAME(block)
-            (N + SLI_DUAL_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-             P + SLI_DUAL_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+            (N + SLI_INVERSE_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+             P + SLI_INVERSE_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
              columns);
             if (first < h) {
                 SLV_NAME(block)
@@ -256,19 +262,20 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_dual *f, sl_int j0
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_part part, sl_int t0,
-                                        sl_int t1, double *scratch) {
-    switch (part) {
-    case SLI_DUAL_INVERSE:
-        SLV_NAME(group_inverse)(f, j0, t0, t1, scratch);
+SLV_FUNCTION static void SLV_NAME(inverse_phase)(const sli_inverse_front *f, sl_int j0,
+                                                 sli_inverse_phase phase, sl_int t0, sl_int t1,
+                                                 double *scratch) {
+    switch (phase) {
+    case SLI_INVERSE_TRIANGLE:
+        SLV_NAME(group_triangle)(f, j0, t0, t1, scratch);
         break;
-    case SLI_DUAL_WEIGHTS:
+    case SLI_INVERSE_WEIGHTS:
         SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
         break;
-    case SLI_DUAL_PRODUCT:
+    case SLI_INVERSE_PRODUCT:
         SLV_NAME(group_product)(f, j0, t0, t1, scratch);
         break;
-    case SLI_DUAL_MIRROR:
+    case SLI_INVERSE_MIRROR:
         SLV_NAME(group_mirror)(f, j0, t0, t1);
         break;
     default:
@@ -276,14 +283,15 @@ SLV_FUNCTION static void SLV_NAME(dual)(const sli_dual *f, sl_int j0, sli_dual_p
     }
 }
 
-/* From the last group of columns to the first, each with the columns after it among its rows below:
- * what a group works upon stays in the caches, whatever the width. */
-SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_dual *f, double *scratch) {
+/* Groups of columns from the last to the first. The columns after a group count as rows below it.
+ * The data of a group fit in the caches for any width. */
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double *scratch) {
     sl_int j0;
-    for (j0 = sli_dual_last(f); j0 + SLI_DUAL_COLUMNS > f->first; j0 -= SLI_DUAL_COLUMNS) {
-        const sli_span group = sli_dual_span(f, j0, SLI_DUAL_INVERSE);
-        const sli_span below = sli_dual_span(f, j0, SLI_DUAL_WEIGHTS);
-        SLV_NAME(group_inverse)(f, j0, group.first, group.last, scratch);
+    for (j0 = sli_inverse_last_group(f); j0 + SLI_INVERSE_COLUMNS > f->first;
+         j0 -= SLI_INVERSE_COLUMNS) {
+        const sli_tile_range group = sli_inverse_tiles(f, j0, SLI_INVERSE_TRIANGLE);
+        const sli_tile_range below = sli_inverse_tiles(f, j0, SLI_INVERSE_WEIGHTS);
+        SLV_NAME(group_triangle)(f, j0, group.first, group.last, scratch);
         if (below.first < below.last) {
             SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
             SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);

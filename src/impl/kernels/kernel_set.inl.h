@@ -1,5 +1,37 @@
-/* words_end.inl.h: takes the octet words back, for the next instruction set */
+/* kernel_set.inl.h: all kernels of one instruction set except multi_rhs.inl.h, and their table */
+
+/* The last template of an instruction set: it undefines the SIMD vocabulary. */
+
+#include "unit_triangle.inl.h"
+#if defined(SLV_PAIR) /* else multi_rhs.inl.h has the kernels for two right-hand sides */
+#include "two_rhs.inl.h"
+#endif
+#include "product.inl.h"
+#include "front.inl.h"
+#include "inverse_front.inl.h"
+#include "small_supernode.inl.h"
+#include "single_rhs.inl.h"
+
+#if !defined(SLV_NAME_4)
+#define SLV_NAME_4(f) SLV_NAME(f##4)
+#endif
+
+static const sli_kernels SLV_NAME(kernels) = {
+    SLV_ISA,
+    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)},
+    SLV_NAME(row),
+    SLV_NAME(pivots),
+    SLV_NAME(rows),
+    SLV_NAME(update),
+    SLV_NAME(assemble),
+    SLV_NAME(products8),
+    SLV_NAME(gather),
+    SLV_NAME(inverse_phase),
+    SLV_NAME(takahashi)};
+
 #undef SLV_NAME
+#undef SLV_NAME_4
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
@@ -12,9 +44,9 @@
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
-#undef SLV_TWICE_LOW
-#undef SLV_TWICE_HIGH
-#undef SLV_TWICE_AT
+#undef SLV_DUP_LOW
+#undef SLV_DUP_HIGH
+#undef SLV_DUP_AT
 #undef SLV_PAIR
 #undef SLV_TILES
 #undef SLV_COLUMNS
@@ -25,8 +57,8 @@
 #undef SLV_DIVIDE
 #undef SLV_BELOW
 #undef SLV_BELOW_2
-#undef SLV_SPREAD
-#undef SLV_SPREAD_ADD
+#undef SLV_EXPAND
+#undef SLV_EXPAND_ADD
 #undef SLV_LOAD_PART
 #undef SLV_FIRST
 #undef SLV_LANE
@@ -44,3 +76,11 @@
 #undef SLV_SUMS
 #undef SLV_SUM_LOAD
 #undef SLV_SUM_STORE
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE

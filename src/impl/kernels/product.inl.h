@@ -1,27 +1,27 @@
-/* product.inl.h: C -= A D B' on tiles, the loop that a factorization spends its time in; words SLV_* */
+/* product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
-/* A block of registers holds SLV_COLUMNS columns of one row tile, or of two where an ISA has
- * registers enough: SLV_EACH_COLUMN(op, t) is op(0, t) op(1, t) .. over them. Columns past those of C
- * are computed and dropped: B has all 8 of a tile. */
+/* A block of C in registers has SLV_COLUMNS columns of SLV_TILES row tiles. Columns after the last
+ * of C are computed and discarded, as B always has the 8 rows of a tile. */
 #define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
-#define SLI_LOAD(k, t)                                                                             \
-    if ((k) < columns) {                                                                           \
-        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k))                                                   \
-    } else {                                                                                       \
-        SLV_ZERO(c##t##k)                                                                          \
+#define SLI_LOAD(k, t) \
+    if ((k) < columns) { \
+        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k)) \
+    } else { \
+        SLV_ZERO(c##t##k) \
     }
-#define SLI_STORE(k, t)                                                                            \
-    if ((k) < columns) {                                                                           \
-        SLV_STORE(C##t + SLI_TILE * (k), c##t##k)                                                  \
+#define SLI_STORE(k, t) \
+    if ((k) < columns) { \
+        SLV_STORE(C##t + SLI_TILE * (k), c##t##k) \
     }
-#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */                               \
-    SLV_BROADCAST(b, B + (k))                                                                      \
+#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
+    SLV_BROADCAST(b, B + (k)) \
     SLV_FNMA(c0##k, a0, b)
-#define SLI_UPDATE2(k, unused)                                                                     \
-    SLI_UPDATE(k, unused)                                                                          \
+#define SLI_UPDATE2(k, unused) \
+    SLI_UPDATE(k, unused) \
     SLV_FNMA(c1##k, a1, b)
 
-/* One row tile. A: [length][8], B: [length][8] from the block's first column on, C: [columns][8]. */
+/* One row tile. A: [length][8]; B: [length][8], from the first column of the block on;
+ * C: [columns][8]. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
                                               double *C0, sl_int columns) {
     sl_int j;
@@ -65,7 +65,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1,
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 
-/* B(k, j) d(j) of column tile c's 8 rows, the columns j .. j + length - 1 of the panel. */
+/* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
                                             double *B) {
     sl_int j;
@@ -79,19 +79,19 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
     }
 }
 
-/* Tiles of the lower triangle, row tiles t0 .. t1-1 and column tiles c0 .. c1-1 (t0 >= c0), lose
- * L D L' over the panel's columns j0 .. j1-1. The target's tile (t, c) stands at tile_offset(target_width, t - target_first)
- * + 64 (c - target_first). Taken in chunks of columns j, so that
- * what a row tile needs stays in the first cache and what the group of column tiles needs in the
- * second. */
+/* Subtracts L D L' over columns j0 .. j1-1 of the panel from the tiles (t, c) of the lower
+ * triangle, t0 <= t < t1, c0 <= c < c1, t0 >= c0. Tile (t, c) of the target is at
+ * sli_tile_offset(target_width, t - target_first) + 64 (c - target_first). Columns j are taken in
+ * chunks, so that the part of a row tile stays in the first cache and that of the group of column
+ * tiles in the second. B: scratch, sli_front_scratch doubles. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                                            sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
                                            sl_int j1, double *target, sl_int target_width,
                                            sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
-    for (j = j0; j < j1; j += SLI_CHUNK) {
-        const sl_int length = sli_min(SLI_CHUNK, j1 - j);
+    for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
+        const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 - j);
         for (c = c0; c < c1; c++) {
             SLV_NAME(pack)
             (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
@@ -122,7 +122,8 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             }
 #if SLV_TILES == 2
             t += is_pair;
-            if (is_pair && c == t && c < c1) { /* the pair's second tile has a diagonal tile more */
+            if (is_pair && c == t && c < c1) {
+                /* the second row tile of the pair has one tile more, on the diagonal */
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
                 SLV_NAME(block1)
                 (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,

@@ -1,164 +1,111 @@
-/* isa_scalar.h: the kernels in plain C: an octet is an array */
-#ifndef SLI_ISA_SCALAR_H
-#define SLI_ISA_SCALAR_H
+/* simd_scalar.h: the kernels in plain C: a vector is an array */
+#ifndef SLI_KERNELS_SIMD_SCALAR_H
+#define SLI_KERNELS_SIMD_SCALAR_H
 
-#include "kernels.h"
+#include "simd.h"
+#include "table.h"
+
+#define SLI_LOOP(count, statement) \
+    { \
+        int i_; \
+        for (i_ = 0; i_ < (count); i_++) { \
+            statement; \
+        } \
+    }
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
 #define SLV_FUNCTION
 #define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
 #define SLV_DECLARE(a) double a[SLI_TILE];
-#define SLV_ZERO(a)                                                                                \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = 0.0;                                                                           \
-        }                                                                                          \
-    }
+#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_ADD(a, b)                                                                              \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] += b[i_];                                                                        \
-        }                                                                                          \
+#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
+#define SLV_AXPY(a, l, p) \
+    { \
+        const double s_ = *(p); \
+        SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * s_) \
     }
-#define SLV_AXPY(a, l, p)                                                                          \
-    {                                                                                              \
-        const double s_ = *(p);                                                                    \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] -= (l)[i_] * s_;                                                                 \
-        }                                                                                          \
+#define SLV_DOT(a, l, v) SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * v[i_])
+#define SLV_LOAD_PART(a, p, count, rest) \
+    { \
+        double part_[SLI_TILE]; \
+        sl_int i_; \
+        for (i_ = 0; i_ < SLI_TILE; i_++) { \
+            part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
+        } \
+        memcpy(a, part_, sizeof part_); \
     }
-#define SLV_DOT(a, l, v)                                                                           \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] -= (l)[i_] * v[i_];                                                              \
-        }                                                                                          \
+#define SLV_FIRST(a, count) \
+    { \
+        double part_[SLI_TILE]; \
+        sl_int i_; \
+        memcpy(part_, a, sizeof part_); \
+        for (i_ = (count); i_ < SLI_TILE; i_++) { \
+            part_[i_] = 0.0; \
+        } \
+        memcpy(a, part_, sizeof part_); \
     }
-#define SLV_LOAD_PART(a, p, count, rest)                                                           \
-    {                                                                                              \
-        double part_[SLI_TILE];                                                                    \
-        sl_int i_;                                                                                 \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            part_[i_] = i_ < (count) ? (p)[i_] : (rest);                                           \
-        }                                                                                          \
-        memcpy(a, part_, sizeof part_);                                                            \
-    }
-#define SLV_FIRST(a, count)                                                                        \
-    {                                                                                              \
-        double part_[SLI_TILE];                                                                    \
-        sl_int i_;                                                                                 \
-        memcpy(part_, a, sizeof part_);                                                            \
-        for (i_ = (count); i_ < SLI_TILE; i_++) {                                                  \
-            part_[i_] = 0.0;                                                                       \
-        }                                                                                          \
-        memcpy(a, part_, sizeof part_);                                                            \
-    }
-#define SLV_LANE(b, a, k)                                                                          \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            b[i_] = a[k];                                                                          \
-        }                                                                                          \
-    }
-#define SLV_GATHER(a, x, at)                                                                       \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = (x)[at(i_)];                                                                   \
-        }                                                                                          \
-    }
+#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
+#define SLV_GATHER(a, x, at) SLI_LOOP(SLI_TILE, a[i_] = (x)[at(i_)])
 #define SLV_SUM_DECLARE(a) double a;
 #define SLV_SUM_ZERO(a) a = 0.0;
 #define SLV_SUM_LOAD(a, p) a = *(p);
 #define SLV_SUM_STORE(p, a) *(p) = a;
-#define SLV_SUM_DOT(a, l, v)                                                                       \
-    a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) +                       \
+#define SLV_SUM_DOT(a, l, v) \
+    a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) + \
          (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
-#define SLV_SUMS(r, a)                                                                             \
-    r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3;                                            \
+#define SLV_SUMS(r, a) \
+    r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3; \
     r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
-#define SLV_TRANSPOSE(to, from)                                                                    \
-    {                                                                                              \
-        int i_, k_;                                                                                \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            for (k_ = 0; k_ < SLI_TILE; k_++) {                                                    \
-                (to)[SLI_TILE * i_ + k_] = (from)[SLI_TILE * k_ + i_];                             \
-            }                                                                                      \
-        }                                                                                          \
+#define SLV_TRANSPOSE(to, from) \
+    { \
+        int i_, k_; \
+        for (i_ = 0; i_ < SLI_TILE; i_++) { \
+            for (k_ = 0; k_ < SLI_TILE; k_++) { \
+                (to)[SLI_TILE * i_ + k_] = (from)[SLI_TILE * k_ + i_]; \
+            } \
+        } \
     }
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
 #define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_FNMA(a, b, c)                                                                          \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] -= b[i_] * c[i_];                                                                \
-        }                                                                                          \
+#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
+#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
+#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
+#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
+#define SLV_BELOW(a, k) SLI_LOOP(SLI_TILE, a[i_] = i_ > (k) ? a[i_] : 0.0)
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLW_ROWS 4
+#define SLW_DECLARE(a) double a[SLW_NRHS];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
+#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLW_FNMA(a, s, b) \
+    { \
+        const double s_ = (s); \
+        SLI_LOOP(SLW_NRHS, a[i_] -= s_ * b[i_]) \
     }
-#define SLV_BROADCAST(b, p)                                                                        \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            b[i_] = *(p);                                                                          \
-        }                                                                                          \
-    }
-#define SLV_MULTIPLY(a, b, c)                                                                      \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = b[i_] * c[i_];                                                                 \
-        }                                                                                          \
-    }
-#define SLV_DIVIDE(a, b, c)                                                                        \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = b[i_] / c[i_];                                                                 \
-        }                                                                                          \
-    }
-#define SLV_BELOW(a, k)                                                                            \
-    {                                                                                              \
-        int i_;                                                                                    \
-        for (i_ = 0; i_ < SLI_TILE; i_++) {                                                        \
-            a[i_] = i_ > (k) ? a[i_] : 0.0;                                                        \
-        }                                                                                          \
-    }
-#define SLV_SPREAD SLI_SPREAD_PLAIN
-#define SLV_SPREAD_ADD SLI_SPREAD_ADD_PLAIN
-/* arrays gain nothing from spreading L: two right-hand sides go the way of four */
+#define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
+#define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
+
+/* Arrays gain nothing from duplicating L: two right-hand sides use multi_rhs.inl.h too. */
 #define SLW_NAME(f) sli_##f##2_scalar
-#define SLW_LANES 2
-#include "lanes_array.inl.h"
+#define SLW_NRHS 2
+#include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_LANES 4
-#include "lanes_array.inl.h"
+#define SLW_NRHS 4
+#include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
-#define SLW_LANES 8
-#include "lanes_array.inl.h"
-
-#include "tile.inl.h"
-
-#include "product.inl.h"
-
-#include "front.inl.h"
-
-#include "takahashi.inl.h"
-
-#include "narrow.inl.h"
-
-#include "body.inl.h"
-
-#include "words_end.inl.h"
+#define SLW_NRHS 8
+#include "multi_rhs.inl.h"
+#include "kernel_set.inl.h"
+#undef SLI_LOOP
 
 #endif

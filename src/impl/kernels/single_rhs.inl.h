@@ -1,9 +1,9 @@
-/* body.inl.h: one right-hand side, SIMD along the 8 rows of a tile; the words SLV_* are one octet of doubles */
+/* single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, its columns 8 t0 .. columns-1 applied
- * in ascending order. tile points at tile t0. Four partial sums hide the latency of the FMA; their
- * grouping depends on the column number alone, so that a sweep that starts later, over zeros, gives
- * the same bits. */
+/* buf := L^-1 buf on the first `rows` local rows of a panel, by its columns 8 t0 .. columns-1 in
+ * ascending order. tile: tile t0 of the panel. Four partial sums hide the latency of the FMA. The
+ * sum to which a column is added depends only on its number, so a sweep that starts at a later tile
+ * gives the same bits as a full one that has zeros before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
                                                      sl_int columns, sl_int rows, double *buf) {
     const sl_int first = SLI_TILE * t0;
@@ -36,7 +36,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
         if (inner == SLI_TILE) {
             SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
         } else {
-            for (k = 0; k < inner; k++) { /* columns inside the tile, one after the other */
+            for (k = 0; k < inner; k++) { /* columns inside the tile */
                 SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
                 SLV_STORE(buf + row, a0)
             }
@@ -53,7 +53,7 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         double *xs = x + s->base;
         sl_int i;
         if (w <= SLI_TILE) {
-            SLV_NAME(forward_narrow)(w, s->below, rows, tile, xs, x, buf);
+            SLV_NAME(forward_small)(w, s->below, rows, tile, xs, x, buf);
             rows += s->below;
             continue;
         }
@@ -70,13 +70,13 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
     }
 }
 
-/* The backward pass leaves 8 partial sums a column, or fewer where an octet takes several registers:
- * sums(j) -= L(rows, j)' x(rows) over the columns first .. final-1 of one row tile, or of two at
- * once, which spares half of the loads and stores of the sums. */
+/* The backward sweep keeps an accumulator of partial sums for each column:
+ * sums(j) -= L(rows, j)' x(rows) for columns j = first .. final-1, over one row tile or over two at
+ * once, which saves half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_PLACE(k) rows[at + (k)]
-#define SLI_PLACE_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+#define SLI_ROW_AT(k) rows[at + (k)]
+#define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
                                              sl_int final, double *sums) {
@@ -85,14 +85,14 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, s
     SLV_SUM_DECLARE(a)
     SLV_LOAD(v, x)
     for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
-        SLI_PREFETCH(l + j, -SLI_AHEAD);
+        SLI_PREFETCH(l + j, -SLI_PREFETCH_DISTANCE);
         SLV_SUM_LOAD(a, sums + j)
         SLV_SUM_DOT(a, l + j, v)
         SLV_SUM_STORE(sums + j, a)
     }
 }
 
-/* Two tiles: l0 and its 8 rows at x, l1 and the 8 rows after those. */
+/* Two row tiles: l0 with the 8 rows at x, l1 with the 8 rows after them. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
                                              sl_int first, sl_int final, double *sums) {
     ptrdiff_t j;
@@ -109,16 +109,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1,
     }
 }
 
-/* The diagonal tile of the columns row .. row+inner-1: what the rows below them left is summed, the
- * right side added, the triangle solved. l: the tile's diagonal part. */
-#define SLI_TAKE_SUM(k, unused)                                                                    \
-    if ((k) < inner) {                                                                             \
-        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k))                                                  \
-        if (inner < SLI_TILE) {                                                                    \
-            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                               \
-        }                                                                                          \
-    } else {                                                                                       \
-        SLV_SUM_ZERO(a##k)                                                                         \
+/* The diagonal tile, which has `inner` columns: adds up the partial sums of the rows below, adds
+ * the right-hand side divided by D, and solves with the triangle. l: diagonal part of the tile. */
+#define SLI_TAKE_SUM(k, unused) \
+    if ((k) < inner) { \
+        SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
+        if (inner < SLI_TILE) { \
+            SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
+        } \
+    } else { \
+        SLV_SUM_ZERO(a##k) \
     }
 SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
                                                 const double *d, double *xs, double *buf) {
@@ -128,7 +128,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
     SLV_ZERO(v)
-    if (inner < SLI_TILE) { /* buf is 0 on the columns: only rows below count here */
+    if (inner < SLI_TILE) { /* buf is 0 on the columns: only the rows below count here */
         SLV_LOAD(v, buf)
     }
     SLI_EACH8(SLI_TAKE_SUM, 0)
@@ -152,7 +152,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     }
 }
 
-/* buf: the rows of two tiles; behind them the sums. */
+/* A sweep of at most so many steps is assumed to find L in a cache, where it is faster to read two
+ * row tiles at a time. From main memory the hardware prefetcher keeps up only if the panels are
+ * read in strict order. The bits are the same. */
+#define SLI_FEW_STEPS 4096
+
+/* buf: the rows of two tiles, then the sums. */
 SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
                                             const double *L, const double *D, double *x,
                                             double *buf) {
@@ -166,7 +171,7 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         SLV_DECLARE(v)
         SLV_SUM_DECLARE(a)
         if (w <= SLI_TILE) {
-            SLV_NAME(backward_narrow)(w, s->below, rows, tile, d, xs, x);
+            SLV_NAME(backward_small)(w, s->below, rows, tile, d, xs, x);
             continue;
         }
         SLV_SUM_ZERO(a)
@@ -180,12 +185,12 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
             above = tile - SLI_TILE * (ptrdiff_t) final;
             if (part == SLI_TILE) {
-                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_GATHER(v, x, SLI_ROW_AT)
                 SLV_STORE(buf + SLI_TILE, v)
-            } else if (inner < SLI_TILE) { /* rows below, between zeros */
+            } else if (inner < SLI_TILE) { /* the rows below, zeros elsewhere */
                 SLV_ZERO(v)
                 if (part > 0) {
-                    SLV_GATHER(v, x, SLI_PLACE_PART)
+                    SLV_GATHER(v, x, SLI_ROW_AT_PART)
                     SLV_FIRST(v, inner + part)
                 }
                 SLV_STORE(buf + SLI_TILE, v)
@@ -205,7 +210,7 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
             row -= SLI_TILE;
             if (inner == 0) {
                 rows -= SLI_TILE;
-                SLV_GATHER(v, x, SLI_PLACE)
+                SLV_GATHER(v, x, SLI_ROW_AT)
                 rows += SLI_TILE;
                 SLV_STORE(buf, v)
                 SLV_NAME(dots2)(above, tile, buf, first, w, sums);
@@ -223,10 +228,12 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
 
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE
-#undef SLI_PLACE
-#undef SLI_PLACE_PART
+#undef SLI_ROW_AT
+#undef SLI_ROW_AT_PART
 #undef SLI_TAKE_SUM
+#undef SLI_FEW_STEPS
 
+/* See sli_row_kernel. */
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                                        const double *D, double *xs, double *x, double *buf,
                                        double *pivot, double *magnitude) {
@@ -234,7 +241,7 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     double *lq = panel + sli_panel_at(w, q, 0);
     double d = *pivot, size = *magnitude;
     sl_int i;
-    for (i = 0; i < columns; i++) { /* y = row of A minus what the descendants sent */
+    for (i = 0; i < columns; i++) { /* y = row of A minus the updates of descendants */
         buf[i] = lq[SLI_TILE * i] + xs[i];
         xs[i] = 0.0;
     }
@@ -254,17 +261,3 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     *pivot = d;
     *magnitude = size;
 }
-
-static const sli_kernels SLV_NAME(kernels) = {
-    SLV_ISA,
-    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME(forward4), SLV_NAME(forward8)},
-    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME(backward4), SLV_NAME(backward8)},
-    SLV_NAME(row),
-    SLV_NAME(pivots),
-    SLV_NAME(rows),
-    SLV_NAME(update),
-    SLV_NAME(assemble),
-    SLV_NAME(products8),
-    SLV_NAME(gather),
-    SLV_NAME(dual),
-    SLV_NAME(takahashi)};

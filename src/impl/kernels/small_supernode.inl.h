@@ -1,34 +1,34 @@
-/* narrow.inl.h: one right-hand side through a supernode of 1 to 8 columns, all of them in registers; words SLV_* */
+/* small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
-/* Most supernodes of a 2D mesh are as narrow as this, and what they cost is not the reading of L but
- * loops that end at once, calls, and vectors loaded where single numbers were just stored. Here the
- * width is a constant that is folded into each of 8 copies: the loops over columns are gone, y or
- * the sums of all columns stay in registers, and x is gathered straight into them. */
+/* Most supernodes of a 2D mesh are this small. They do not spend their time reading L but on loops
+ * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
+ * the width is a constant in each of 8 copies: there are no loops over columns, y or the sums of
+ * all columns stay in registers, and x is gathered directly into registers. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
 
-/* the diagonal tile, column after column; L is 0 above its diagonal */
-#define SLI_COLUMN(k, unused)                                                                      \
-    if ((k) < w) {                                                                                 \
-        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
-        SLV_LANE(y##k, a, k)                                                                       \
-        SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                       \
+/* The diagonal tile, one column after another; L is stored as 0 on and above its diagonal. */
+#define SLI_COLUMN(k, unused) \
+    if ((k) < w) { \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
+        SLV_LANE(y##k, a, k) \
+        SLV_DOT(a, l + SLI_TILE * (k), y##k) \
     }
-/* a tile below: even columns into one sum, odd ones into another */
-#define SLI_EVEN_ODD(k, unused)                                                                    \
-    if ((k) < w) {                                                                                 \
-        SLI_PREFETCH(l + SLI_TILE * (k), SLI_AHEAD);                                               \
-        if ((k) % 2 == 0) {                                                                        \
-            SLV_DOT(a, l + SLI_TILE * (k), y##k)                                                   \
-        } else {                                                                                   \
-            SLV_DOT(b, l + SLI_TILE * (k), y##k)                                                   \
-        }                                                                                          \
+/* A tile below: even and odd columns have a sum each, two independent chains of FMAs. */
+#define SLI_EVEN_ODD(k, unused) \
+    if ((k) < w) { \
+        SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
+        if ((k) % 2 == 0) { \
+            SLV_DOT(a, l + SLI_TILE * (k), y##k) \
+        } else { \
+            SLV_DOT(b, l + SLI_TILE * (k), y##k) \
+        } \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x, double *buf) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_int below,
+                                                            const sl_int *rows, const double *l,
+                                                            double *xs, double *x, double *buf) {
     sl_int row, i;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
@@ -59,36 +59,37 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_forward)(const sl_int w, sl_
     }
 }
 
-/* x(j) -= L(rows, j)' x(rows), from the last column down as L is read backward in memory */
-#define SLI_DOT(k)                                                                                 \
-    if ((k) < w) {                                                                                 \
-        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_AHEAD);                                              \
-        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v)                                                   \
+/* x(j) -= L(rows, j)' x(rows), from the last column to the first: L is read backward in memory. */
+#define SLI_DOT(k) \
+    if ((k) < w) { \
+        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_PREFETCH_DISTANCE); \
+        SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
     }
-#define SLI_DOTS                                                                                   \
+#define SLI_DOTS \
     SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
-/* places of the 8 rows of a tile; of a tile of fewer rows, the last one again; of those that share
- * the tile of the columns, anything for the columns' lanes */
-#define SLI_PLACE(k) rows[at + (k)]
-#define SLI_PLACE_PART(k) rows[at + sli_min(k, count - 1)]
-#define SLI_PLACE_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+/* Positions in x of the 8 rows of a tile. PART: the last tile, which has fewer rows; its last
+ * position is repeated. OWN: the tile that holds the columns too; their lanes get any valid
+ * position. */
+#define SLI_ROW_AT(k) rows[at + (k)]
+#define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 #define SLI_SET(k, unused) double r##k = r[k];
-#define SLI_GET(k, unused)                                                                         \
-    if ((k) < w) {                                                                                 \
-        xs[k] = r##k;                                                                              \
+#define SLI_GET(k, unused) \
+    if ((k) < w) { \
+        xs[k] = r##k; \
     }
-#define SLI_XT(j, k)                                                                               \
-    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */                                         \
-        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j);                                     \
+#define SLI_XT(j, k) \
+    if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */ \
+        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j); \
     }
-#define SLI_ROW(k)                                                                                 \
+#define SLI_ROW(k) \
     SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
 
-/* l points at the panel's end. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
+/* l: the end of the panel */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_backward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const double *l,
+                                                             const double *d, double *xs,
+                                                             const double *x) {
     const sl_int count = (w + below) % SLI_TILE;
     sl_int row = w + below - count, at = below;
     double r[SLI_TILE];
@@ -99,19 +100,19 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     if (row > 0 && count > 0) {
         at -= count;
         l -= SLI_TILE * w;
-        SLV_GATHER(v, x, SLI_PLACE_PART)
+        SLV_GATHER(v, x, SLI_ROW_AT_PART)
         SLV_FIRST(v, count)
         SLI_DOTS
     }
     for (; row > SLI_TILE; row -= SLI_TILE) {
         at -= SLI_TILE;
         l -= SLI_TILE * w;
-        SLV_GATHER(v, x, SLI_PLACE)
+        SLV_GATHER(v, x, SLI_ROW_AT)
         SLI_DOTS
     }
     l -= SLI_TILE * w;
     if (w < SLI_TILE && at > 0) {
-        SLV_GATHER(v, x, SLI_PLACE_OWN)
+        SLV_GATHER(v, x, SLI_ROW_AT_OWN)
         SLV_FIRST(v, w + at)
         SLV_BELOW(v, w - 1)
         SLI_DOTS
@@ -121,24 +122,31 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(narrow_backward)(const sl_int w, sl
     SLV_DIVIDE(z, z, v)
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
-    SLV_STORE_ANY(r, v) {
-        SLI_EACH8(SLI_SET, 0)
-        SLI_ROW(7)
-        SLI_ROW(6) SLI_ROW(5) SLI_ROW(4) SLI_ROW(3) SLI_ROW(2) SLI_ROW(1) SLI_EACH8(SLI_GET, 0)
-    }
+    SLV_STORE_ANY(r, v)
+    SLI_EACH8(SLI_SET, 0)
+    SLI_ROW(7)
+    SLI_ROW(6)
+    SLI_ROW(5)
+    SLI_ROW(4)
+    SLI_ROW(3)
+    SLI_ROW(2)
+    SLI_ROW(1)
+    SLI_EACH8(SLI_GET, 0)
 }
 
-#define SLI_FORWARD(k) SLV_NAME(narrow_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_NAME(narrow_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLV_NAME(small_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_narrow)(sl_int w, sl_int below, const sl_int *rows,
-                                                      const double *l, double *xs, double *x,
-                                                      double *buf){SLI_CASES(SLI_FORWARD)}
+SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_small)(sl_int w, sl_int below, const sl_int *rows,
+                                                     const double *l, double *xs, double *x,
+                                                     double *buf) {
+    SLI_CASES(SLI_FORWARD);
+}
 
-SLV_FUNCTION SLI_INLINE
-    void SLV_NAME(backward_narrow)(sl_int w, sl_int below, const sl_int *rows, const double *l,
-                                   const double *d, double *xs, const double *x) {
-    SLI_CASES(SLI_BACKWARD)
+SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_small)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const double *l, const double *d, double *xs,
+                                                      const double *x) {
+    SLI_CASES(SLI_BACKWARD);
 }
 
 #undef SLI_DECLARE
@@ -148,9 +156,9 @@ SLV_FUNCTION SLI_INLINE
 #undef SLI_EVEN_ODD
 #undef SLI_DOT
 #undef SLI_DOTS
-#undef SLI_PLACE
-#undef SLI_PLACE_PART
-#undef SLI_PLACE_OWN
+#undef SLI_ROW_AT
+#undef SLI_ROW_AT_PART
+#undef SLI_ROW_AT_OWN
 #undef SLI_SET
 #undef SLI_GET
 #undef SLI_XT

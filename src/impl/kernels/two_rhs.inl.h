@@ -1,29 +1,29 @@
-/* pairs.inl.h: two interleaved right-hand sides, SIMD along the rows of a tile; words SLV_*, two octets a tile */
+/* two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
-/* The 8 rows of a tile column, each twice, times the pair x(j): two octets for one octet of L, so
- * that every number of L is loaded once. e0 and e1 are the pairs of rows 0-3 and 4-7. */
-#define SLI_PAIR_AXPY(e, l, p)                                                                     \
-    SLV_TWICE_LOW(t0, l)                                                                           \
-    SLV_TWICE_HIGH(t1, l)                                                                          \
-    SLV_PAIR(b, p)                                                                                 \
-    SLV_FNMA(e##0, t0, b)                                                                          \
+/* y(rows) -= L(rows, j) y(j) for 8 rows of two values each. Vector e0 has the first 4 rows, e1 the
+ * last 4. Each entry of L is loaded once and duplicated. */
+#define SLI_PAIR_AXPY(e, l, p) \
+    SLV_DUP_LOW(t0, l) \
+    SLV_DUP_HIGH(t1, l) \
+    SLV_PAIR(b, p) \
+    SLV_FNMA(e##0, t0, b) \
     SLV_FNMA(e##1, t1, b)
 
-/* L^-1 or L'^-1 of a whole diagonal tile upon 8 pairs: each right-hand side by itself, as there is
- * one. */
-#define SLI_PAIR_TILE(solve, l, p)                                                                 \
-    {                                                                                              \
-        double r[2][SLI_TILE];                                                                     \
-        for (k = 0; k < SLI_TILE; k++) {                                                           \
-            r[0][k] = (p)[2 * k];                                                                  \
-            r[1][k] = (p)[2 * k + 1];                                                              \
-        }                                                                                          \
-        solve((l), r[0]);                                                                          \
-        solve((l), r[1]);                                                                          \
-        for (k = 0; k < SLI_TILE; k++) {                                                           \
-            (p)[2 * k] = r[0][k];                                                                  \
-            (p)[2 * k + 1] = r[1][k];                                                              \
-        }                                                                                          \
+/* Solves with the full diagonal tile at l, for each right-hand side separately, by the function for
+ * one right-hand side. */
+#define SLI_PAIR_TILE(solve, l, p) \
+    { \
+        double r[2][SLI_TILE]; \
+        for (k = 0; k < SLI_TILE; k++) { \
+            r[0][k] = (p)[2 * k]; \
+            r[1][k] = (p)[2 * k + 1]; \
+        } \
+        solve((l), r[0]); \
+        solve((l), r[1]); \
+        for (k = 0; k < SLI_TILE; k++) { \
+            (p)[2 * k] = r[0][k]; \
+            (p)[2 * k + 1] = r[1][k]; \
+        } \
     }
 
 SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
@@ -68,8 +68,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             if (inner == SLI_TILE) {
                 SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
             } else {
-                for (k = 0; k < inner;
-                     k++, l += SLI_TILE) { /* columns inside the tile, one by one */
+                for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile */
                     SLI_PAIR_AXPY(e, l, p + 2 * k)
                     SLV_STORE(p, e0)
                     SLV_STORE(p + SLI_TILE, e1)
@@ -87,12 +86,12 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
     }
 }
 
-/* Rows of a tile that are final leave their columns' sums: 4 partial sums for each of the pair, in
- * one octet. */
-#define SLI_PAIR_DOT(a, l)                                                                         \
-    SLV_TWICE_LOW(t0, l)                                                                           \
-    SLV_TWICE_HIGH(t1, l)                                                                          \
-    SLV_FNMA(a, t0, v0)                                                                            \
+/* a -= L(rows, j)' x(rows) over the 8 rows of a tile. Vector a has 4 partial sums for each of the
+ * two right-hand sides. */
+#define SLI_PAIR_DOT(a, l) \
+    SLV_DUP_LOW(t0, l) \
+    SLV_DUP_HIGH(t1, l) \
+    SLV_FNMA(a, t0, v0) \
     SLV_FNMA(a, t1, v1)
 
 SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
@@ -126,7 +125,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
             const double *l;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
             l = tile + SLI_TILE * (ptrdiff_t)row;
-            SLV_LOAD(v0, p) /* 0 on the columns: only rows below count here */
+            SLV_LOAD(v0, p) /* 0 on the columns: only the rows below count here */
             SLV_LOAD(v1, p + SLI_TILE)
             for (k = 0; k < inner; k++) {
                 double part[SLI_TILE];

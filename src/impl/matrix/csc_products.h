@@ -1,10 +1,10 @@
-/* csc_products.h: what is computed with a matrix in compressed columns: products, norms, residuals */
-#ifndef SLI_CSC_PRODUCTS_H
-#define SLI_CSC_PRODUCTS_H
+/* csc_products.h: products with a matrix in compressed columns, its norm, residuals */
+#ifndef SLI_MATRIX_CSC_PRODUCTS_H
+#define SLI_MATRIX_CSC_PRODUCTS_H
 
 #include "csc.h"
 
-/* y += sign A x; triangle SL_TRIANGLE_NONE: every entry for itself, which is also right for a
+/* y += sign A x. SL_TRIANGLE_NONE: every entry counts once, where it is; that is also right for a
  * diagonal matrix. */
 static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
                             const double *x) {
@@ -22,11 +22,18 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
     }
 }
 
+/* Has A the arrays that a product reads? Sizes and p alone are looked at. */
+static int sli_csc_has_arrays(const sl_csc *A) {
+    return A->n_rows >= 0 && A->n_cols >= 0 && (A->n_cols == 0 || A->p != NULL) &&
+           (sli_nnz(A) <= 0 || (A->i != NULL && A->x != NULL));
+}
+
 SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y, size_t ldy,
                                  const double *X, size_t ldx, sl_int nrhs) {
     sl_triangle triangle;
     sl_int r;
-    if (A == NULL || nrhs < 0 || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
+    if (A == NULL || nrhs < 0 || !sli_csc_has_arrays(A) ||
+        (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED) ||
         (reading == SL_AS_SYMMETRIC && A->n_rows != A->n_cols)) {
         return SL_ERR_ARGUMENT;
     }
@@ -34,7 +41,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
         return SL_OK;
     }
     if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols ||
-        (A->n_cols > 0 && X == NULL) || (sli_nnz(A) > 0 && A->x == NULL)) {
+        (A->n_cols > 0 && (X == NULL || X == Y))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = reading == SL_AS_SYMMETRIC ? sli_triangle_scan(A) : SL_TRIANGLE_NONE;
@@ -45,7 +52,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     return SL_OK;
 }
 
-/* The largest magnitude among n numbers, NaN if one is: fmax would pass over it. */
+/* The largest magnitude of n numbers; NaN if one of them is, which fmax would ignore. */
 static double sli_largest(const double *x, sl_int n) {
     double largest = 0.0;
     sl_int i;
@@ -56,9 +63,8 @@ static double sli_largest(const double *x, sl_int n) {
     return largest;
 }
 
-/* The largest row sum of |A|, A symmetric, NaN if A has one; sums: n numbers of scratch. */
-static double sli_csc_norm(const sl_csc *A, double *sums) {
-    const sl_triangle triangle = sli_triangle_scan(A);
+/* The largest row sum of |A| for a symmetric A; NaN if A has one. sums: n elements of scratch. */
+static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) {
     sl_int j, p;
     memset(sums, 0, (size_t)A->n_cols * sizeof(double));
     for (j = 0; j < A->n_cols; j++) {
@@ -72,8 +78,8 @@ static double sli_csc_norm(const sl_csc *A, double *sums) {
     return sli_largest(sums, A->n_cols);
 }
 
-/* ||r|| / (||A|| ||x|| + ||b||). An infinite denominator says nothing about r: NaN, and not the 0
- * that the quotient would be. */
+/* ||r|| / (||A|| ||x|| + ||b||). NaN for an infinite denominator: the quotient would be 0, which
+ * says nothing about r. */
 static double sli_backward_error(double r, double a, double x, double b) {
     const double size = a * x + b;
     return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
@@ -86,7 +92,7 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     sl_int r, n;
     size_t rows;
     sl_triangle triangle;
-    if (A == NULL || A->n_rows != A->n_cols || nrhs < 0) {
+    if (A == NULL || A->n_rows != A->n_cols || nrhs < 0 || !sli_csc_has_arrays(A)) {
         return SL_ERR_ARGUMENT;
     }
     n = A->n_cols;
@@ -97,14 +103,13 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         }
         return SL_OK;
     }
-    if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows ||
-        (sli_nnz(A) > 0 && A->x == NULL) || R == X ||
+    if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows || R == X ||
         (R == B && (backward_error != NULL || ldr != ldb))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = sli_triangle_scan(A);
     if (backward_error != NULL) {
-        norm = sli_csc_norm(A, R);
+        norm = sli_csc_norm(A, triangle, R);
     }
     for (r = 0; r < nrhs; r++) {
         const double *x = X + (size_t)r * ldx, *b = B + (size_t)r * ldb;

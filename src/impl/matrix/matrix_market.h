@@ -1,40 +1,101 @@
-/* io.h: Matrix Market files, read and written: coordinate; real, integer, pattern; general, symmetric */
-#ifndef SLI_IO_H
-#define SLI_IO_H
+/* matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+#ifndef SLI_MATRIX_MATRIX_MARKET_H
+#define SLI_MATRIX_MATRIX_MARKET_H
 
-#include "csc.h"
+#include "csc_triangle.h"
+#include "output_file.h"
 
-#define SLI_TOKEN_MAX 63 /* no number that a program prints is longer */
+#define SLI_TOKEN_MAX 63        /* no number that a program prints is longer */
+#define SLI_POINT_MAX 16        /* bytes of a decimal point: one multibyte character */
+#define SLI_LINE_MAX 65536      /* bytes of a line that is not a comment; the format allows 1024 */
+#define SLI_ENTRIES_FIRST 65536 /* entries of a file for which memory is allocated at first */
 
-/* A place in the text, always at the start of a line that is not read yet. */
+/* A position in the text, always at the start of a line that has not been read. A file is read
+ * through a buffer: its size is not known, and may have no end. */
 typedef struct sli_reader {
     const char *at, *end;
-    sl_off line; /* lines taken so far */
+    FILE *file;   /* follows `end`; NULL: a text in memory, or the file has ended */
+    char *buffer; /* SLI_LINE_MAX, for a file */
+    int failed;   /* the file cannot be read, or a line is too long */
+    sl_off line;  /* lines read so far */
+    char point[SLI_POINT_MAX + 1]; /* the decimal point that strtod expects */
 } sli_reader;
 
-/* Takes the next line that is neither blank nor a comment; *stop is its end. 0 at the end of the
- * text. */
+/* Moves what is not read yet to the start of the buffer, and fills the rest of the buffer from the
+ * file. Returns 0 if there is nothing to add. */
+static int sli_reader_fill(sli_reader *r) {
+    const size_t kept = (size_t)(r->end - r->at);
+    size_t got;
+    if (r->file == NULL || kept == SLI_LINE_MAX) {
+        return 0;
+    }
+    if (kept > 0) {
+        memmove(r->buffer, r->at, kept);
+    }
+    got = fread(r->buffer + kept, 1, SLI_LINE_MAX - kept, r->file);
+    r->at = r->buffer;
+    r->end = r->buffer + kept + got;
+    if (got < SLI_LINE_MAX - kept) {
+        r->failed |= ferror(r->file) != 0;
+        r->file = NULL;
+    }
+    return got > 0;
+}
+
+/* Skips the rest of a line of any length. */
+static void sli_skip_line(sli_reader *r) {
+    do {
+        while (r->at < r->end && *r->at != '\n') {
+            r->at++;
+        }
+    } while (r->at == r->end && sli_reader_fill(r));
+    r->at += r->at < r->end;
+}
+
+/* Skips blanks, across the end of the buffer. Returns whether the text goes on. */
+static int sli_skip_blanks(sli_reader *r) {
+    do {
+        while (r->at < r->end && (*r->at == ' ' || *r->at == '\t' || *r->at == '\r')) {
+            r->at++;
+        }
+    } while (r->at == r->end && sli_reader_fill(r));
+    return r->at < r->end;
+}
+
+/* Takes the next line that is not blank; comment lines are skipped unless `comments`. *stop is its
+ * end; both are valid until the next call. Returns 0 at the end of the text, and for a line that is
+ * too long. */
 static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
-    while (r->at < r->end) {
-        const char *s = r->at, *e = s;
-        while (e < r->end && *e != '\n') {
-            e++;
-        }
-        r->at = e < r->end ? e + 1 : e;
+    while (r->at < r->end || sli_reader_fill(r)) {
+        ptrdiff_t length = 0;
         r->line++;
-        while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
-            s++;
+        if (!sli_skip_blanks(r)) {
+            break;
         }
-        if (s < e && (comments || *s != '%')) {
-            *start = s;
-            *stop = e;
+        if (*r->at == '%' && !comments) {
+            sli_skip_line(r);
+            continue;
+        }
+        do {
+            while (length < r->end - r->at && r->at[length] != '\n') {
+                length++;
+            }
+        } while (length == r->end - r->at && sli_reader_fill(r));
+        if (length >= SLI_LINE_MAX) {
+            r->failed = 1;
+            break;
+        }
+        *start = r->at;
+        *stop = r->at + length;
+        r->at += length + (length < r->end - r->at);
+        if (length > 0) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Copies the next word of a line; 0 if there is none or it is too long. */
+/* Copies the next word of a line; returns 0 if there is none or it is too long. */
 static int sli_token(const char **at, const char *stop, char *token) {
     const char *s = *at;
     int length = 0;
@@ -52,7 +113,7 @@ static int sli_token(const char **at, const char *stop, char *token) {
     return length > 0;
 }
 
-/* The next word as a whole number in low..high. */
+/* Reads the next word as an integer in low..high. */
 static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off high, sl_off *out) {
     char token[SLI_TOKEN_MAX + 1];
     sl_off value = 0;
@@ -74,21 +135,49 @@ static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off h
     return value >= low && value <= high;
 }
 
-/* The next word as a number; the C library wants the decimal point of the current locale. */
-static int sli_token_double(const char **at, const char *stop, double *out) {
-    char token[SLI_TOKEN_MAX + 1], *point, *rest;
+/* Is this a byte that a number in the C locale may have, apart from the decimal point? */
+SLI_INLINE int sli_is_numeric(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
+           c == '-' || c == '(' || c == ')' || c == '_';
+}
+
+/* The decimal point of the current locale, taken from a printed number because localeconv need not
+ * be thread-safe. */
+static void sli_find_point(char *point) {
+    char half[SLI_POINT_MAX + 3]; /* 0, the point, 5 */
+    const int length = snprintf(half, sizeof half, "%.1f", 0.5);
+    if (length < 3 || length >= (int)sizeof half) {
+        memcpy(half, "0.5", 4);
+    }
+    half[strlen(half) - 1] = '\0';
+    memcpy(point, half + 1, strlen(half));
+}
+
+/* Reads the next word as a number with a decimal point, in any locale: strtod receives the point of
+ * the locale, and a word that is a number only in this locale is refused. */
+static int sli_token_double(const sli_reader *r, const char **at, const char *stop, double *out) {
+    char token[SLI_TOKEN_MAX + 1], number[SLI_TOKEN_MAX + SLI_POINT_MAX + 1], *to = number, *rest;
+    const char *c;
+    int n_points = 0;
     if (!sli_token(at, stop, token)) {
         return 0;
     }
-    point = strchr(token, '.');
-    if (point != NULL) {
-        *point = *localeconv()->decimal_point;
+    for (c = token; *c != '\0'; c++) {
+        if (*c == '.' && n_points++ == 0) {
+            memcpy(to, r->point, strlen(r->point));
+            to += strlen(r->point);
+        } else if (sli_is_numeric(*c)) {
+            *to++ = *c;
+        } else {
+            return 0;
+        }
     }
-    *out = strtod(token, &rest);
-    return rest != token && *rest == '\0';
+    *to = '\0';
+    *out = strtod(number, &rest);
+    return rest != number && *rest == '\0';
 }
 
-/* Whether the next word is the given one, capitals or not. */
+/* Is the token this lower-case word, in upper or lower case? */
 static int sli_token_is(const char *token, const char *word) {
     for (; *token != '\0' && *word != '\0'; token++, word++) {
         const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
@@ -99,7 +188,7 @@ static int sli_token_is(const char *token, const char *word) {
     return *token == *word;
 }
 
-/* Whether the word is one of a list that ends in NULL. */
+/* Is the word in a list that ends in NULL? */
 static int sli_token_in(const char *token, const char *const *words) {
     while (*words != NULL && !sli_token_is(token, *words)) {
         words++;
@@ -107,8 +196,8 @@ static int sli_token_in(const char *token, const char *const *words) {
     return *words != NULL;
 }
 
-/* "%%MatrixMarket matrix coordinate <field> <symmetry>"; what the format knows and this library
- * does not read is told apart from what is no such file. */
+/* Reads the banner "%%MatrixMarket matrix coordinate <field> <symmetry>". A banner of the format
+ * that this library does not read gives SL_ERR_UNSUPPORTED, anything else SL_ERR_IO. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
     static const char *const sli_formats[] = {"coordinate", "array", NULL};
     static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
@@ -138,7 +227,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
                : SL_ERR_UNSUPPORTED;
 }
 
-/* Whether nothing but blanks is left of a line. */
+/* Is the rest of the line blank? */
 static int sli_line_ends(const char *s, const char *e) {
     while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
         s++;
@@ -146,30 +235,76 @@ static int sli_line_ends(const char *s, const char *e) {
     return s == e;
 }
 
-/* count lines "row column [value]", 1-based; entries of a symmetric file go to the lower triangle.
- */
-static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int symmetric, sl_int *i,
-                                  sl_int *j, double *x) {
-    const char *s, *e;
-    sl_off k, row, column;
-    for (k = 0; k < size[2]; k++) {
-        if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
-            !sli_token_int(&s, e, 1, size[1], &column) ||
-            (x != NULL && !sli_token_double(&s, e, &x[k])) || !sli_line_ends(s, e)) {
-            return SL_ERR_IO;
-        }
-        i[k] = (sl_int)(symmetric && row < column ? column : row) - 1;
-        j[k] = (sl_int)(symmetric && row < column ? row : column) - 1;
+/* Entries read, with room for more. */
+typedef struct sli_triplets {
+    void *block;
+    sl_int *i, *j;
+    double *x; /* NULL: a pattern */
+    sl_off count, room;
+} sli_triplets;
+
+/* Allocates room for more entries and moves those that were read. */
+static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
+                                   const sl_allocator *a) {
+    sli_block b = {NULL, 0, 0};
+    sli_triplets larger = *t;
+    sl_status status = SL_OK;
+    int pass;
+    larger.room = room;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        larger.i = SLI_TAKE(&b, sl_int, room);
+        larger.j = SLI_TAKE(&b, sl_int, room);
+        larger.x = has_values ? SLI_TAKE(&b, double, room) : NULL;
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
-    return sli_next_line(r, &s, &e, 0) ? SL_ERR_IO : SL_OK;
+    if (status != SL_OK) {
+        return status;
+    }
+    if (t->count > 0) {
+        memcpy(larger.i, t->i, (size_t)t->count * sizeof *t->i);
+        memcpy(larger.j, t->j, (size_t)t->count * sizeof *t->j);
+        if (has_values) {
+            memcpy(larger.x, t->x, (size_t)t->count * sizeof *t->x);
+        }
+    }
+    sli_free(a, t->block);
+    larger.block = b.base;
+    *t = larger;
+    return SL_OK;
 }
 
+/* Reads size[2] lines "row column [value]", 1-based, and checks that no other line follows. Entries
+ * of a symmetric file are stored in the lower triangle. */
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
+                                  sli_triplets *t, const sl_allocator *a) {
+    const char *s, *e;
+    sl_off row, column;
+    sl_status status;
+    for (; t->count < size[2]; t->count++) {
+        if (t->count == t->room) {
+            const sl_off more = 2 * t->room < size[2] ? 2 * t->room : size[2];
+            status = sli_triplets_grow(t, more, has_values, a);
+            if (status != SL_OK) {
+                return status;
+            }
+        }
+        if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
+            !sli_token_int(&s, e, 1, size[1], &column) ||
+            (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
+            return SL_ERR_IO;
+        }
+        t->i[t->count] = (sl_int)(symmetric && row < column ? column : row) - 1;
+        t->j[t->count] = (sl_int)(symmetric && row < column ? row : column) - 1;
+    }
+    return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+}
+
+/* Reads a whole matrix. Memory grows with the entries that are there, not with the number that the
+ * header promises. */
 static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
     const char *s, *e;
-    sl_off size[3] = {0, 0, 0};
-    sli_block b = {NULL, 0, 0};
-    sl_int *i = NULL, *j = NULL;
-    double *x = NULL;
+    sl_off size[3] = {0, 0, 0}, room;
+    sli_triplets t;
     int has_values, symmetric, k;
     sl_status status = sli_read_banner(r, &has_values, &symmetric);
     if (status != SL_OK) {
@@ -186,91 +321,69 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
             return SL_ERR_TOO_LARGE;
         }
     }
-    /* an entry takes four bytes at least: a count that the file cannot hold is refused before
-     * memory is asked for */
+    /* An entry has at least four bytes. A count that a text in memory cannot hold is refused before
+     * memory is allocated. */
     if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
-        size[2] > (r->end - r->at) / 4 + 1) {
+        (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
         return SL_ERR_IO;
     }
-    for (k = 0; k < 2 && status == SL_OK; k++) {
-        i = SLI_TAKE(&b, sl_int, size[2]);
-        j = SLI_TAKE(&b, sl_int, size[2]);
-        x = has_values ? SLI_TAKE(&b, double, size[2]) : NULL;
-        status = k == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
+    memset(&t, 0, sizeof t);
+    room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
+    status = sli_triplets_grow(&t, room, has_values, a);
+    status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
     if (status == SL_OK) {
-        status = sli_read_entries(r, size, symmetric, i, j, x);
-        if (status == SL_OK) {
-            status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], i, j,
-                                       x, a);
-        }
-        sli_free(a, b.base);
+        status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], t.i, t.j,
+                                   t.x, a);
     }
+    sli_free(a, t.block);
+    return status;
+}
+
+/* Reads the matrix; in any locale, and without a trace in errno. */
+static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_allocator *a,
+                                 sl_stats *stats) {
+    const int saved = errno; /* strtod may set it */
+    sl_status status;
+    sli_find_point(r->point);
+    status = sli_parse(out, r, a);
+    if (status != SL_OK && stats != NULL) {
+        stats->error.line = r->line > 0 ? r->line : 1;
+    }
+    errno = saved;
     return status;
 }
 
 SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                  const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    const int saved = errno; /* strtod may set it */
     sli_reader r;
-    sl_status status;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (text == NULL || !sli_allocator_is_whole(opt)) {
+    if (text == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
+    memset(&r, 0, sizeof r);
     r.at = text;
     r.end = text + length;
-    r.line = 0;
-    status = sli_parse(out, &r, &a);
-    if (status != SL_OK && stats != NULL) {
-        stats->error_line = r.line > 0 ? r.line : 1;
-    }
-    errno = saved;
-    return status;
-}
-
-/* The whole file in memory; *text is allocated also on error, if at all. */
-static sl_status sli_load(FILE *file, char **text, size_t *length, const sl_allocator *a) {
-    size_t room = (size_t)1 << 16, got;
-    *length = 0;
-    *text = (char *)sli_alloc(a, room);
-    while (*text != NULL) {
-        got = fread(*text + *length, 1, room - *length, file);
-        *length += got;
-        if (*length < room) {
-            return ferror(file) ? SL_ERR_IO : SL_OK;
-        } else {
-            char *larger = room > SIZE_MAX / 2 ? NULL : (char *)sli_alloc(a, 2 * room);
-            if (larger != NULL) {
-                memcpy(larger, *text, *length);
-            }
-            sli_free(a, *text);
-            *text = larger;
-            room *= 2;
-        }
-    }
-    return SL_ERR_MEMORY;
+    return sli_read_matrix(out, &r, &a, stats);
 }
 
 SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
                                 sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const int saved = errno;
-    char *text = NULL;
-    size_t length = 0;
+    sli_reader r;
     FILE *file;
-    sl_status status;
+    sl_status status = SL_ERR_MEMORY;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (path == NULL || !sli_allocator_is_whole(opt)) {
+    if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
     file = fopen(path, "rb");
@@ -278,30 +391,48 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
         errno = saved;
         return SL_ERR_IO;
     }
-    status = sli_load(file, &text, &length, &a);
-    fclose(file);
-    if (status == SL_OK) {
-        status = sl_matrix_parse(out, text, length, opt, stats);
+    memset(&r, 0, sizeof r);
+    r.file = file;
+    r.buffer = (char *)sli_alloc(&a, SLI_LINE_MAX);
+    if (r.buffer != NULL) {
+        r.at = r.end = r.buffer;
+        status = sli_read_matrix(out, &r, &a, stats);
     }
-    sli_free(&a, text);
+    sli_free(&a, r.buffer);
+    fclose(file);
     errno = saved;
     return status;
 }
 
-/* One entry, 1-based, with a decimal point whatever the locale. */
+/* Replaces the decimal point that the locale printed, of any number of bytes, by a point. */
+static void sli_set_point(char *number) {
+    const char *from = number;
+    char *to = number;
+    while (*from != '\0') {
+        if (sli_is_numeric(*from)) {
+            *to++ = *from++;
+            continue;
+        }
+        *to++ = '.';
+        while (*from != '\0' && !sli_is_numeric(*from)) {
+            from++;
+        }
+    }
+    *to = '\0';
+}
+
+/* Writes one entry, 1-based; value NULL: of a pattern. */
 static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
-    char number[40], *point;
+    char number[40];
     if (value == NULL) {
         return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
     }
     snprintf(number, sizeof number, "%.17g", *value);
-    point = strchr(number, *localeconv()->decimal_point);
-    if (point != NULL) {
-        *point = '.';
-    }
+    sli_set_point(number);
     return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
 }
 
+/* Writes a checked matrix; returns 0 if the file system fails. */
 static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
     sl_int j, p;
     sl_off count = 0;
@@ -333,21 +464,21 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
     sl_triangle triangle = SL_TRIANGLE_NONE;
     sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
                                                   : sl_csc_check(A, NULL);
-    FILE *file;
-    int ok;
+    const sl_allocator a = sli_allocator(NULL);
+    sli_output output;
     if (status != SL_OK) {
         return status;
     }
     if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
         return SL_ERR_ARGUMENT;
     }
-    file = fopen(path, "wb");
-    ok = file != NULL && sli_write(file, A, reading, triangle);
-    if (file != NULL) {
-        ok = fclose(file) == 0 && ok;
+    status = sli_output_open(&output, path, &a);
+    if (status == SL_OK) {
+        const int complete = sli_write(output.file, A, reading, triangle);
+        status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
     }
     errno = saved;
-    return ok ? SL_OK : SL_ERR_IO;
+    return status;
 }
 
 #endif

@@ -1,10 +1,10 @@
-/* permute.h: permutations: validity, inverse, and P A P' of a stored matrix */
-#ifndef SLI_PERMUTE_H
-#define SLI_PERMUTE_H
+/* permute.h: permutations: check, inverse, P A P' of a stored matrix */
+#ifndef SLI_MATRIX_PERMUTE_H
+#define SLI_MATRIX_PERMUTE_H
 
-#include "csc.h"
+#include "csc_build.h"
 
-/* iperm := the inverse of perm. Returns the first position that makes perm no permutation, or -1.
+/* iperm := the inverse of perm. Returns the first position where perm is not a permutation, or -1.
  */
 static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
     sl_int k;
@@ -20,7 +20,7 @@ static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
     return -1;
 }
 
-/* The permuted entries of A as triplets; one triangle goes to the lower one. */
+/* The permuted entries of A as triplets. If A stores one triangle, they are in the lower one. */
 static void sli_permute_entries(const sl_csc *A, const sl_int *iperm, sl_int *row, sl_int *column) {
     const int both = sli_triangle_scan(A) == SL_TRIANGLE_BOTH;
     sl_int j, p;
@@ -48,7 +48,8 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) || !sli_allocator_is_whole(opt)) {
+    if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) ||
+        !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

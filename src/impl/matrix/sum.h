@@ -1,18 +1,18 @@
-/* sum.h: weighted sums of symmetric matrices, whatever triangles they store */
-#ifndef SLI_SUM_H
-#define SLI_SUM_H
+/* sum.h: weighted sums of symmetric matrices with any stored triangles */
+#ifndef SLI_MATRIX_SUM_H
+#define SLI_MATRIX_SUM_H
 
-#include "../public/several.h"
-#include "csc.h"
+#include "../../public/several.h"
+#include "csc_triangle.h"
 
-/* The entries of all terms as triplets of the lower triangle. */
+/* Entries of all terms as triplets of the lower triangle. */
 typedef struct sli_summands {
     sl_int count;
     sl_int *row, *column;
-    double *x; /* NULL: patterns alone */
+    double *x; /* NULL: patterns only */
 } sli_summands;
 
-/* Whether the terms are matrices that can be added; their entries in all. */
+/* Checks that the terms can be added; *entries: the number of their stored entries. */
 static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
                                sl_off *entries, sl_stats *stats) {
     sl_int t;
@@ -32,7 +32,7 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
     return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
 }
 
-/* Appends c A; c is not read where patterns alone are wanted. */
+/* Appends c A. c is ignored if only patterns are summed. */
 static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
     sl_int j, p;
     for (j = 0; j < A->n_cols; j++) {
@@ -63,7 +63,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (terms == NULL || count < 1 || !sli_allocator_is_whole(opt)) {
+    if (terms == NULL || count < 1 || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_sum_check(coefficients, terms, count, &entries, stats);

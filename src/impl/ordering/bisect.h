@@ -1,73 +1,78 @@
-/* order_bisect.h: a part cut in two by growing one half, and a cut made lighter by moving vertices across */
-#ifndef SLI_ORDER_BISECT_H
-#define SLI_ORDER_BISECT_H
+/* bisect.h: graph bisection: greedy graph growing, and Fiduccia-Mattheyses refinement of a cut */
+#ifndef SLI_ORDERING_BISECT_H
+#define SLI_ORDERING_BISECT_H
 
-#include "order_heap.h"
-#include "order_piece.h"
+#include "heap.h"
+#include "subgraph.h"
 
-#define SLI_BALANCE 0.6 /* most of the weight that one side may get */
+#define SLI_BISECT_BALANCE 0.6 /* largest share of the weight that one side may get */
 
-/* What a cut costs: its edges, more where the sides differ. */
+/* The cost of a cut: the weight of its edges, increased by the imbalance of the sides. */
 SLI_INLINE double sli_cut_cost(double cut, const int64_t *total) {
     const double sum = (double)(total[0] + total[1]);
     const double skew = sum > 0.0 ? fabs((double)(total[0] - total[1])) / sum : 0.0;
     return cut * (1.0 + skew);
 }
 
-/* Edges of v across the cut minus those on its own side: what the cut loses if v moves. */
-static sl_int sli_piece_gain(const sli_piece *p, sl_int v, int *on_border) {
-    const int side = p->side[v];
-    sl_int across = side != p->home[v] ? p->anchor[v] : 0;
-    sl_int own = p->anchor[v] - across;
+/* The gain of moving v to the other side: the weight of its edges across the cut minus that of its
+ * edges within its side. */
+static sl_int sli_subgraph_gain(const sli_subgraph *sub, sl_int v, int *on_border) {
+    const int side = sub->side[v];
+    sl_int across = side != sub->home[v] ? sub->external[v] : 0;
+    sl_int within = sub->external[v] - across;
     sl_off e;
-    for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
-        if (p->side[p->to[e]] != side) {
-            across += p->edge[e];
+    for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
+        if (sub->side[sub->to[e]] != side) {
+            across += sub->edge[e];
         } else {
-            own += p->edge[e];
+            within += sub->edge[e];
         }
     }
     *on_border = across > 0;
-    return across - own;
+    return across - within;
 }
 
-static int64_t sli_piece_cut(const sli_piece *p) {
+/* The weight of the edges across the cut, external edges included. */
+static int64_t sli_subgraph_cut_weight(const sli_subgraph *sub) {
     int64_t twice = 0;
     sl_int v;
     sl_off e;
-    for (v = 0; v < p->n; v++) {
-        for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
-            twice += p->side[p->to[e]] != p->side[v] ? p->edge[e] : 0;
+    for (v = 0; v < sub->n; v++) {
+        for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
+            twice += sub->side[sub->to[e]] != sub->side[v] ? sub->edge[e] : 0;
         }
-        twice += p->side[v] != p->home[v] ? 2 * (int64_t)p->anchor[v] : 0;
+        twice += sub->side[v] != sub->home[v] ? 2 * (int64_t)sub->external[v] : 0;
     }
     return twice / 2;
 }
 
-typedef struct sli_mover {
-    sli_piece *p;
-    sli_heap heap[2]; /* by side */
+/* The state of a Fiduccia-Mattheyses refinement. */
+typedef struct sli_fm {
+    sli_subgraph *sub;
+    sli_heap heap[2]; /* one for each side */
     unsigned char *locked;
-    sl_int *moves; /* in the order in which they were made */
-    int64_t most;  /* weight of a side */
-} sli_mover;
+    sl_int *moves; /* the vertices moved so far */
+    int64_t most;  /* largest weight of a side */
+} sli_fm;
 
-SLI_INLINE int sli_mover_may(const sli_mover *m, sl_int v) {
-    const sli_piece *p = m->p;
-    const int from = p->side[v];
-    const int64_t after = p->total[1 - from] + p->weight[v];
-    return after <= m->most || after <= p->total[from];
+/* Returns whether v may move: afterwards its new side is within the limit, or not heavier than its
+ * old side is now. */
+SLI_INLINE int sli_fm_may_move(const sli_fm *m, sl_int v) {
+    const sli_subgraph *sub = m->sub;
+    const int from = sub->side[v];
+    const int64_t after = sub->total[1 - from] + sub->weight[v];
+    return after <= m->most || after <= sub->total[from];
 }
 
-/* The side whose best vertex should move next, -1 if none may. */
-static int sli_mover_choose(const sli_mover *m) {
+/* The side whose best vertex should move next, or -1 if no vertex may move. */
+static int sli_fm_choose(const sli_fm *m) {
     int side, best = -1;
     for (side = 0; side < 2; side++) {
         const sli_heap *h = &m->heap[side];
-        if (h->count > 0 && sli_mover_may(m, h->item[0])) {
+        if (h->count > 0 && sli_fm_may_move(m, h->item[0])) {
             if (best == -1 || h->key[h->item[0]] > h->key[m->heap[best].item[0]] ||
                 (h->key[h->item[0]] == h->key[m->heap[best].item[0]] &&
-                 m->p->total[side] > m->p->total[best])) {
+                 m->sub->total[side] > m->sub->total[best])) {
                 best = side;
             }
         }
@@ -75,64 +80,65 @@ static int sli_mover_choose(const sli_mover *m) {
     return best;
 }
 
-static void sli_mover_flip(sli_mover *m, sl_int v) {
-    sli_piece *p = m->p;
-    const int from = p->side[v];
-    p->side[v] = (unsigned char)(1 - from);
-    p->total[from] -= p->weight[v];
-    p->total[1 - from] += p->weight[v];
+/* Moves v to the other side. */
+static void sli_fm_flip(sli_fm *m, sl_int v) {
+    sli_subgraph *sub = m->sub;
+    const int from = sub->side[v];
+    sub->side[v] = (unsigned char)(1 - from);
+    sub->total[from] -= sub->weight[v];
+    sub->total[1 - from] += sub->weight[v];
 }
 
-/* Neighbours of a vertex that has just moved. */
-static void sli_mover_update(sli_mover *m, sl_int v) {
-    sli_piece *p = m->p;
+/* Updates the gains of the neighbors of a vertex that has just moved. */
+static void sli_fm_update(sli_fm *m, sl_int v) {
+    sli_subgraph *sub = m->sub;
     sl_off e;
-    for (e = p->begin[v]; e < p->begin[v + 1]; e++) {
-        const sl_int u = p->to[e];
-        sli_heap *h = &m->heap[p->side[u]];
+    for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
+        const sl_int u = sub->to[e];
+        sli_heap *h = &m->heap[sub->side[u]];
         if (m->locked[u]) {
             continue;
         }
-        if (h->place[u] == -1) {
+        if (h->position[u] == -1) {
             int on_border;
-            h->key[u] = sli_piece_gain(p, u, &on_border);
+            h->key[u] = sli_subgraph_gain(sub, u, &on_border);
             if (on_border) {
                 sli_heap_add(h, u);
             }
         } else {
-            h->key[u] += p->side[u] == p->side[v] ? -2 * p->edge[e] : 2 * p->edge[e];
-            sli_heap_settle(h, u);
+            h->key[u] += sub->side[u] == sub->side[v] ? -2 * sub->edge[e] : 2 * sub->edge[e];
+            sli_heap_update(h, u);
         }
     }
 }
 
-/* One round: moves the best vertex again and again, for better or worse, each vertex once, and goes
- * back to the best cut on the way. Returns whether that is better than where it started. */
-static int sli_mover_round(sli_mover *m, double *cut) {
-    sli_piece *p = m->p;
-    const sl_int patience = 20 + p->n / 20 < 100 ? 20 + p->n / 20 : 100;
-    double here = *cut, cost = sli_cut_cost(here, p->total), best_cost = cost;
+/* One pass: repeatedly moves the vertex of highest gain, even at a loss, but each vertex only once;
+ * then undoes the moves after the best cut. Returns whether that cut is better than the first. */
+static int sli_fm_pass(sli_fm *m, double *cut) {
+    sli_subgraph *sub = m->sub;
+    const sl_int patience = 20 + sub->n / 20 < 100 ? 20 + sub->n / 20 : 100;
+    double here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
     sl_int v, made = 0, best = 0;
     int side;
     m->heap[0].count = m->heap[1].count = 0;
-    for (v = 0; v < p->n; v++) {
+    for (v = 0; v < sub->n; v++) {
         int on_border;
         m->locked[v] = 0;
-        m->heap[0].place[v] = -1;
-        m->heap[0].key[v] = sli_piece_gain(p, v, &on_border);
+        m->heap[0].position[v] = -1;
+        m->heap[0].key[v] = sli_subgraph_gain(sub, v, &on_border);
         if (on_border) {
-            sli_heap_add(&m->heap[p->side[v]], v);
+            sli_heap_add(&m->heap[sub->side[v]], v);
         }
     }
-    while (made - best < patience && (side = sli_mover_choose(m)) != -1) {
+    while (made - best < patience && (side = sli_fm_choose(m)) != -1) {
         v = m->heap[side].item[0];
         sli_heap_remove(&m->heap[side], v);
         m->locked[v] = 1;
         here -= m->heap[side].key[v];
-        sli_mover_flip(m, v);
-        sli_mover_update(m, v);
+        sli_fm_flip(m, v);
+        sli_fm_update(m, v);
         m->moves[made++] = v;
-        cost = sli_cut_cost(here, p->total);
+        cost = sli_cut_cost(here, sub->total);
         if (cost < best_cost) {
             best_cost = cost;
             best = made;
@@ -140,80 +146,83 @@ static int sli_mover_round(sli_mover *m, double *cut) {
         }
     }
     while (made > best) {
-        sli_mover_flip(m, m->moves[--made]);
+        sli_fm_flip(m, m->moves[--made]);
     }
     return best > 0;
 }
 
-static sli_mover sli_mover_of(sli_piece *p) {
-    sli_mover m;
-    m.p = p;
-    m.heap[0].place = m.heap[1].place = p->scratch;
-    m.heap[0].key = m.heap[1].key = p->scratch + p->n;
-    m.heap[0].item = p->scratch + 2 * (size_t)p->n;
-    m.heap[1].item = p->scratch + 3 * (size_t)p->n;
-    m.moves = p->scratch + 4 * (size_t)p->n;
-    m.locked = p->locked;
+/* A refinement of a subgraph, in its scratch arrays. */
+static sli_fm sli_fm_of(sli_subgraph *sub) {
+    sli_fm m;
+    m.sub = sub;
+    m.heap[0].position = m.heap[1].position = sub->scratch;
+    m.heap[0].key = m.heap[1].key = sub->scratch + sub->n;
+    m.heap[0].item = sub->scratch + 2 * (size_t)sub->n;
+    m.heap[1].item = sub->scratch + 3 * (size_t)sub->n;
+    m.moves = sub->scratch + 4 * (size_t)sub->n;
+    m.locked = sub->locked;
     m.heap[0].count = m.heap[1].count = 0;
-    m.most = (int64_t)(SLI_BALANCE * (double)(p->total[0] + p->total[1]));
+    m.most = (int64_t)(SLI_BISECT_BALANCE * (double)(sub->total[0] + sub->total[1]));
     return m;
 }
 
-/* Makes the cut of a part lighter and returns what it costs. [FM82] */
-static double sli_piece_improve(sli_piece *p, int rounds) {
-    sli_mover m = sli_mover_of(p);
-    double cut = (double)sli_piece_cut(p);
-    while (rounds-- > 0 && sli_mover_round(&m, &cut)) {
+/* Refines the cut of a subgraph in up to `rounds` passes and returns its cost. [FM82] */
+static double sli_subgraph_refine(sli_subgraph *sub, int rounds) {
+    sli_fm m = sli_fm_of(sub);
+    double cut = (double)sli_subgraph_cut_weight(sub);
+    while (rounds-- > 0 && sli_fm_pass(&m, &cut)) {
     }
-    return sli_cut_cost(cut, p->total);
+    return sli_cut_cost(cut, sub->total);
 }
 
-/* A vertex of the part far from v. queue, seen: n of scratch. */
-static sl_int sli_piece_far(const sli_piece *p, sl_int v, sl_int *queue, unsigned char *seen) {
+/* A vertex far from v: the last one that a breadth-first search reaches. queue, seen: n of
+ * scratch. */
+static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *queue,
+                                    unsigned char *seen) {
     sl_int head, tail = 0;
     sl_off e;
-    memset(seen, 0, (size_t)p->n);
+    memset(seen, 0, (size_t)sub->n);
     queue[tail++] = v;
     seen[v] = 1;
     for (head = 0; head < tail; head++) {
-        for (e = p->begin[queue[head]]; e < p->begin[queue[head] + 1]; e++) {
-            if (!seen[p->to[e]]) {
-                seen[p->to[e]] = 1;
-                queue[tail++] = p->to[e];
+        for (e = sub->begin[queue[head]]; e < sub->begin[queue[head] + 1]; e++) {
+            if (!seen[sub->to[e]]) {
+                seen[sub->to[e]] = 1;
+                queue[tail++] = sub->to[e];
             }
         }
     }
     return queue[tail - 1];
 }
 
-/* Puts half of the weight on the left, starting with seed: always the vertex next that leaves the
- * lightest cut. */
-static void sli_piece_grow(sli_piece *p, sl_int seed) {
-    sli_mover m = sli_mover_of(p);
+/* Grows side 0 from seed until it has half of the weight. The next vertex is always the one that
+ * leaves the lightest cut. */
+static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
+    sli_fm m = sli_fm_of(sub);
     sl_int v, unseen = 0;
-    p->total[1] += p->total[0];
-    p->total[0] = 0;
-    memset(p->side, 1, (size_t)p->n);
-    memset(m.locked, 0, (size_t)p->n);
-    for (v = 0; v < p->n; v++) {
-        m.heap[0].place[v] = -1;
+    sub->total[1] += sub->total[0];
+    sub->total[0] = 0;
+    memset(sub->side, 1, (size_t)sub->n);
+    memset(m.locked, 0, (size_t)sub->n);
+    for (v = 0; v < sub->n; v++) {
+        m.heap[0].position[v] = -1;
     }
     v = seed;
     for (;;) {
         m.locked[v] = 1;
-        sli_mover_flip(&m, v);
-        if (p->total[0] >= p->total[1]) {
+        sli_fm_flip(&m, v);
+        if (sub->total[0] >= sub->total[1]) {
             break;
         }
-        sli_mover_update(&m, v);
+        sli_fm_update(&m, v);
         if (m.heap[1].count > 0) {
             v = m.heap[1].item[0];
             sli_heap_remove(&m.heap[1], v);
-        } else { /* the part is not connected */
-            while (unseen < p->n && m.locked[unseen]) {
+        } else { /* the subgraph is not connected */
+            while (unseen < sub->n && m.locked[unseen]) {
                 unseen++;
             }
-            if (unseen == p->n) {
+            if (unseen == sub->n) {
                 break;
             }
             v = unseen;
@@ -221,29 +230,29 @@ static void sli_piece_grow(sli_piece *p, sl_int seed) {
     }
 }
 
-/* Cuts a part in two: the best of some tries. */
-static void sli_piece_bisect(sli_piece *p, int tries, int rounds) {
+/* Bisects a subgraph: keeps the cheapest cut of several tries. */
+static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
     double best = -1.0;
     int64_t total[2] = {0, 0};
     int k;
     for (k = 0; k < tries; k++) {
-        sl_int seed = (sl_int)(sli_scatter((uint32_t)k + 77u) % (uint32_t)p->n);
+        sl_int seed = (sl_int)(sli_hash32((uint32_t)k + 77u) % (uint32_t)sub->n);
         double cost;
         if (k % 2 == 0) {
-            seed = sli_piece_far(p, seed, p->scratch, p->locked);
+            seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
         }
-        sli_piece_grow(p, seed);
-        cost = sli_piece_improve(p, rounds);
+        sli_subgraph_grow(sub, seed);
+        cost = sli_subgraph_refine(sub, rounds);
         if (k == 0 || cost < best) {
             best = cost;
-            memcpy(p->best, p->side, (size_t)p->n);
-            total[0] = p->total[0];
-            total[1] = p->total[1];
+            memcpy(sub->best, sub->side, (size_t)sub->n);
+            total[0] = sub->total[0];
+            total[1] = sub->total[1];
         }
     }
-    memcpy(p->side, p->best, (size_t)p->n);
-    p->total[0] = total[0];
-    p->total[1] = total[1];
+    memcpy(sub->side, sub->best, (size_t)sub->n);
+    sub->total[0] = total[0];
+    sub->total[1] = total[1];
 }
 
 #endif

@@ -1,23 +1,25 @@
-/* order_coarsen.h: ever smaller graphs, each made of the one before by joining vertices two by two */
-#ifndef SLI_ORDER_COARSEN_H
-#define SLI_ORDER_COARSEN_H
+/* coarsen.h: multilevel coarsening: each graph is contracted along a matching of its vertices */
+#ifndef SLI_ORDERING_COARSEN_H
+#define SLI_ORDERING_COARSEN_H
 
-#include "alloc.h"
-#include "symbolic_types.h"
+#include "../base/alloc.h"
 
-/* A graph without loops or repeated edges. A vertex of a coarser level stands for some of the
- * finest, an edge for the finest edges between two of them. */
+/* A graph of the multilevel hierarchy, without loops or repeated edges. A vertex of a coarser level
+ * represents a set of finest vertices; an edge represents all finest edges between two sets. */
 typedef struct sli_level {
     sl_int n;
-    sl_off *begin;  /* n + 1 */
-    sl_int *to;     /* begin[n] */
-    sl_int *edge;   /* begin[n]: finest edges; NULL: 1 each */
-    sl_int *weight; /* n: finest vertices; NULL: 1 each */
-    sl_int *coarse; /* n: vertex of the next coarser level */
-    void *block;    /* that all this is cut from */
+    sl_off *begin; /* n + 1 */
+    sl_int *to;    /* begin[n] */
+    /* begin[n]: number of finest edges, or after sli_weigh_edges what a separator costs; NULL: 1
+     * each */
+    sl_int *edge;
+    sl_int *weight; /* n: number of finest vertices; NULL: 1 each */
+    sl_int *coarse; /* n: the vertex of the next coarser level that contains this one */
+    void *block;    /* the allocation that holds all arrays */
 } sli_level;
 
-/* A level that keeps more than this share of its vertices is not worth its pass. */
+/* Coarsening stops when a level would keep more than this share of the vertices: such a level does
+ * not repay a pass over it. */
 #define SLI_COARSEN_STALL 0.95
 #define SLI_LEVELS_MAX 64
 
@@ -29,8 +31,8 @@ SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
     return g->edge == NULL ? 1 : g->edge[e];
 }
 
-/* A number that looks random, the same for the same v. */
-SLI_INLINE uint32_t sli_scatter(uint32_t v) {
+/* A hash of v: a reproducible pseudo-random number. */
+SLI_INLINE uint32_t sli_hash32(uint32_t v) {
     v ^= v >> 16;
     v *= 0x7feb352du;
     v ^= v >> 15;
@@ -38,13 +40,14 @@ SLI_INLINE uint32_t sli_scatter(uint32_t v) {
     return v ^ v >> 16;
 }
 
-/* The free neighbour of v with the most edges a vertex, or -1. The search starts anywhere in the
- * list, so that pairs do not all lie in one direction. */
+/* Returns the unmatched neighbor of v with the largest edge weight per vertex weight, or -1. The
+ * search starts at a pseudo-random position in the list, so that in a regular grid not all pairs
+ * have the same direction. */
 static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, const sl_int *mate) {
     const sl_off first = g->begin[v], degree = g->begin[v + 1] - first;
     const sl_int own = sli_level_weight(g, v);
     sl_int best = -1, best_edge = 0, best_weight = 1;
-    sl_off k, e = degree > 0 ? first + (sl_off)(sli_scatter((uint32_t)v) % (uint64_t)degree) : 0;
+    sl_off k, e = degree > 0 ? first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree) : 0;
     for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
         const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
         if (mate[u] == -1 && weight <= heaviest - own &&
@@ -57,8 +60,9 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
     return best;
 }
 
-/* mate[v] := the vertex that v joins, v itself if none. Vertices are visited in a scattered order,
- * but only within windows, which keeps memory close. Returns the number of pairs. */
+/* Matches vertices in pairs: mate[v] := the vertex matched with v, or -1. Vertices are visited in
+ * pseudo-random order, but only within windows, for locality of memory access. Returns the number
+ * of pairs. */
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
     const sl_int window = 512;
     sl_int first, k, v, pairs = 0;
@@ -66,7 +70,7 @@ static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
         mate[v] = -1;
     }
     for (first = 0; first < g->n; first += window) {
-        const uint32_t turn = sli_scatter((uint32_t)first);
+        const uint32_t turn = sli_hash32((uint32_t)first);
         for (k = 0; k < window; k++) {
             sl_int u;
             v = first + (sl_int)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
@@ -87,32 +91,34 @@ static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
     return pairs;
 }
 
-/* Joins what is still alone through a common neighbour: the leaves of a star. */
-static sl_int sli_match_over(const sli_level *g, sl_int heaviest, sl_int *mate) {
+/* Matches the remaining vertices through a common neighbor (two-hop matching), such as the leaves
+ * of a star. Returns the number of pairs. */
+static sl_int sli_match_two_hop(const sli_level *g, sl_int heaviest, sl_int *mate) {
     sl_int v, pairs = 0;
     for (v = 0; v < g->n; v++) {
-        sl_int waiting = -1;
+        sl_int unmatched = -1;
         sl_off e;
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int u = g->to[e];
             if (mate[u] != -1) {
                 continue;
             }
-            if (waiting != -1 &&
-                sli_level_weight(g, u) <= heaviest - sli_level_weight(g, waiting)) {
-                mate[u] = waiting;
-                mate[waiting] = u;
-                waiting = -1;
+            if (unmatched != -1 &&
+                sli_level_weight(g, u) <= heaviest - sli_level_weight(g, unmatched)) {
+                mate[u] = unmatched;
+                mate[unmatched] = u;
+                unmatched = -1;
                 pairs++;
             } else {
-                waiting = u;
+                unmatched = u;
             }
         }
     }
     return pairs;
 }
 
-/* Numbers the pairs in the order of their first members; returns how many there are. */
+/* Numbers the pairs and the single vertices in the order of their first members. Returns how many
+ * there are. */
 static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
     sl_int v, count = 0;
     for (v = 0; v < g->n; v++) {
@@ -122,7 +128,7 @@ static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
     return count;
 }
 
-/* Fills c, which has room, with the graph of the pairs. at: c->n of scratch. */
+/* Fills c, whose arrays have room, with the contracted graph. at: c->n of scratch. */
 static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, sl_off *at) {
     sl_int v, k, member[2];
     sl_off e, count = 0;
@@ -160,7 +166,8 @@ static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, s
     c->begin[k] = count;
 }
 
-/* Makes the next level. scratch: g->n. *shrunk: whether there is one worth having. */
+/* Makes the next coarser level. mate, at: g->n of scratch. *shrunk := whether the level is small
+ * enough to be used; c is empty if not. */
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
                              sl_off *at, int *shrunk, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
@@ -168,7 +175,7 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
     int pass;
     sl_int pairs = sli_match(g, heaviest, mate);
     if (pairs < g->n / 4) {
-        pairs += sli_match_over(g, heaviest, mate);
+        pairs += sli_match_two_hop(g, heaviest, mate);
     }
     memset(c, 0, sizeof *c);
     *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
@@ -191,14 +198,15 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
     return status;
 }
 
-/* What weighing a level needs: to, count: room for the finest edges; the others: n. */
-typedef struct sli_weighing {
-    sl_int *cluster, *member, *start, *seen, *to, *count; /* start: n + 1 */
+/* Scratch for weighing the edges of a level. to, count: room for the finest edges; start: n + 1;
+ * the other arrays: n. */
+typedef struct sli_edge_weights {
+    sl_int *cluster, *member, *start, *seen, *to, *count;
     sl_off *at;
-} sli_weighing;
+} sli_edge_weights;
 
-/* Finest vertices by the vertex of level l that they are in. */
-static void sli_weigh_members(const sli_level *levels, int l, sli_weighing *w) {
+/* Sorts the finest vertices by the vertex of level l that contains them. */
+static void sli_cluster_members(const sli_level *levels, int l, sli_edge_weights *w) {
     const sl_int n = levels[0].n, clusters = levels[l].n;
     sl_int v, k;
     int m;
@@ -221,15 +229,15 @@ static void sli_weigh_members(const sli_level *levels, int l, sli_weighing *w) {
     w->start[0] = 0;
 }
 
-/* Makes the weight of an edge of level l the number of finest vertices at that border, of both
- * sides: what a separator takes. Finest edges would count a slanting border in a square grid twice
- * and a straight one once. */
-static void sli_weigh_level(sli_level *levels, int l, sli_weighing *w) {
+/* Sets the weight of each edge of level l to the number of finest vertices on both sides of the
+ * border that it represents: what a vertex separator there costs. The number of finest edges would
+ * charge a diagonal border in a square grid twice as much as a straight one. */
+static void sli_weigh_edges(sli_level *levels, int l, sli_edge_weights *w) {
     const sli_level *finest = &levels[0];
     sli_level *g = &levels[l];
     sl_int k, i;
     sl_off e;
-    sli_weigh_members(levels, l, w);
+    sli_cluster_members(levels, l, w);
     for (k = 0; k < g->n; k++) {
         w->seen[k] = -1;
     }
@@ -249,7 +257,8 @@ static void sli_weigh_level(sli_level *levels, int l, sli_weighing *w) {
             }
         }
     }
-    /* so far the vertices of one side; the other side's come from the transposed lists */
+    /* The weights so far count the vertices of one side; add those of the other side from the
+     * transposed lists. */
     memcpy(w->at, g->begin, (size_t)g->n * sizeof(sl_off));
     for (k = 0; k < g->n; k++) {
         for (e = g->begin[k]; e < g->begin[k + 1]; e++) {

@@ -1,69 +1,72 @@
-/* order_dissect.h: nested dissection of a connected graph: where to cut, found on a coarse level, refined on the finest */
-#ifndef SLI_ORDER_DISSECT_H
-#define SLI_ORDER_DISSECT_H
+/* dissect.h: multilevel nested dissection of a connected graph, and the estimated cost of a tree */
+#ifndef SLI_ORDERING_DISSECT_H
+#define SLI_ORDERING_DISSECT_H
 
-#include "order_cut.h"
-#include "order_leaves.h"
+#include "separator.h"
+#include "mindeg.h"
 
-/* Below this many vertices minimum degree is about as good as a further cut; on METIS's separators
- * smaller leaves save another half percent of fill. */
+/* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as
+ * a further separator. With METIS's separators, smaller leaves save another 0.5 % of fill. */
 #define SLI_DISSECT_LEAF 200
-#define SLI_DISSECT_LEAF_QUALITY 140
-/* A part is cut on the coarsest level on which it has more vertices than this. */
-#define SLI_DISSECT_PART 100
-/* The finest level on which parts are cut has a vertex for at least so many of the graph. */
+#define SLI_DISSECT_LEAF_REFINED 140
+/* A leaf is bisected on the coarsest level on which it has more vertices than this. */
+#define SLI_DISSECT_BISECT_MIN 100
+/* Leaves are bisected only on levels of at most n / SLI_DISSECT_SHRINK vertices. */
 #define SLI_DISSECT_SHRINK 7
-/* Growing tries for the first cuts, which decide most, and for all others. */
+/* Tries of graph growing: TRIES_FIRST while the tree has fewer than FIRST nodes, because the first
+ * separators decide most, then TRIES. */
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
-/* Layers on either side of a border that may change sides, on coarse levels and at last. */
+/* Layers on each side of a border whose vertices may change sides: LAYERS on coarse levels, BAND
+ * for the final separators, and more than BAND from BAND_FROM finest vertices on. */
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
-/* Most of the weight that one side of a separator may get: the last step may lose some balance. */
-#define SLI_CUT_BALANCE 0.7
+/* Largest share of the weight that one side of a separator may have. It exceeds SLI_BISECT_BALANCE
+ * because the last step may lose some balance for a smaller separator. */
+#define SLI_SEPARATOR_BALANCE 0.7
 
-/* Everything that is needed while one graph after the other is dissected; all have room for the
- * largest. */
+/* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
+ * the largest. */
 typedef struct sli_dissection {
     const sl_allocator *a;
-    sli_level levels[SLI_LEVELS_MAX]; /* the finest first; it is not owned */
-    int n_levels, l;                  /* l: the level that labels are of */
+    sli_level levels[SLI_LEVELS_MAX]; /* finest first; the arrays of the finest are borrowed */
+    int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
-    sl_int most;                      /* vertices of a leaf, where it can be cut */
-    int widening; /* layers more of a band for each four times of a part's size */
-    sli_tree tree;
+    sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
+    int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
+    sli_label_tree tree;
     sli_borders borders;
-    sli_piece part;
-    sli_leaf leaf;
-    sl_int *label, *other; /* n: the node of each vertex; the other one is scratch */
-    sl_int *begin;         /* room + 1: where the vertices of a node begin in order */
+    sli_subgraph subgraph;
+    sli_mindeg mindeg;
+    sl_int *label, *other; /* n: the node of each vertex; `other` is scratch */
+    sl_int *begin;         /* room + 1: where each node's vertices begin in order */
     sl_int *order;         /* n */
     sl_int *nodes;         /* room */
     sl_off *next;          /* n */
 } sli_dissection;
 
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
-    const sl_int room = n + 1; /* more nodes than vertices are not made */
+    const sl_int room = n + 1; /* there are never more nodes than vertices */
     d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
-    sli_tree_layout(&d->tree, b, room);
+    sli_label_tree_layout(&d->tree, b, room);
     d->borders.head = SLI_TAKE(b, sl_int, room);
-    sli_piece_layout(&d->part, b, n, edges);
+    sli_subgraph_layout(&d->subgraph, b, n, edges);
     d->label = SLI_TAKE(b, sl_int, n);
     d->other = SLI_TAKE(b, sl_int, n);
     d->begin = SLI_TAKE(b, sl_int, (size_t)room + 1);
     d->order = SLI_TAKE(b, sl_int, n);
     d->nodes = SLI_TAKE(b, sl_int, room);
     d->next = SLI_TAKE(b, sl_off, n);
-    d->leaf.key = SLI_TAKE(b, uint32_t, SLI_LEAF_MAX);
-    d->leaf.room = (size_t)SLI_LEAF_MAX * SLI_LEAF_MAX / 32;
-    d->leaf.rows = SLI_TAKE(b, uint64_t, d->leaf.room);
+    d->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
+    d->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
+    d->mindeg.rows = SLI_TAKE(b, uint64_t, d->mindeg.room);
 }
 
-/* The vertices of node t become order[begin[t]] .. order[begin[t + 1] - 1]. */
+/* Sorts the vertices by node: those of node t become order[begin[t]] .. order[begin[t + 1] - 1]. */
 static void sli_dissect_sort(sli_dissection *d) {
-    const sli_level *g = &d->levels[d->l];
+    const sli_level *g = &d->levels[d->level];
     sl_int v, k, total = 0;
     memset(d->begin, 0, ((size_t)d->tree.count + 1) * sizeof(sl_int));
     for (v = 0; v < g->n; v++) {
@@ -81,128 +84,133 @@ static void sli_dissect_sort(sli_dissection *d) {
     d->begin[0] = 0;
 }
 
-/* One node, everything. */
+/* Starts with a tree of one leaf that contains all vertices. */
 static void sli_dissect_start(sli_dissection *d) {
-    const sl_int n = d->levels[d->l].n;
+    const sl_int n = d->levels[d->level].n;
     d->tree.count = 0;
-    d->tree.root = sli_tree_add(&d->tree, -1);
+    d->tree.root = sli_label_tree_add(&d->tree, -1);
     d->tree.weight[d->tree.root] = d->total;
     memset(d->label, 0, (size_t)n * sizeof(sl_int));
-    sli_tree_number(&d->tree, n, d->label);
+    sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* Hands the sides of the part to two new leaves below node. */
-static void sli_dissect_divide(sli_dissection *d, sl_int node) {
-    const sli_piece *p = &d->part;
+/* Gives the two sides of the subgraph to two new leaves below node. */
+static void sli_dissect_assign(sli_dissection *d, sl_int node) {
+    const sli_subgraph *sub = &d->subgraph;
     sl_int k, weight[2] = {0, 0};
-    sli_tree_split(&d->tree, node);
-    for (k = 0; k < p->n; k++) {
-        const int side = p->side[k];
-        d->label[p->vertex[k]] = side == 0 ? d->tree.left[node] : d->tree.right[node];
-        weight[side] += p->weight[k];
+    sli_label_tree_split(&d->tree, node);
+    for (k = 0; k < sub->n; k++) {
+        const int side = sub->side[k];
+        d->label[sub->vertex[k]] = side == 0 ? d->tree.left[node] : d->tree.right[node];
+        weight[side] += sub->weight[k];
     }
     d->tree.weight[d->tree.left[node]] = weight[0];
     d->tree.weight[d->tree.right[node]] = weight[1];
 }
 
-/* Cuts every leaf of more than so many vertices of this level, and of more than a leaf may have of
- * the finest. Returns how many there were. */
+/* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
+ * finest. Returns the number of leaves bisected. */
 static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
-    const sli_level *g = &d->levels[d->l];
+    const sli_level *g = &d->levels[d->level];
     const sl_int nodes = d->tree.count;
     sl_int node, split = 0;
     sli_dissect_sort(d);
     for (node = 0; node < nodes; node++) {
         const sl_int count = d->begin[node + 1] - d->begin[node];
-        if (sli_tree_is_leaf(&d->tree, node) && count > most && d->tree.weight[node] > d->most &&
-            d->tree.count < d->tree.room - 1) {
-            const int few = d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_PART;
-            sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node], count);
-            sli_piece_bisect(&d->part,
-                             few          ? SLI_DISSECT_TRIES_FIRST
-                             : count > 50 ? SLI_DISSECT_TRIES
-                                          : 1,
-                             2);
-            sli_dissect_divide(d, node);
-            sli_piece_clear(&d->part);
+        if (sli_label_tree_is_leaf(&d->tree, node) && count > most &&
+            d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
+            const int few =
+                d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_BISECT_MIN;
+            sli_subgraph_leaf(&d->subgraph, g, &d->tree, node, d->label, d->order + d->begin[node],
+                              count);
+            sli_subgraph_bisect(&d->subgraph,
+                                few          ? SLI_DISSECT_TRIES_FIRST
+                                : count > 50 ? SLI_DISSECT_TRIES
+                                             : 1,
+                                2);
+            sli_dissect_assign(d, node);
+            sli_subgraph_clear(&d->subgraph);
             split++;
         }
     }
     if (split > 0) {
-        sli_tree_number(&d->tree, g->n, d->label);
+        sli_label_tree_number(&d->tree, g->n, d->label);
     }
     return split;
 }
 
-/* Moves the borders of all nodes, the root's first, to where they cut less. */
+/* Refines the borders of all nodes on this level, the root's first. */
 static void sli_dissect_refine(sli_dissection *d) {
-    const sli_level *g = &d->levels[d->l];
+    const sli_level *g = &d->levels[d->level];
     sl_int k;
     sli_borders_fill(&d->borders, &d->tree, g, d->label);
-    sli_tree_levels(&d->tree, d->nodes);
+    sli_label_tree_breadth_first(&d->tree, d->nodes);
     for (k = 0; k < d->tree.count; k++) {
         const sl_int node = d->nodes[k];
-        if (!sli_tree_is_leaf(&d->tree, node) && d->borders.head[node] != -1) {
-            sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, SLI_DISSECT_LAYERS);
-            sli_piece_improve(&d->part, 2);
-            sli_piece_apply(&d->part, g, &d->tree, node, d->label, &d->borders);
-            sli_piece_clear(&d->part);
+        if (!sli_label_tree_is_leaf(&d->tree, node) && d->borders.head[node] != -1) {
+            sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders,
+                              SLI_DISSECT_LAYERS);
+            sli_subgraph_refine(&d->subgraph, 2);
+            sli_subgraph_apply(&d->subgraph, g, &d->tree, node, d->label, &d->borders);
+            sli_subgraph_clear(&d->subgraph);
         }
     }
 }
 
-/* Whether the sides of the piece, now with a separator, are balanced, or no less than before. */
-static int sli_dissect_is_even(const sli_dissection *d) {
-    const sli_piece *p = &d->part;
-    int64_t total[2], sum, before = p->total[0] > p->total[1] ? p->total[0] : p->total[1];
+/* Returns whether the sides are balanced now that the subgraph has a separator, or at least no less
+ * balanced than before. */
+static int sli_dissect_is_balanced(const sli_dissection *d) {
+    const sli_subgraph *sub = &d->subgraph;
+    int64_t total[2], sum, before = sub->total[0] > sub->total[1] ? sub->total[0] : sub->total[1];
     sl_int v;
-    total[0] = p->total[0];
-    total[1] = p->total[1];
-    for (v = 0; v < p->n; v++) {
-        total[p->home[v]] -= p->weight[v];
-        if (p->side[v] != 2) {
-            total[p->side[v]] += p->weight[v];
+    total[0] = sub->total[0];
+    total[1] = sub->total[1];
+    for (v = 0; v < sub->n; v++) {
+        total[sub->home[v]] -= sub->weight[v];
+        if (sub->side[v] != 2) {
+            total[sub->side[v]] += sub->weight[v];
         }
     }
     sum = total[0] + total[1];
     total[0] = total[0] > total[1] ? total[0] : total[1];
-    return (double)total[0] <= SLI_CUT_BALANCE * (double)sum || total[0] <= before;
+    return (double)total[0] <= SLI_SEPARATOR_BALANCE * (double)sum || total[0] <= before;
 }
 
-/* Puts a smallest vertex cut of the band at each border into the separators, the root's first. The
- * larger a part, the wider its band: the first cuts decide most, and there are few of them. Where
- * the cut is out of balance a narrower band is taken, at last the border alone. */
-static void sli_dissect_cut(sli_dissection *d) {
+/* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
+ * subgraph, the wider its band: the first separators decide most of the fill, and there are few of
+ * them. If a separator is unbalanced, narrower bands are tried, finally only the border. */
+static void sli_dissect_separate(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int k;
     sli_borders_fill(&d->borders, &d->tree, g, d->label);
-    sli_tree_levels(&d->tree, d->nodes);
+    sli_label_tree_breadth_first(&d->tree, d->nodes);
     for (k = 0; k < d->tree.count; k++) {
         const sl_int node = d->nodes[k];
         sl_int weight = d->tree.weight[node];
         int layers = SLI_DISSECT_BAND;
-        if (sli_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
+        if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
             continue;
         }
         for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->widening : sli_min(d->widening, 1);
+            layers +=
+                weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
         }
         for (;; layers /= 2) {
-            sli_piece_band(&d->part, g, &d->tree, node, d->label, &d->borders, layers);
-            sli_piece_cut_vertices(&d->part, d->part.locked, d->part.scratch, d->next);
-            if (layers == 0 || sli_dissect_is_even(d)) {
+            sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders, layers);
+            sli_subgraph_separate(&d->subgraph, d->subgraph.locked, d->subgraph.scratch, d->next);
+            if (layers == 0 || sli_dissect_is_balanced(d)) {
                 break;
             }
-            sli_piece_clear(&d->part);
+            sli_subgraph_clear(&d->subgraph);
         }
-        sli_piece_apply(&d->part, g, &d->tree, node, d->label, &d->borders);
-        sli_piece_clear(&d->part);
+        sli_subgraph_apply(&d->subgraph, g, &d->tree, node, d->label, &d->borders);
+        sli_subgraph_clear(&d->subgraph);
     }
 }
 
-/* Labels of a level to the next finer one. */
+/* Projects the labels to the next finer level. */
 static void sli_dissect_project(sli_dissection *d) {
-    const sli_level *g = &d->levels[--d->l];
+    const sli_level *g = &d->levels[--d->level];
     sl_int v, *coarser = d->label;
     for (v = 0; v < g->n; v++) {
         d->other[v] = coarser[g->coarse[v]];
@@ -211,21 +219,23 @@ static void sli_dissect_project(sli_dissection *d) {
     d->other = coarser;
 }
 
+/* Weighs the edges of level l by what a separator costs. */
 static void sli_dissect_weigh(sli_dissection *d, int l) {
-    sli_weighing w;
+    sli_edge_weights w;
     w.cluster = d->label;
     w.member = d->order;
     w.start = d->nodes;
     w.seen = d->begin;
-    w.to = d->part.to;
-    w.count = d->part.edge;
+    w.to = d->subgraph.to;
+    w.count = d->subgraph.edge;
     w.at = d->next;
-    sli_weigh_level(d->levels, l, &w);
+    sli_weigh_edges(d->levels, l, &w);
 }
 
-/* Coarsens; *working: the level on which parts are cut. */
+/* Makes the coarser levels. *working := the finest level on which leaves are bisected. */
 static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
-    const sl_int n = d->levels[0].n, enough = sli_min(SLI_DISSECT_PART, n / SLI_DISSECT_SHRINK);
+    const sl_int n = d->levels[0].n,
+                 enough = sli_min(SLI_DISSECT_BISECT_MIN, n / SLI_DISSECT_SHRINK);
     int shrunk = 1;
     sl_status status = SL_OK;
     *working = -1;
@@ -233,7 +243,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     for (;;) {
         const int last = d->n_levels - 1;
         const sli_level *g = &d->levels[last];
-        /* three times the mean weight keeps a level even, which a cut by halves needs */
+        /* Three times the mean weight keeps the weights of a level even enough for balanced
+         * bisection. */
         const sl_int heaviest = (sl_int)(3.0 * (double)d->total / (double)g->n) + 1;
         if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
             *working = last;
@@ -261,24 +272,24 @@ static void sli_dissect_free_levels(sli_dissection *d) {
     d->n_levels = 1;
 }
 
-/* The tree of parts: each is cut as soon as it is large enough on a level; its border then follows
- * from level to level. */
+/* Builds the separator tree: each leaf is bisected on the coarsest level on which it is large
+ * enough, and its border is then refined from level to level. */
 static sl_status sli_dissect_multilevel(sli_dissection *d) {
     int working;
     sl_status status = sli_dissect_coarsen(d, &working);
     if (status == SL_OK) {
-        d->l = d->n_levels - 1;
+        d->level = d->n_levels - 1;
         sli_dissect_start(d);
         for (;;) {
-            while (sli_dissect_split(d, d->l == working ? 1 : SLI_DISSECT_PART) > 0) {
+            while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
             }
-            if (d->l == working) {
+            if (d->level == working) {
                 break;
             }
             sli_dissect_project(d);
             sli_dissect_refine(d);
         }
-        while (d->l > 0) {
+        while (d->level > 0) {
             sli_dissect_project(d);
         }
     }
@@ -286,9 +297,10 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
     return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
-/* What a tree of parts will cost in path weight, in a measure of its own: half of a part's vertices
- * pass its separator, whose columns are about as many as they are long, so each node counts its
- * weight times the square of its border. *flat: the same for a flat square of as many vertices. */
+/* Estimates the cost of local solves with the order of a tree, as path weight: the entries of L on
+ * the paths from the columns to the root. The paths of about half of a subgraph's vertices contain
+ * its separator, which has about as many columns as rows below. So each node counts its weight
+ * times the square of its border. *flat := the same for square flat grids of that size. */
 static double sli_dissect_cost(sli_dissection *d, double *flat) {
     const sli_level *g = &d->levels[0];
     sl_int *border = d->nodes, v, k;
@@ -301,8 +313,8 @@ static double sli_dissect_cost(sli_dissection *d, double *flat) {
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int other = d->label[g->to[e]];
             if (own < other && other != last) {
-                const sl_int node = sli_tree_meet(&d->tree, own, other);
-                border[node] += last == -1 || node != sli_tree_meet(&d->tree, own, last);
+                const sl_int node = sli_label_tree_lca(&d->tree, own, other);
+                border[node] += last == -1 || node != sli_label_tree_lca(&d->tree, own, last);
                 last = other;
             }
         }
@@ -310,7 +322,7 @@ static double sli_dissect_cost(sli_dissection *d, double *flat) {
     *flat = 0.0;
     for (k = 0; k < d->tree.count; k++) {
         const double weight = d->tree.weight[k];
-        if (!sli_tree_is_leaf(&d->tree, k)) {
+        if (!sli_label_tree_is_leaf(&d->tree, k)) {
             cost += weight * (double)border[k] * (double)border[k];
             *flat += weight * weight;
         }

@@ -1,36 +1,39 @@
-/* order_geometric.h: nested dissection by coordinates: halves of space, and when they are the better parts */
-#ifndef SLI_ORDER_GEOMETRIC_H
-#define SLI_ORDER_GEOMETRIC_H
+/* geometric.h: nested dissection by coordinates, used where its estimated cost is lower */
+#ifndef SLI_ORDERING_GEOMETRIC_H
+#define SLI_ORDERING_GEOMETRIC_H
 
-#include "order_layers.h"
+#include "levelset.h"
 
-/* Points of a graph's vertices: vertex v lies at xyz[dimensions row[v]] .. */
+/* Coordinates of the vertices of a graph: those of vertex v start at xyz[dimensions * row[v]]. */
 typedef struct sli_points {
     const double *xyz;
     sl_int dimensions;
     const sl_int *row;
 } sli_points;
 
-/* Directions to cut across: axes, then diagonals of two of them, as sums of coordinates. */
+/* Directions of bisection as sums of coordinates: the axes and the diagonals of two axes. */
 static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
                                                  {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
                                                  {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
 
-/* The larger parts look for their direction on so many of their points. */
+/* Subgraphs of at least MANY vertices choose their direction, by a sample of about TRIED points;
+ * smaller ones are bisected across their longest axis. */
 #define SLI_POINTS_MANY 16384
 #define SLI_POINTS_TRIED 512
 
-/* How far v lies along a direction. */
+/* The coordinate of v along a direction. */
 SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
     const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
     const signed char *along = sli_directions[direction];
-    /* coordinates may be as large as a double can be, and a sum of two must not be infinite */
+    /* Halve the terms: coordinates may be as large as a double can be, and a sum must not
+     * overflow. */
     const double sum = along[0] * (0.5 * x[0]) + along[1] * (0.5 * x[1]) +
                        (p->dimensions == 3 ? along[2] * (0.5 * x[2]) : 0.0);
     return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
 }
 
-/* The axis along which some vertices spread most, and how far, by about SLI_POINTS_TRIED of them. */
+/* The axis along which the vertices have the largest extent, and *spread := that extent, from a
+ * sample of about SLI_POINTS_TRIED vertices. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                            double *spread) {
     static const int sli_axes[3] = {0, 1, 4};
@@ -53,35 +56,35 @@ static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int c
     return best;
 }
 
-/* A pair of a place and a vertex, ordered by both, so that no two are equal. */
-typedef struct sli_placed {
+/* A vertex and its coordinate along a direction, ordered by both, so that no two are equal. */
+typedef struct sli_projection {
     double x;
     sl_int v;
-} sli_placed;
+} sli_projection;
 
-SLI_INLINE int sli_placed_before(const sli_placed *a, const sli_placed *b) {
+SLI_INLINE int sli_projection_is_less(const sli_projection *a, const sli_projection *b) {
     return a->x < b->x || (a->x == b->x && a->v < b->v);
 }
 
-/* Reorders so that the first half are those before the median. Each round draws its pivot from the
- * middle of three; the ranges that are left halve on average, whatever the order of the input. */
-static void sli_placed_halve(sli_placed *a, sl_int count) {
+/* Moves the smaller half of an array to its front (quickselect). The pivots are pseudo-random: the
+ * remaining range halves on average, whatever the order of the input. */
+static void sli_projection_halve(sli_projection *a, sl_int count) {
     sl_int low = 0, high = count - 1;
     const sl_int half = count / 2;
     uint32_t turn = 1;
     while (low < high) {
         const uint32_t span = (uint32_t)(high - low) + 1u;
-        const sli_placed pivot = a[low + (sl_int)(sli_scatter(turn++) % span)];
+        const sli_projection pivot = a[low + (sl_int)(sli_hash32(turn++) % span)];
         sl_int i = low, j = high;
         while (i <= j) {
-            while (sli_placed_before(&a[i], &pivot)) {
+            while (sli_projection_is_less(&a[i], &pivot)) {
                 i++;
             }
-            while (sli_placed_before(&pivot, &a[j])) {
+            while (sli_projection_is_less(&pivot, &a[j])) {
                 j--;
             }
             if (i <= j) {
-                const sli_placed keep = a[i];
+                const sli_projection keep = a[i];
                 a[i++] = a[j];
                 a[j--] = keep;
             }
@@ -96,9 +99,10 @@ static void sli_placed_halve(sli_placed *a, sl_int count) {
     }
 }
 
-/* The direction in which fewest points lie close to the median: the narrowest place of a part. */
-static int sli_points_narrow(const sli_points *p, const sl_int *vertices, sl_int count,
-                             sli_placed *placed) {
+/* The direction with the fewest points close to the median plane, where a separator will be
+ * small. */
+static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_int count,
+                                sli_projection *projections) {
     double spread;
     const int axis = sli_points_axis(p, vertices, count, &spread);
     int direction, best = axis;
@@ -108,88 +112,90 @@ static int sli_points_narrow(const sli_points *p, const sl_int *vertices, sl_int
         return best;
     }
     for (direction = 0; direction < directions; direction++) {
-        sl_int near = 0;
+        sl_int n_close = 0;
         double middle;
         for (k = 0; k < SLI_POINTS_TRIED; k++) {
             const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
-            placed[k].x = sli_point_along(p, v, direction);
-            placed[k].v = v;
+            projections[k].x = sli_point_along(p, v, direction);
+            projections[k].v = v;
         }
-        sli_placed_halve(placed, SLI_POINTS_TRIED);
-        middle = placed[SLI_POINTS_TRIED / 2].x;
+        sli_projection_halve(projections, SLI_POINTS_TRIED);
+        middle = projections[SLI_POINTS_TRIED / 2].x;
         for (k = 0; k < SLI_POINTS_TRIED; k++) {
-            near += fabs(placed[k].x - middle) < 0.1 * spread;
+            n_close += fabs(projections[k].x - middle) < 0.1 * spread;
         }
-        near += direction == axis ? 0 : near / 3; /* chance must not decide against an axis */
-        if (near < fewest) {
-            fewest = near;
+        /* a handicap: chance must not decide against the longest axis */
+        n_close += direction == axis ? 0 : n_close / 3;
+        if (n_close < fewest) {
+            fewest = n_close;
             best = direction;
         }
     }
     return best;
 }
 
-/* Labels by halves of space, down to the size of leaves. order holds the vertices of a node side by
- * side; placed: n of scratch. */
-static void sli_dissect_points(sli_dissection *d, const sli_points *points, sli_placed *placed) {
+/* Finds labels by halves of space, down to the size of leaves. The vertices of a node are
+ * consecutive in d->order. projections: n of scratch. */
+static void sli_dissect_points(sli_dissection *d, const sli_points *points,
+                               sli_projection *projections) {
     const sl_int n = d->levels[0].n;
     sl_int *begin = d->begin, *end = d->nodes, node, k;
-    d->l = 0;
+    d->level = 0;
     sli_dissect_start(d);
     for (k = 0; k < n; k++) {
         d->order[k] = k;
     }
     begin[0] = 0;
     end[0] = n;
-    for (node = 0; node < d->tree.count; node++) { /* which grows */
+    for (node = 0; node < d->tree.count; node++) { /* tree.count grows in the loop */
         const sl_int first = begin[node], count = end[node] - first;
         sl_int *vertices = d->order + first;
         int direction;
         d->tree.weight[node] = count;
-        if (count <= d->most || d->tree.count >= d->tree.room - 1) {
+        if (count <= d->leaf_size || d->tree.count >= d->tree.room - 1) {
             for (k = 0; k < count; k++) {
                 d->label[vertices[k]] = node;
             }
             continue;
         }
-        direction = sli_points_narrow(points, vertices, count, placed);
+        direction = sli_points_direction(points, vertices, count, projections);
         for (k = 0; k < count; k++) {
-            placed[k].x = sli_point_along(points, vertices[k], direction);
-            placed[k].v = vertices[k];
+            projections[k].x = sli_point_along(points, vertices[k], direction);
+            projections[k].v = vertices[k];
         }
-        sli_placed_halve(placed, count);
+        sli_projection_halve(projections, count);
         for (k = 0; k < count; k++) {
-            vertices[k] = placed[k].v;
+            vertices[k] = projections[k].v;
         }
-        sli_tree_split(&d->tree, node);
+        sli_label_tree_split(&d->tree, node);
         begin[d->tree.left[node]] = first;
         end[d->tree.left[node]] = begin[d->tree.right[node]] = first + count / 2;
         end[d->tree.right[node]] = first + count;
     }
-    sli_tree_number(&d->tree, n, d->label);
+    sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* A cost up to this many times that of a flat square needs no comparison: 0.9 to 1.06 are usual on
- * flat grids, 2 and more on surfaces, where a plane cuts several sheets. */
+/* A tree that costs at most this many times a flat square grid is taken without comparison. Flat
+ * grids have 0.9 to 1.06; surfaces have 2 and more, because a plane cuts several sheets. */
 #define SLI_FLAT_ENOUGH 1.1
 
-/* Parts by coordinates where their estimated cost is that of a flat mesh, or less than that of the
- * parts that the graph alone gives; else the latter. */
+/* Finds labels by coordinates. They are used if their estimated cost is that of a flat mesh, or
+ * lower than that of the labels found without coordinates; otherwise the latter are used. */
 static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
-                                       sli_placed *placed) {
+                                       sli_projection *projections) {
     double cost, other, flat;
     sl_status status;
-    sli_dissect_points(d, points, placed);
+    sli_dissect_points(d, points, projections);
     cost = sli_dissect_cost(d, &flat);
     if (cost <= SLI_FLAT_ENOUGH * flat) {
-        d->widening = 0;
+        d->band_growth = 0;
         return SL_OK;
     }
     status = sli_dissect_graph(d);
     if (status == SL_OK) {
         other = sli_dissect_cost(d, &flat);
         if (cost < other) {
-            sli_dissect_points(d, points, placed);
+            sli_dissect_points(d, points, projections);
         }
     }
     return status;

@@ -1,19 +1,28 @@
-/* graph.h: the pattern of a symmetric matrix, from whichever triangle is stored, as graph and as ordered halves */
-#ifndef SLI_GRAPH_H
-#define SLI_GRAPH_H
+/* graph.h: adjacency graph, permuted triangles and hash of a symmetric pattern */
+#ifndef SLI_ORDERING_GRAPH_H
+#define SLI_ORDERING_GRAPH_H
 
-#include "csc.h"
-#include "symbolic_types.h"
+#include "../base/hash.h"
+#include "../matrix/csc.h"
 
-/* The full pattern without its diagonal; an entry given twice is an edge given twice. */
+/* One triangle of a permuted symmetric pattern, stored by rows or by columns. Duplicate entries are
+ * kept. Indices are positions in the elimination order. */
+typedef struct sli_pattern {
+    sl_int *begin; /* n + 1 */
+    sl_int *to;    /* begin[n]: column or row indices */
+    sl_int *from;  /* begin[n]: positions in A's arrays, or NULL if not needed */
+} sli_pattern;
+
+/* The adjacency graph of a symmetric matrix: the full pattern without its diagonal. An entry given
+ * twice is an edge given twice. */
 typedef struct sli_graph {
     sl_int n;
     sl_off *begin; /* n + 1 */
-    sl_int *to;    /* begin[n] neighbours */
+    sl_int *to;    /* begin[n]: neighbors */
 } sli_graph;
 
-/* G has room for n + 1 positions and twice A's entries; n is A's rows over block, as many of which
- * side by side are one vertex. */
+/* Fills G from the entries of A that are read. Each vertex stands for `block` consecutive rows, so
+ * that G->n is A->n_cols / block. G has room for G->n + 1 positions and 2 nnz(A) neighbors. */
 SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle, sl_int block) {
     const sl_int columns = A->n_cols;
     sl_int j, p;
@@ -33,7 +42,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
         G->begin[j] = total;
         total += here;
     }
-    for (j = 0; j < columns; j++) { /* every begin moves to its end, and back afterwards */
+    for (j = 0; j < columns; j++) { /* each begin advances to its list's end; shifted back below */
         const sl_int v = block == 1 ? j : j / block;
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
@@ -49,8 +58,8 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
     G->begin[0] = 0;
 }
 
-/* Whether every list of neighbours ascends, as it does when the rows of A do and none is given
- * twice. */
+/* Returns whether every adjacency list is strictly ascending. It is when the rows of each column of
+ * A ascend and no entry is given twice. */
 SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
     sl_int v;
     sl_off e;
@@ -64,8 +73,8 @@ SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
     return 1;
 }
 
-/* Sorts every list into `to`: a symmetric graph handed out vertex by vertex arrives sorted. at: n
- * of scratch. */
+/* Writes the adjacency lists, sorted, to `to`. Distributing a symmetric graph vertex by vertex
+ * produces sorted lists, as in a transposition. at: n of scratch. */
 SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
     sl_int v;
     sl_off e;
@@ -77,8 +86,8 @@ SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
     }
 }
 
-/* Takes repeated edges out of sorted lists. */
-SLI_INLINE void sli_graph_unite(sli_graph *G) {
+/* Removes repeated edges from sorted adjacency lists. */
+SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
     sl_int v;
     sl_off e, count = 0, first = 0;
     for (v = 0; v < G->n; v++) {
@@ -95,8 +104,8 @@ SLI_INLINE void sli_graph_unite(sli_graph *G) {
     G->begin[G->n] = count;
 }
 
-/* Counts to starting positions. */
-static void sli_half_starts(sli_half *h, sl_int n) {
+/* Turns counts into starting positions. */
+static void sli_pattern_starts(sli_pattern *h, sl_int n) {
     sl_int k, total = 0;
     for (k = 0; k <= n; k++) {
         const sl_int here = h->begin[k];
@@ -105,11 +114,11 @@ static void sli_half_starts(sli_half *h, sl_int n) {
     }
 }
 
-/* P A P' as rows (row k: the columns up to k, and where in A they stand) and as columns (column k:
- * the rows from k on). What follows walks them in elimination order, each pass only the half that
- * it needs. */
-static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
-                            sli_half *rows, sli_half *columns) {
+/* Fills both triangles of P A P': rows (row k holds the columns up to k and their positions in A)
+ * and columns (column k holds the rows from k on). Later passes walk them in elimination order, and
+ * each pass reads only the triangle that it needs. */
+static void sli_pattern_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
+                             sli_pattern *rows, sli_pattern *columns) {
     const sl_int n = A->n_cols;
     sl_int j, p;
     memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
@@ -122,8 +131,8 @@ static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int 
             }
         }
     }
-    sli_half_starts(rows, n);
-    sli_half_starts(columns, n);
+    sli_pattern_starts(rows, n);
+    sli_pattern_starts(columns, n);
     for (j = 0; j < n; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (sli_is_read(triangle, A->i[p], j)) {
@@ -141,34 +150,23 @@ static void sli_halves_fill(const sl_csc *A, sl_triangle triangle, const sl_int 
     rows->begin[0] = columns->begin[0] = 0;
 }
 
-SLI_INLINE uint64_t sli_stir(uint64_t h, uint64_t what) {
-    h = (h ^ what) * 0xd6e8feb86659fd93u;
-    return h ^ h >> 32;
-}
-
-/* Stirs count numbers in, two at once and in four chains: the multiplications of one chain wait for
- * each other, and every refactorization comes through here. */
-static uint64_t sli_stir_all(uint64_t h, const sl_int *a, sl_int count) {
-    uint64_t chain[4] = {h, h + 1, h + 2, h + 3};
-    sl_int k = 0;
-    int c;
-    for (; k <= count - 8; k += 8) {
-        for (c = 0; c < 4; c++) {
-            chain[c] = sli_stir(chain[c], (uint64_t)(uint32_t)a[k + 2 * c] << 32 |
-                                              (uint32_t)a[k + 2 * c + 1]);
-        }
+/* Hashes the pattern of A. Returns whether it is a pattern at all: positions ascending from 0 and
+ * rows in range. Every refactorization calls this, and reads no index of A otherwise. */
+static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
+    const sl_int n = A->n_cols, nnz = sli_nnz(A);
+    uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
+    sl_int j;
+    for (j = 0; j < n; j++) { /* positions that are not negative descend by a negative difference */
+        const uint32_t next = (uint32_t)A->p[j + 1];
+        descends |= next | (next - (uint32_t)A->p[j]);
     }
-    for (; k < count; k++) {
-        chain[0] = sli_stir(chain[0], (uint32_t)a[k]);
+    out->a = (uint64_t)A->n_rows;
+    out->b = (uint64_t)n;
+    if (n > 0 && (A->p[0] != 0 || descends >> 31 != 0)) {
+        return 0;
     }
-    return sli_stir(sli_stir(sli_stir(chain[0], chain[1]), chain[2]), chain[3]);
-}
-
-/* A number that two patterns share only by a 2^-64 accident. */
-static uint64_t sli_fingerprint(const sl_csc *A) {
-    const uint64_t h = sli_stir_all((uint64_t)(uint32_t)A->n_cols + 0x9e3779b97f4a7c15u,
-                                    A->n_cols > 0 ? A->p + 1 : NULL, A->n_cols);
-    return sli_stir_all(h, A->i, sli_nnz(A));
+    *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
+    return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
 #endif

@@ -1,25 +1,26 @@
-/* order_heap.h: a queue of vertices by gain, the largest first */
-#ifndef SLI_ORDER_HEAP_H
-#define SLI_ORDER_HEAP_H
+/* heap.h: a priority queue of vertices by gain, the largest gain first */
+#ifndef SLI_ORDERING_HEAP_H
+#define SLI_ORDERING_HEAP_H
 
-#include "base.h"
+#include "../base/base.h"
 
-/* A binary heap over arrays that several heaps may share: a vertex is in one of them at most. */
+/* A binary heap. Several heaps may share `position` and `key`, because a vertex is in at most one
+ * of them. */
 typedef struct sli_heap {
     sl_int count;
-    sl_int *item;  /* count, item[0] has the largest key */
-    sl_int *place; /* a vertex: where it stands in item, -1 if nowhere */
-    sl_int *key;   /* a vertex: its gain */
+    sl_int *item;     /* count; item[0] has the largest key */
+    sl_int *position; /* by vertex: its index in item, or -1 */
+    sl_int *key;      /* by vertex: its gain */
 } sli_heap;
 
 SLI_INLINE void sli_heap_up(sli_heap *h, sl_int k, sl_int v) {
     while (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
         h->item[k] = h->item[(k - 1) / 2];
-        h->place[h->item[k]] = k;
+        h->position[h->item[k]] = k;
         k = (k - 1) / 2;
     }
     h->item[k] = v;
-    h->place[v] = k;
+    h->position[v] = k;
 }
 
 SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sl_int v) {
@@ -33,20 +34,20 @@ SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sl_int v) {
             break;
         }
         h->item[k] = h->item[c];
-        h->place[h->item[k]] = k;
+        h->position[h->item[k]] = k;
         k = c;
     }
     h->item[k] = v;
-    h->place[v] = k;
+    h->position[v] = k;
 }
 
 SLI_INLINE void sli_heap_add(sli_heap *h, sl_int v) {
     sli_heap_up(h, h->count++, v);
 }
 
-/* After key[v] has changed. */
-SLI_INLINE void sli_heap_settle(sli_heap *h, sl_int v) {
-    const sl_int k = h->place[v];
+/* Restores the heap after key[v] has changed. */
+SLI_INLINE void sli_heap_update(sli_heap *h, sl_int v) {
+    const sl_int k = h->position[v];
     if (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
         sli_heap_up(h, k, v);
     } else {
@@ -55,12 +56,12 @@ SLI_INLINE void sli_heap_settle(sli_heap *h, sl_int v) {
 }
 
 SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int v) {
-    const sl_int k = h->place[v], last = h->item[--h->count];
-    h->place[v] = -1;
+    const sl_int k = h->position[v], last = h->item[--h->count];
+    h->position[v] = -1;
     if (last != v) {
-        h->place[last] = k;
+        h->position[last] = k;
         h->item[k] = last;
-        sli_heap_settle(h, last);
+        sli_heap_update(h, last);
     }
 }
 

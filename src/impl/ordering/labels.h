@@ -1,23 +1,25 @@
-/* order_tree.h: the tree of separators over one graph: a label a vertex, and who stands at which border */
-#ifndef SLI_ORDER_TREE_H
-#define SLI_ORDER_TREE_H
+/* labels.h: the separator tree during dissection: a label for each vertex, and border lists */
+#ifndef SLI_ORDERING_LABELS_H
+#define SLI_ORDERING_LABELS_H
 
-#include "order_coarsen.h"
+#include "coarsen.h"
 
-/* A node is a separator, a leaf a part without one. After sli_tree_number nodes are numbered from
- * left to right, so that a subtree is an interval: whether a vertex is below t, and on which side,
- * is seen from its label alone, in the one graph that all nodes share. */
-typedef struct sli_tree {
+/* The separator tree of one graph. An inner node is a separator, a leaf is a subgraph that is not
+ * dissected. The label of a vertex is its node. After sli_label_tree_number the nodes are numbered
+ * in inorder, so that each subtree is an interval of labels. The label of a
+ * vertex then shows whether it is below a node and on which side, so that all nodes can share one
+ * graph. */
+typedef struct sli_label_tree {
     sl_int count, room;
     sl_int root;
     sl_int *parent;       /* -1 at the root */
     sl_int *left, *right; /* -1 at a leaf */
-    sl_int *low, *high;   /* the subtree is low..high */
-    sl_int *weight;       /* finest vertices in the subtree */
+    sl_int *low, *high;   /* the subtree of a node is low..high */
+    sl_int *weight;       /* weight of the finest vertices in the subtree */
     sl_int *scratch;      /* 2 room */
-} sli_tree;
+} sli_label_tree;
 
-static void sli_tree_layout(sli_tree *t, sli_block *b, sl_int room) {
+static void sli_label_tree_layout(sli_label_tree *t, sli_block *b, sl_int room) {
     t->room = room;
     t->parent = SLI_TAKE(b, sl_int, room);
     t->left = SLI_TAKE(b, sl_int, room);
@@ -28,7 +30,8 @@ static void sli_tree_layout(sli_tree *t, sli_block *b, sl_int room) {
     t->scratch = SLI_TAKE(b, sl_int, 2 * (size_t)room);
 }
 
-static sl_int sli_tree_add(sli_tree *t, sl_int parent) {
+/* Adds a leaf below parent, -1 for the root, and returns it. */
+static sl_int sli_label_tree_add(sli_label_tree *t, sl_int parent) {
     const sl_int node = t->count++;
     t->parent[node] = parent;
     t->left[node] = t->right[node] = -1;
@@ -37,29 +40,30 @@ static sl_int sli_tree_add(sli_tree *t, sl_int parent) {
 }
 
 /* Splits a leaf in two. */
-static void sli_tree_split(sli_tree *t, sl_int leaf) {
-    t->left[leaf] = sli_tree_add(t, leaf);
-    t->right[leaf] = sli_tree_add(t, leaf);
+static void sli_label_tree_split(sli_label_tree *t, sl_int leaf) {
+    t->left[leaf] = sli_label_tree_add(t, leaf);
+    t->right[leaf] = sli_label_tree_add(t, leaf);
 }
 
-SLI_INLINE int sli_tree_is_leaf(const sli_tree *t, sl_int node) {
+SLI_INLINE int sli_label_tree_is_leaf(const sli_label_tree *t, sl_int node) {
     return t->left[node] == -1;
 }
 
-SLI_INLINE int sli_tree_is_below(const sli_tree *t, sl_int node, sl_int label) {
+SLI_INLINE int sli_label_tree_is_below(const sli_label_tree *t, sl_int node, sl_int label) {
     return t->low[node] <= label && label <= t->high[node];
 }
 
-/* The node that parts a from b, neither of which is above the other. */
-SLI_INLINE sl_int sli_tree_meet(const sli_tree *t, sl_int a, sl_int b) {
-    while (!sli_tree_is_below(t, a, b)) {
+/* The lowest common ancestor of a and b: the node that separates them. Neither is an ancestor of
+ * the other. */
+SLI_INLINE sl_int sli_label_tree_lca(const sli_label_tree *t, sl_int a, sl_int b) {
+    while (!sli_label_tree_is_below(t, a, b)) {
         a = t->parent[a];
     }
     return a;
 }
 
-/* The next node after one in postorder, whose subtree is done. */
-SLI_INLINE sl_int sli_tree_next(const sli_tree *t, sl_int node) {
+/* The successor of a node in postorder, or -1 after the root. */
+SLI_INLINE sl_int sli_label_tree_next(const sli_label_tree *t, sl_int node) {
     const sl_int up = t->parent[node];
     if (up == -1 || t->right[up] == node) {
         return up;
@@ -71,7 +75,7 @@ SLI_INLINE sl_int sli_tree_next(const sli_tree *t, sl_int node) {
     return node;
 }
 
-SLI_INLINE sl_int sli_tree_first(const sli_tree *t) {
+SLI_INLINE sl_int sli_label_tree_first(const sli_label_tree *t) {
     sl_int node = t->root;
     while (t->left[node] != -1) {
         node = t->left[node];
@@ -79,8 +83,9 @@ SLI_INLINE sl_int sli_tree_first(const sli_tree *t) {
     return node;
 }
 
-static void sli_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
-                              sl_int *scratch) {
+/* Moves the entries of an array to the new numbers of their nodes; values: they are nodes, too. */
+static void sli_label_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
+                                    sl_int *scratch) {
     sl_int k;
     memcpy(scratch, a, (size_t)count * sizeof(sl_int));
     for (k = 0; k < count; k++) {
@@ -88,11 +93,11 @@ static void sli_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int
     }
 }
 
-/* Numbers the nodes from left to right, and the labels of n vertices with them. */
-static void sli_tree_number(sli_tree *t, sl_int n, sl_int *label) {
+/* Numbers the nodes in inorder and updates the labels of n vertices. */
+static void sli_label_tree_number(sli_label_tree *t, sl_int n, sl_int *label) {
     sl_int *number = t->scratch, *keep = t->scratch + t->room, node, k, next = 0;
-    /* in a postorder walk a node is numbered when its left subtree is done */
-    for (node = sli_tree_first(t); node != -1; node = sli_tree_next(t, node)) {
+    /* In a postorder walk a node gets its inorder number once its left subtree is done. */
+    for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
         const sl_int up = t->parent[node];
         if (t->left[node] == -1) {
             number[node] = next++;
@@ -102,39 +107,40 @@ static void sli_tree_number(sli_tree *t, sl_int n, sl_int *label) {
         }
     }
     t->root = number[t->root];
-    sli_tree_renumber(t->parent, number, t->count, 1, keep);
-    sli_tree_renumber(t->left, number, t->count, 1, keep);
-    sli_tree_renumber(t->right, number, t->count, 1, keep);
-    sli_tree_renumber(t->weight, number, t->count, 0, keep);
+    sli_label_tree_renumber(t->parent, number, t->count, 1, keep);
+    sli_label_tree_renumber(t->left, number, t->count, 1, keep);
+    sli_label_tree_renumber(t->right, number, t->count, 1, keep);
+    sli_label_tree_renumber(t->weight, number, t->count, 0, keep);
     for (k = 0; k < n; k++) {
         label[k] = number[label[k]];
     }
-    for (node = sli_tree_first(t); node != -1; node = sli_tree_next(t, node)) {
+    for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
         t->low[node] = t->left[node] == -1 ? node : t->low[t->left[node]];
         t->high[node] = t->left[node] == -1 ? node : t->high[t->right[node]];
     }
 }
 
-/* order[k] := the nodes, parents first, level by level. */
-static void sli_tree_levels(const sli_tree *t, sl_int *order) {
+/* order := the nodes in breadth-first order, parents first. */
+static void sli_label_tree_breadth_first(const sli_label_tree *t, sl_int *order) {
     sl_int head, tail = 0;
     order[tail++] = t->root;
     for (head = 0; head < tail; head++) {
-        if (!sli_tree_is_leaf(t, order[head])) {
+        if (!sli_label_tree_is_leaf(t, order[head])) {
             order[tail++] = t->left[order[head]];
             order[tail++] = t->right[order[head]];
         }
     }
 }
 
-/* ---- borders: for each node a list of vertices that may have a neighbour across it ---- */
+/* Borders: for each inner node, a list of the vertices that may have a neighbor on its other side.
+ * The lists share one pool of entries that grows on demand. */
 
 typedef struct sli_borders {
-    sl_int *head; /* a node: the first entry, -1 if none */
+    sl_int *head; /* by node: its first entry, or -1 */
     sl_int count, room;
     sl_int *vertex, *next; /* room */
     void *block;
-    int failed; /* there was no memory for more */
+    int failed; /* an allocation failed */
     const sl_allocator *a;
 } sli_borders;
 
@@ -169,6 +175,7 @@ static void sli_borders_grow(sli_borders *l) {
     }
 }
 
+/* Enters v into the border list of node. Sets `failed` if memory runs out. */
 static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
     if (l->count == l->room) {
         sli_borders_grow(l);
@@ -181,8 +188,8 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
     l->head[node] = l->count++;
 }
 
-/* Lists every vertex of a level at the nodes that part it from a neighbour. */
-static void sli_borders_fill(sli_borders *l, const sli_tree *t, const sli_level *g,
+/* Enters each vertex of a level into the lists of the nodes that separate it from a neighbor. */
+static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
                              const sl_int *label) {
     sl_int v, k;
     sl_off e;
@@ -196,7 +203,7 @@ static void sli_borders_fill(sli_borders *l, const sli_tree *t, const sli_level 
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int other = label[g->to[e]];
             if (other != own && other != last) {
-                const sl_int node = sli_tree_meet(t, own, other);
+                const sl_int node = sli_label_tree_lca(t, own, other);
                 last = other;
                 if (node != listed && node != own && node != other) {
                     listed = node;

@@ -1,58 +1,62 @@
-/* order_layers.h: parts cut between the layers of a breadth-first search: what grids of three dimensions want */
-#ifndef SLI_ORDER_LAYERS_H
-#define SLI_ORDER_LAYERS_H
+/* levelset.h: bisection between level sets of a breadth-first search, cheaper in regular volumes */
+#ifndef SLI_ORDERING_LEVELSET_H
+#define SLI_ORDERING_LEVELSET_H
 
-#include "order_dissect.h"
+#include "dissect.h"
 
-/* A cut is looked for where either side has at least this share. */
-#define SLI_LAYERS_SHARE 0.35
+/* Each side of a bisection has at least this share, if a level set allows it. */
+#define SLI_LEVELSET_SHARE 0.35
 
-/* Distances from a vertex, what it does not reach following at a distance; the vertices in that
- * order. Returns the number of distances, at most 2 n. */
-static sl_int sli_layers_search(const sli_piece *p, sl_int from, sl_int *order, sl_int *distance) {
+/* Breadth-first search: distances from a vertex, and the vertices in the order of their distances.
+ * Vertices that are not reached follow at larger distances. Returns one more than the largest
+ * distance, at most 2 n. */
+static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
+                                  sl_int *distance) {
     sl_int v, head = 0, tail = 0, unseen = 0;
     sl_off e;
-    for (v = 0; v < p->n; v++) {
+    for (v = 0; v < sub->n; v++) {
         distance[v] = -1;
     }
     distance[from] = 0;
     order[tail++] = from;
     for (;;) {
         for (; head < tail; head++) {
-            for (e = p->begin[order[head]]; e < p->begin[order[head] + 1]; e++) {
-                if (distance[p->to[e]] == -1) {
-                    distance[p->to[e]] = distance[order[head]] + 1;
-                    order[tail++] = p->to[e];
+            for (e = sub->begin[order[head]]; e < sub->begin[order[head] + 1]; e++) {
+                if (distance[sub->to[e]] == -1) {
+                    distance[sub->to[e]] = distance[order[head]] + 1;
+                    order[tail++] = sub->to[e];
                 }
             }
         }
-        if (tail == p->n) {
+        if (tail == sub->n) {
             return distance[order[tail - 1]] + 1;
         }
         while (distance[unseen] != -1) {
             unseen++;
         }
-        distance[unseen] = distance[order[tail - 1]] + 2; /* nothing lies between */
+        /* a gap of one keeps the components apart */
+        distance[unseen] = distance[order[tail - 1]] + 2;
         order[tail++] = unseen;
     }
 }
 
-/* Sides by layers from a vertex far from others: of the layers near the middle the smallest becomes
- * the border. */
-static void sli_layers_bisect(sli_piece *p) {
-    const sl_int n = p->n;
-    sl_int *order = p->scratch, *distance = p->scratch + (size_t)n,
-           *size = p->scratch + 2 * (size_t)n;
-    const sl_int low = (sl_int)(SLI_LAYERS_SHARE * n), high = n - low;
-    sl_int k, layers, before = 0, best = -1;
+/* Bisects along a level set of a vertex at the end of a long path. The smallest level set near the
+ * middle becomes the border; the imbalance of the sides increases its cost. */
+static void sli_levelset_bisect(sli_subgraph *sub) {
+    const sl_int n = sub->n;
+    sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
+           *size = sub->scratch + 2 * (size_t)n;
+    const sl_int low = (sl_int)(SLI_LEVELSET_SHARE * n), high = n - low;
+    sl_int k, n_sets, before = 0, best = -1;
     double cost = 0.0;
-    const sl_int far = sli_piece_far(p, 0, order, p->locked);
-    layers = sli_layers_search(p, sli_piece_far(p, far, order, p->locked), order, distance);
-    memset(size, 0, (size_t)layers * sizeof(sl_int));
+    const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
+    n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
+                                 distance);
+    memset(size, 0, (size_t)n_sets * sizeof(sl_int));
     for (k = 0; k < n; k++) {
         size[distance[k]]++;
     }
-    for (k = 0; k < layers; before += size[k++]) {
+    for (k = 0; k < n_sets; before += size[k++]) {
         const double skew = fabs((double)(n - size[k] - 2 * (int64_t)before)) / n;
         const double here = (1.0 + skew) * size[k];
         if (before >= low && before + size[k] <= high && (best == -1 || here < cost)) {
@@ -60,35 +64,37 @@ static void sli_layers_bisect(sli_piece *p) {
             cost = here;
         }
     }
-    for (k = 0; k < n; k++) { /* where all is in a few layers, by halves of the search */
-        p->side[order[k]] = (unsigned char)(best == -1 ? k >= n / 2 : distance[order[k]] >= best);
+    /* If no level set is near enough to the middle, halve the search order. */
+    for (k = 0; k < n; k++) {
+        sub->side[order[k]] = (unsigned char)(best == -1 ? k >= n / 2 : distance[order[k]] >= best);
     }
 }
 
-static void sli_dissect_layers(sli_dissection *d) {
+/* Finds labels only by level sets, down to the size of leaves. */
+static void sli_dissect_levelset(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int node, nodes;
-    d->l = 0;
+    d->level = 0;
     sli_dissect_start(d);
     do {
         nodes = d->tree.count;
         sli_dissect_sort(d);
         for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
             const sl_int count = d->begin[node + 1] - d->begin[node];
-            if (count > d->most) {
-                sli_piece_leaf(&d->part, g, &d->tree, node, d->label, d->order + d->begin[node],
-                               count);
-                sli_layers_bisect(&d->part);
-                sli_dissect_divide(d, node);
-                sli_piece_clear(&d->part);
+            if (count > d->leaf_size) {
+                sli_subgraph_leaf(&d->subgraph, g, &d->tree, node, d->label,
+                                  d->order + d->begin[node], count);
+                sli_levelset_bisect(&d->subgraph);
+                sli_dissect_assign(d, node);
+                sli_subgraph_clear(&d->subgraph);
             }
         }
-        sli_tree_number(&d->tree, g->n, d->label);
+        sli_label_tree_number(&d->tree, g->n, d->label);
     } while (d->tree.count > nodes);
 }
 
-/* Vertices at the left of the root's border. */
-static sl_int sli_dissect_border(const sli_dissection *d) {
+/* The number of vertices on the left side of the root's border. */
+static sl_int sli_dissect_root_border(const sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     const sl_int root = d->tree.root;
     sl_int v, count = 0;
@@ -103,24 +109,25 @@ static sl_int sli_dissect_border(const sli_dissection *d) {
     return count;
 }
 
-/* A border of so many times the root of the vertices is none of a surface. */
+/* A border of more than this many times sqrt(n) vertices is unusual on a surface: the graph may be
+ * a volume. */
 #define SLI_VOLUME_BORDER 2.5
 
-/* Labels by levels of coarser graphs; of what may be a volume by layers, where those are estimated
- * to be the cheaper parts: in a grid of seven points they are diagonal planes of three quarters the
- * size of a straight one. */
+/* Finds labels by multilevel dissection. In graphs that may be volumes, level sets are tried too
+ * and taken if they are estimated to be cheaper: in a 7-point grid they are diagonal planes, and
+ * the largest has 3/4 of the vertices of a straight plane. */
 static sl_status sli_dissect_graph(sli_dissection *d) {
-    double levels, layers, flat;
+    double multilevel, levelset, flat;
     sl_status status = sli_dissect_multilevel(d);
     if (status != SL_OK ||
-        (double)sli_dissect_border(d) < SLI_VOLUME_BORDER * sqrt((double)d->levels[0].n)) {
+        (double)sli_dissect_root_border(d) < SLI_VOLUME_BORDER * sqrt((double)d->levels[0].n)) {
         return status;
     }
-    levels = sli_dissect_cost(d, &flat);
-    sli_dissect_layers(d);
-    layers = sli_dissect_cost(d, &flat);
-    if (layers < levels) {
-        d->widening = 0;
+    multilevel = sli_dissect_cost(d, &flat);
+    sli_dissect_levelset(d);
+    levelset = sli_dissect_cost(d, &flat);
+    if (levelset < multilevel) {
+        d->band_growth = 0;
         return SL_OK;
     }
     return sli_dissect_multilevel(d);

@@ -1,18 +1,18 @@
-/* order_metis.h: what METIS is asked: the order of a connected component, and its nested separators */
-#ifndef SLI_ORDER_METIS_H
-#define SLI_ORDER_METIS_H
+/* metis.h: the calls to METIS: the order of a connected component, and nested separators */
+#ifndef SLI_ORDERING_METIS_H
+#define SLI_ORDERING_METIS_H
 
-#include "alloc.h"
+#include "../base/alloc.h"
 #include "graph.h"
-#include "order_coarsen.h"
+#include "coarsen.h"
 
-#if !defined(SL_NO_METIS)
+#if defined(SLI_METIS)
 
 #include <metis.h>
 
-/* Whether METIS takes these options: it prints about others, or never ends. What the ordering does
- * not read may be anything. -1 is METIS's own choice. */
-static int sli_metis_options_are_sound(const sl_int *wished) {
+/* Returns whether METIS can run with these options. With others it prints a message or never ends.
+ * Options that METIS_NodeND does not read may have any value; -1 is METIS's default. */
+static int sli_metis_options_are_valid(const sl_int *options) {
     static const struct {
         int option, low, high;
     } sli_ranges[] = {
@@ -25,11 +25,11 @@ static int sli_metis_options_are_sound(const sl_int *wished) {
         {METIS_OPTION_CCORDER, 0, 1},
         {METIS_OPTION_PFACTOR, 0, INT32_MAX},
         {METIS_OPTION_NSEPS, 1, INT32_MAX},
-        {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on one half may be empty, again and again */
+        {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on, bisections may leave a side empty */
     };
     size_t k;
-    for (k = 0; wished != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
-        const sl_int value = wished[sli_ranges[k].option];
+    for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
+        const sl_int value = options[sli_ranges[k].option];
         if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
             return 0;
         }
@@ -37,7 +37,7 @@ static int sli_metis_options_are_sound(const sl_int *wished) {
     return 1;
 }
 
-/* The component's graph as METIS wants it: its own numbering, no edge twice. */
+/* Builds the component's graph in METIS's format: numbered by component, each edge once. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
                             const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
     sl_int k;
@@ -60,11 +60,11 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
     xadj[count] = edges;
 }
 
-/* Reorders vertices, a whole component of G, in place; local[v] is a vertex's place in it on entry.
- */
-static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_int count,
-                                     const sl_int *local, const sl_int *metis_options,
-                                     const sl_allocator *a) {
+/* Reorders the vertices of a component of G in place. local[v]: the index of v in vertices on
+ * entry. */
+static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int count,
+                                 const sl_int *local, const sl_int *metis_options,
+                                 const sl_allocator *a) {
     idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
                                    *iperm = NULL;
     sli_block b = {NULL, 0, 0};
@@ -94,11 +94,10 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
         options[k] = metis_options[k];
     }
     options[METIS_OPTION_NUMBERING] = 0;
-    options[METIS_OPTION_DBGLVL] = 0; /* anything else prints */
+    options[METIS_OPTION_DBGLVL] = 0; /* any other level prints */
     result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
     if (result == METIS_OK) {
-        for (k = 0; k < count;
-             k++) { /* xadj is done with: the old numbers of the component go there */
+        for (k = 0; k < count; k++) { /* xadj is free now: it keeps the old order */
             xadj[k] = vertices[k];
         }
         for (k = 0; k < count; k++) {
@@ -111,11 +110,11 @@ static sl_status sli_order_component(const sli_graph *G, sl_int *vertices, sl_in
                                           : SL_ERR_ORDERING;
 }
 
-/* Separators of a graph, nested down to so many parts, a power of two. order: the vertices, parts
- * before the separators round them; sizes: 2 parts - 1, of the parts, then of the separators level
- * by level, the outermost last. */
-static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *order, sl_int *sizes,
-                                  const sl_allocator *a) {
+/* Finds nested separators of a graph. n_leaves: of the separator tree, a power of two. order := the
+ * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 sizes: those of
+ * the leaf subgraphs, then those of the separators level by level, the root's last. */
+static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_int *order,
+                                      sl_int *sizes, const sl_allocator *a) {
     const sl_off edges = g->begin[g->n];
     idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
                                    *size = NULL, *weight = NULL;
@@ -132,7 +131,7 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
         adjncy = SLI_TAKE(&b, idx_t, edges);
         perm = SLI_TAKE(&b, idx_t, g->n);
         iperm = SLI_TAKE(&b, idx_t, g->n);
-        size = SLI_TAKE(&b, idx_t, 2 * (size_t)parts);
+        size = SLI_TAKE(&b, idx_t, 2 * (size_t)n_leaves);
         weight = SLI_TAKE(&b, idx_t, g->weight != NULL ? g->n : 0);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
@@ -149,14 +148,14 @@ static sl_status sli_metis_nested(const sli_level *g, sl_int parts, sl_int *orde
         weight[k] = g->weight[k];
     }
     METIS_SetDefaultOptions(options);
-    options[METIS_OPTION_NSEPS] = 2; /* of each separator the better of two tries */
+    options[METIS_OPTION_NSEPS] = 2; /* the better of two tries for each separator */
     result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
-                           (idx_t)parts, options, perm, iperm, size);
+                           (idx_t)n_leaves, options, perm, iperm, size);
     if (result == METIS_OK) {
         for (k = 0; k < g->n; k++) {
             order[k] = (sl_int)perm[k];
         }
-        for (k = 0; k < 2 * parts - 1; k++) {
+        for (k = 0; k < 2 * n_leaves - 1; k++) {
             sizes[k] = (sl_int)size[k];
         }
     }

@@ -1,27 +1,28 @@
-/* order_leaves.h: minimum degree in the parts that are too small to dissect, on rows of bits */
-#ifndef SLI_ORDER_LEAVES_H
-#define SLI_ORDER_LEAVES_H
+/* mindeg.h: minimum degree ordering of leaf subgraphs, with the graph as a bit matrix */
+#ifndef SLI_ORDERING_MINDEG_H
+#define SLI_ORDERING_MINDEG_H
 
-#include "cpu.h"
-#include "order_coarsen.h"
+#include "../kernels/dispatch.h"
+#include "coarsen.h"
 
-#define SLI_LEAF_MAX 1024 /* vertices of a leaf that is ordered; larger ones keep their order */
-#define SLI_LEAF_GONE UINT32_MAX
+#define SLI_MINDEG_MAX 1024 /* most vertices of a leaf; larger leaves keep their order */
+#define SLI_MINDEG_ELIMINATED UINT32_MAX
 
-/* A leaf with its halo: the vertices of separators round it, which are eliminated later and so
- * count in every degree. */
-typedef struct sli_leaf {
-    sl_int n;                          /* own vertices: bits 0..n-1; halo bits follow */
-    size_t words;                      /* 64-bit words a row */
-    uint64_t *rows;                    /* n x words: the graph of what is left, with its diagonal */
-    uint32_t *key;                     /* n: degree, then number; SLI_LEAF_GONE once eliminated */
-    size_t room;                       /* words in rows */
-    uint64_t alive[SLI_LEAF_MAX / 64]; /* own vertices that are not eliminated */
-    int has_popcnt;                    /* any processor with AVX2 has that instruction */
-} sli_leaf;
+/* A leaf subgraph and its halo, the vertices of surrounding separators. They are eliminated later,
+ * so that they count in every degree. */
+typedef struct sli_mindeg {
+    sl_int n;       /* vertices of the leaf: bits 0..n-1; the halo follows */
+    size_t words;   /* 64-bit words of a row */
+    uint64_t *rows; /* n x words: adjacency matrix with diagonal */
+    uint32_t *key;  /* n: degree, then number; SLI_MINDEG_ELIMINATED once eliminated */
+    size_t room;    /* words available in rows */
+    uint64_t alive[SLI_MINDEG_MAX / 64]; /* vertices of the leaf not yet eliminated */
+    int has_popcnt;                      /* every processor with AVX2 has the instruction */
+} sli_mindeg;
 
-/* Bits of a word: one instruction in functions compiled for it, see below. */
-SLI_ALWAYS_INLINE uint32_t sli_bits(uint64_t w) {
+/* The number of bits set: one instruction where the function that inlines this is compiled for it,
+ * see sli_mindeg_run_popcnt. */
+SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
 #if defined(__GNUC__)
     return (uint32_t)__builtin_popcountll(w);
 #else
@@ -36,160 +37,161 @@ SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
 #if defined(__GNUC__)
     return (sl_int)__builtin_ctzll(w);
 #else
-    return (sl_int)sli_bits((w & (0 - w)) - 1);
+    return (sl_int)sli_popcount((w & (0 - w)) - 1);
 #endif
 }
 
-/* other |= row without bit v; the degree, of which row v is part. */
-SLI_ALWAYS_INLINE uint32_t sli_leaf_join(uint64_t *other, const uint64_t *row, size_t words,
-                                         sl_int v) {
+/* other |= row, without bit v. Returns the new degree; `other` includes its own diagonal bit. */
+SLI_ALWAYS_INLINE uint32_t sli_mindeg_join(uint64_t *other, const uint64_t *row, size_t words,
+                                           sl_int v) {
     uint32_t degree = 0;
     size_t k;
     other[v / 64] &= ~((uint64_t)1 << (v % 64));
     for (k = 0; k < words; k++) {
         other[k] |= row[k];
-        degree += sli_bits(other[k]);
+        degree += sli_popcount(other[k]);
     }
     return degree - 1;
 }
 
-/* Takes v out, and with it all that have no other neighbours than v has: the neighbours of v become
- * neighbours of each other. Appends them to order[at] on; where that ends. */
-SLI_ALWAYS_INLINE sl_int sli_leaf_eliminate(sli_leaf *l, sl_int v, sl_int *order, sl_int at) {
-    const uint32_t degree = l->key[v] / SLI_LEAF_MAX;
-    const size_t own = ((size_t)l->n + 63) / 64;
-    uint64_t *row = l->rows + (size_t)v * l->words, gone[SLI_LEAF_MAX / 64];
+/* Eliminates v: its neighbors become a clique. Vertices whose neighbors are then just that clique
+ * are indistinguishable from v and eliminated with it (mass elimination). Appends all of them to
+ * order from `at` on and returns the new end. */
+SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *order, sl_int at) {
+    const uint32_t degree = m->key[v] / SLI_MINDEG_MAX;
+    const size_t leaf_words = ((size_t)m->n + 63) / 64;
+    uint64_t *row = m->rows + (size_t)v * m->words, eliminated[SLI_MINDEG_MAX / 64];
     const sl_int first = at;
     size_t k, w;
-    memset(gone, 0, own * sizeof(uint64_t));
+    memset(eliminated, 0, leaf_words * sizeof(uint64_t));
     row[v / 64] &= ~((uint64_t)1 << (v % 64));
-    l->key[v] = SLI_LEAF_GONE;
+    m->key[v] = SLI_MINDEG_ELIMINATED;
     order[at++] = v;
-    for (k = 0; k < own; k++) {
-        uint64_t bits = row[k] & l->alive[k];
+    for (k = 0; k < leaf_words; k++) {
+        uint64_t bits = row[k] & m->alive[k];
         for (; bits != 0; bits &= bits - 1) {
             const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
-            const uint32_t now = sli_leaf_join(l->rows + (size_t)u * l->words, row, l->words, v);
-            l->key[u] = now * SLI_LEAF_MAX + (uint32_t)u;
-            if (now + 1 == degree) { /* the clique of v, and nothing else */
-                l->key[u] = SLI_LEAF_GONE;
-                gone[k] |= (uint64_t)1 << (u % 64);
+            const uint32_t now = sli_mindeg_join(m->rows + (size_t)u * m->words, row, m->words, v);
+            m->key[u] = now * SLI_MINDEG_MAX + (uint32_t)u;
+            if (now + 1 == degree) { /* adjacent to the clique of v and to nothing else */
+                m->key[u] = SLI_MINDEG_ELIMINATED;
+                eliminated[k] |= (uint64_t)1 << (u % 64);
                 order[at++] = u;
             }
         }
     }
-    l->alive[v / 64] &= ~((uint64_t)1 << (v % 64));
-    for (k = 0; k < own && at > first + 1; k++) {
-        uint64_t bits = row[k] & l->alive[k] & ~gone[k];
+    m->alive[v / 64] &= ~((uint64_t)1 << (v % 64));
+    for (k = 0; k < leaf_words && at > first + 1; k++) {
+        uint64_t bits = row[k] & m->alive[k] & ~eliminated[k];
         for (; bits != 0; bits &= bits - 1) {
             const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
-            uint64_t *other = l->rows + (size_t)u * l->words;
-            for (w = 0; w < own; w++) {
-                other[w] &= ~gone[w];
+            uint64_t *other = m->rows + (size_t)u * m->words;
+            for (w = 0; w < leaf_words; w++) {
+                other[w] &= ~eliminated[w];
             }
-            l->key[u] -= (uint32_t)(at - first - 1) * SLI_LEAF_MAX;
+            m->key[u] -= (uint32_t)(at - first - 1) * SLI_MINDEG_MAX;
         }
     }
-    for (k = 0; k < own; k++) {
-        l->alive[k] &= ~gone[k];
+    for (k = 0; k < leaf_words; k++) {
+        m->alive[k] &= ~eliminated[k];
     }
     return at;
 }
 
-/* The first vertex of the fewest neighbours. */
-SLI_INLINE sl_int sli_leaf_best(const sli_leaf *l) {
-    uint32_t least[4] = {SLI_LEAF_GONE, SLI_LEAF_GONE, SLI_LEAF_GONE, SLI_LEAF_GONE};
+/* The vertex of minimum degree, the one with the smallest number among several. */
+SLI_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
+    uint32_t least[4] = {SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED,
+                         SLI_MINDEG_ELIMINATED};
     sl_int v = 0, k;
-    for (; v <= l->n - 4; v += 4) {
+    for (; v <= m->n - 4; v += 4) {
         for (k = 0; k < 4; k++) {
-            least[k] = l->key[v + k] < least[k] ? l->key[v + k] : least[k];
+            least[k] = m->key[v + k] < least[k] ? m->key[v + k] : least[k];
         }
     }
-    for (; v < l->n; v++) {
-        least[0] = l->key[v] < least[0] ? l->key[v] : least[0];
+    for (; v < m->n; v++) {
+        least[0] = m->key[v] < least[0] ? m->key[v] : least[0];
     }
     for (k = 1; k < 4; k++) {
         least[0] = least[k] < least[0] ? least[k] : least[0];
     }
-    return (sl_int)(least[0] % SLI_LEAF_MAX);
+    return (sl_int)(least[0] % SLI_MINDEG_MAX);
 }
 
-/* order: the vertices in the order of elimination. */
-SLI_ALWAYS_INLINE void sli_leaf_run_body(sli_leaf *l, sl_int *order) {
+/* order := the vertices in the order of elimination. */
+SLI_ALWAYS_INLINE void sli_mindeg_run_body(sli_mindeg *m, sl_int *order) {
     sl_int at = 0;
-    while (at < l->n) {
-        at = sli_leaf_eliminate(l, sli_leaf_best(l), order, at);
+    while (at < m->n) {
+        at = sli_mindeg_eliminate(m, sli_mindeg_best(m), order, at);
     }
 }
 
-static void sli_leaf_run(sli_leaf *l, sl_int *order) {
-    sli_leaf_run_body(l, order);
+static void sli_mindeg_run(sli_mindeg *m, sl_int *order) {
+    sli_mindeg_run_body(m, order);
 }
 
 #if defined(SLI_X86)
-SLI_TARGET("popcnt") static void sli_leaf_run_popcnt(sli_leaf *l, sl_int *order) {
-    sli_leaf_run_body(l, order);
+SLI_TARGET("popcnt") static void sli_mindeg_run_popcnt(sli_mindeg *m, sl_int *order) {
+    sli_mindeg_run_body(m, order);
 }
 #endif
 
-/* The graph of a leaf as rows of bits; whether there is room for it. place: for each vertex of g -1
- * on entry and on return. */
-static int sli_leaf_fill(sli_leaf *l, const sli_level *g, const sl_int *vertices, sl_int count,
-                         sl_int *place) {
+/* Fills the bit matrix of a leaf. Returns whether it fits. local: -1 for each vertex of g, on entry
+ * and on return. */
+static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
+                           sl_int *local) {
     sl_int k, bits = count;
     sl_off e;
     int fits;
     for (k = 0; k < count; k++) {
-        place[vertices[k]] = k;
+        local[vertices[k]] = k;
     }
     for (k = 0; k < count; k++) {
         for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-            if (place[g->to[e]] == -1) {
-                place[g->to[e]] = bits++;
+            if (local[g->to[e]] == -1) {
+                local[g->to[e]] = bits++;
             }
         }
     }
-    l->n = count;
-    l->words = ((size_t)bits + 63) / 64;
-    fits = count <= SLI_LEAF_MAX && l->words * (size_t)count <= l->room;
+    m->n = count;
+    m->words = ((size_t)bits + 63) / 64;
+    fits = count <= SLI_MINDEG_MAX && m->words * (size_t)count <= m->room;
     if (fits) {
-        memset(l->alive, 0, sizeof l->alive);
-        memset(l->rows, 0, l->words * (size_t)count * sizeof(uint64_t));
+        memset(m->alive, 0, sizeof m->alive);
+        memset(m->rows, 0, m->words * (size_t)count * sizeof(uint64_t));
     }
     for (k = 0; k < count && fits; k++) {
-        uint64_t *row = l->rows + (size_t)k * l->words;
+        uint64_t *row = m->rows + (size_t)k * m->words;
         for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-            const sl_int b = place[g->to[e]];
+            const sl_int b = local[g->to[e]];
             row[b / 64] |= (uint64_t)1 << (b % 64);
         }
-        l->key[k] = (sli_leaf_join(row, row, l->words, k) + 1) * SLI_LEAF_MAX + (uint32_t)k;
+        m->key[k] = (sli_mindeg_join(row, row, m->words, k) + 1) * SLI_MINDEG_MAX + (uint32_t)k;
         row[k / 64] |= (uint64_t)1 << (k % 64);
-        l->alive[k / 64] |= (uint64_t)1 << (k % 64);
+        m->alive[k / 64] |= (uint64_t)1 << (k % 64);
     }
     for (k = 0; k < count; k++) {
         for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-            place[g->to[e]] = -1;
+            local[g->to[e]] = -1;
         }
-        place[vertices[k]] = -1;
+        local[vertices[k]] = -1;
     }
     return fits;
 }
 
-/* Reorders vertices, all of one leaf, in place: always the one with the fewest neighbours next.
- * order: count of scratch. */
-static void sli_leaf_order(sli_leaf *l, const sli_level *g, sl_int *vertices, sl_int count,
-                           sl_int *place, sl_int *order) {
+/* Reorders the vertices of a leaf in place by minimum degree. order: count of scratch. */
+static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
+                             sl_int *local, sl_int *order) {
     sl_int k;
-    if (!sli_leaf_fill(l, g, vertices, count, place)) {
+    if (!sli_mindeg_fill(m, g, vertices, count, local)) {
         return;
     }
 #if defined(SLI_X86)
-    if (l->has_popcnt) {
-        sli_leaf_run_popcnt(l, order);
+    if (m->has_popcnt) {
+        sli_mindeg_run_popcnt(m, order);
     } else
 #endif
     {
-        sli_leaf_run(l, order);
+        sli_mindeg_run(m, order);
     }
     for (k = 0; k < count; k++) {
         order[k] = vertices[order[k]];

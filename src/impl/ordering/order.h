@@ -1,10 +1,10 @@
-/* order.h: the fill-reducing order of the rows: natural, given, or nested dissection */
-#ifndef SLI_ORDER_H
-#define SLI_ORDER_H
+/* order.h: the elimination order: natural, given, or fill-reducing */
+#ifndef SLI_ORDERING_ORDER_H
+#define SLI_ORDERING_ORDER_H
 
-#include "order_compress.h"
-#include "permute.h"
-#include "status.h"
+#include "compress.h"
+#include "../matrix/permute.h"
+#include "../base/status.h"
 
 static void sli_order_natural(sl_int n, sl_int *perm) {
     sl_int k;
@@ -13,6 +13,7 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
     }
 }
 
+/* Copies a given order after a check that it is a permutation. scratch: n. */
 static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch,
                                  sl_stats *stats) {
     sl_int bad;
@@ -29,12 +30,12 @@ static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl
     return SL_OK;
 }
 
-#if !defined(SL_NO_METIS)
-#define SLI_ORDER_TINY 4 /* a component this small has nothing to dissect */
+#if defined(SLI_METIS)
+#define SLI_ORDER_TINY 4 /* components of at most this size are not passed to METIS */
 
-/* One breadth-first search a component, the queue being perm itself; each component is then
- * dissected in its place. */
-static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options, sl_int *perm,
+/* Orders the graph by METIS, component by component. A breadth-first search finds each component,
+ * with perm itself as its queue; the component is then reordered in place. */
+static sl_status sli_order_metis(const sli_graph *G, const sl_int *metis_options, sl_int *perm,
                                  sl_int *local, const sl_allocator *a) {
     sl_int root, head, tail = 0, start;
     sl_status status = SL_OK;
@@ -59,7 +60,7 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
             }
         }
         if (tail - start > SLI_ORDER_TINY) {
-            status = sli_order_component(G, perm + start, tail - start, local, metis_options, a);
+            status = sli_metis_order(G, perm + start, tail - start, local, metis_options, a);
         }
     }
     return status;
@@ -67,8 +68,8 @@ static sl_status sli_order_graph(const sli_graph *G, const sl_int *metis_options
 
 #endif
 
-/* Puts the lists of an unsorted graph in order and takes repeated edges out, so that a matrix has one
- * order however it is stored. */
+/* Sorts unsorted adjacency lists and removes repeated edges, so that a matrix has one order however
+ * it is stored. */
 static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     const sl_off edges = G->begin[G->n];
     sli_block b = {NULL, 0, 0};
@@ -87,28 +88,28 @@ static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
     if (status == SL_OK) {
         sli_graph_sort(G, to, at);
         memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
-        sli_graph_unite(G);
+        sli_graph_deduplicate(G);
         sli_free(a, b.base);
     }
     return status;
 }
 
-/* An order of blocks of rows to one of rows; the same for the tree. */
-static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_nest *nest) {
+/* Expands the order and the separator tree from blocks of rows to rows. */
+static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_septree *septree) {
     sl_int k, c;
     for (k = blocks - 1; k >= 0; k--) {
-        const sl_int v = perm[k], node = nest->count > 0 ? nest->of[k] : 0;
+        const sl_int v = perm[k], node = septree->count > 0 ? septree->node_of[k] : 0;
         for (c = block - 1; c >= 0; c--) {
             perm[k * block + c] = v * block + c;
-            nest->of[k * block + c] = node;
+            septree->node_of[k * block + c] = node;
         }
     }
 }
 
-/* By the graph of A, whose rows come in blocks. */
+/* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                                     const sl_options *opt, sl_int *perm, sl_int *scratch,
-                                    sli_nest *nest, const sl_allocator *a) {
+                                    sli_septree *septree, const sl_allocator *a) {
     const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     sli_graph G;
     sli_block b = {NULL, 0, 0};
@@ -127,28 +128,28 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     sli_graph_fill(&G, A, triangle, block);
     status = sli_order_canonical(&G, a);
     if (status == SL_OK && ordering != SL_ORDERING_METIS) {
-        const int by_metis = ordering == SL_ORDERING_QUALITY;
+        const int by_metis = ordering == SL_ORDERING_METIS_REFINED;
         if (opt != NULL && opt->coordinates != NULL && !by_metis) {
-            status = sli_order_own(&G, NULL, 0, opt->coordinates, opt->dimensions, perm, nest, a);
+            status = sli_order_nd(&G, NULL, 0, opt->coordinates, opt->dimensions, perm, septree, a);
         } else {
-            status = sli_order_compressed(&G, by_metis, perm, scratch, nest, a);
+            status = sli_order_compressed(&G, by_metis, perm, scratch, septree, a);
         }
     }
-#if !defined(SL_NO_METIS)
+#if defined(SLI_METIS)
     if (status == SL_OK && ordering == SL_ORDERING_METIS) {
-        status = sli_order_graph(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
+        status = sli_order_metis(&G, opt != NULL ? opt->metis_options : NULL, perm, scratch, a);
     }
 #endif
     if (status == SL_OK && block > 1) {
-        sli_order_expand(G.n, block, perm, nest);
+        sli_order_expand(G.n, block, perm, septree);
     }
     sli_free(a, b.base);
     return status;
 }
 
-/* Whether blocks and points are what n rows can have; *bad: the row of a point that is not finite,
- * -1 otherwise. */
-static int sli_order_wishes_are_sound(const sl_options *opt, sl_int n, sl_int *bad) {
+/* Returns whether block size and coordinates are valid for n rows. *bad := the first row of a block
+ * with a coordinate that is not finite, otherwise -1. */
+static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *bad) {
     sl_int v, k;
     *bad = -1;
     if (opt == NULL) {
@@ -169,16 +170,15 @@ static int sli_order_wishes_are_sound(const sl_options *opt, sl_int n, sl_int *b
     return 1;
 }
 
-/* perm: n, the order of a checked symmetric pattern; nest: its tree, n each, where it has one.
- * scratch: n. */
+/* Finds the elimination order of a checked symmetric pattern. perm := n rows; septree := the
+ * separator tree if the ordering has one (n entries of each array); scratch: n. */
 static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-                           sl_int *perm, sl_int *scratch, sli_nest *nest, const sl_allocator *a,
-                           sl_stats *stats) {
-    const sl_ordering wished = opt != NULL ? opt->ordering : SL_ORDERING_DEFAULT;
-    const sl_ordering ordering = wished == SL_ORDERING_DEFAULT ? SL_ORDERING_FAST : wished;
+                           sl_int *perm, sl_int *scratch, sli_septree *septree,
+                           const sl_allocator *a, sl_stats *stats) {
+    const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
     sl_int bad;
-    nest->count = 0;
-    if (!sli_order_wishes_are_sound(opt, A->n_cols, &bad)) {
+    septree->count = 0;
+    if (!sli_order_options_are_valid(opt, A->n_cols, &bad)) {
         return bad == -1 ? SL_ERR_ARGUMENT : sli_fail_at(stats, SL_ERR_NOT_FINITE, bad, -1, 0.0);
     }
     switch (ordering) {
@@ -187,17 +187,16 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
     case SL_ORDERING_NATURAL:
         sli_order_natural(A->n_cols, perm);
         return SL_OK;
-    case SL_ORDERING_FAST:
-    case SL_ORDERING_BUILTIN:
-        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, nest, a);
+    case SL_ORDERING_ND:
+        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, a);
     case SL_ORDERING_METIS:
-    case SL_ORDERING_QUALITY:
-#if defined(SL_NO_METIS)
+    case SL_ORDERING_METIS_REFINED:
+#if !defined(SLI_METIS)
         return SL_ERR_UNSUPPORTED;
 #else
-        return ordering == SL_ORDERING_METIS && !sli_metis_options_are_sound(opt->metis_options)
+        return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
                    ? SL_ERR_ARGUMENT
-                   : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, nest, a);
+                   : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, a);
 #endif
     default:
         return SL_ERR_ARGUMENT;

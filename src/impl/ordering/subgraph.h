@@ -1,140 +1,148 @@
-/* order_piece.h: a piece of a graph in a numbering of its own: a whole part, or a band along a border */
-#ifndef SLI_ORDER_PIECE_H
-#define SLI_ORDER_PIECE_H
+/* subgraph.h: a leaf, or a band along the border of a node, as a graph in its own numbering */
+#ifndef SLI_ORDERING_SUBGRAPH_H
+#define SLI_ORDERING_SUBGRAPH_H
 
-#include "order_tree.h"
+#include "labels.h"
 
-/* Vertices of one side of a node, of both, or a few layers of each along the border between them.
- * Edges to what lies outside but on the same side are counted in anchor. */
-typedef struct sli_piece {
+/* A subgraph of a level: the vertices of a leaf, or a few layers on each side of the border between
+ * the two sides of a node. `external` is the weight of the edges to the rest of a side, whose
+ * vertices do not move: it holds a vertex at its home side. */
+typedef struct sli_subgraph {
     sl_int n;
     sl_int *vertex; /* n: number in the level */
     sl_off *begin;  /* n + 1 */
     sl_int *to, *edge;
     sl_int *weight;
-    sl_int *anchor;               /* n */
+    sl_int *external;             /* n: weight of the edges that leave the band */
     unsigned char *side;          /* n: 0 left, 1 right, 2 separator */
-    unsigned char *home;          /* n: the side that anchor holds to */
+    unsigned char *home;          /* n: side at the start, that of the external edges */
     unsigned char *layer;         /* n: distance to the border */
-    int64_t total[2];             /* weight of each side, with what lies outside */
-    sl_int *place;                /* a vertex of the level: its number here, -1 if it is not here */
-    unsigned char *locked, *best; /* n: of the search for a cut */
+    int64_t total[2];             /* weight of each side, vertices outside the subgraph included */
+    sl_int *local;                /* by vertex of the level: its number here, or -1 */
+    unsigned char *locked, *best; /* n: scratch of bisection and separation */
     sl_int *scratch;              /* 6 n */
-} sli_piece;
+} sli_subgraph;
 
-static void sli_piece_layout(sli_piece *p, sli_block *b, sl_int n, sl_off edges) {
-    p->vertex = SLI_TAKE(b, sl_int, n);
-    p->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
-    p->to = SLI_TAKE(b, sl_int, edges);
-    p->edge = SLI_TAKE(b, sl_int, edges);
-    p->weight = SLI_TAKE(b, sl_int, n);
-    p->anchor = SLI_TAKE(b, sl_int, n);
-    p->side = SLI_TAKE(b, unsigned char, n);
-    p->home = SLI_TAKE(b, unsigned char, n);
-    p->layer = SLI_TAKE(b, unsigned char, n);
-    p->place = SLI_TAKE(b, sl_int, n);
-    p->locked = SLI_TAKE(b, unsigned char, n);
-    p->best = SLI_TAKE(b, unsigned char, n);
-    p->scratch = SLI_TAKE(b, sl_int, 6 * (uint64_t)n);
+static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_off edges) {
+    sub->vertex = SLI_TAKE(b, sl_int, n);
+    sub->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
+    sub->to = SLI_TAKE(b, sl_int, edges);
+    sub->edge = SLI_TAKE(b, sl_int, edges);
+    sub->weight = SLI_TAKE(b, sl_int, n);
+    sub->external = SLI_TAKE(b, sl_int, n);
+    sub->side = SLI_TAKE(b, unsigned char, n);
+    sub->home = SLI_TAKE(b, unsigned char, n);
+    sub->layer = SLI_TAKE(b, unsigned char, n);
+    sub->local = SLI_TAKE(b, sl_int, n);
+    sub->locked = SLI_TAKE(b, unsigned char, n);
+    sub->best = SLI_TAKE(b, unsigned char, n);
+    sub->scratch = SLI_TAKE(b, sl_int, 6 * (uint64_t)n);
 }
 
-SLI_INLINE void sli_piece_add(sli_piece *p, sl_int v, int layer) {
-    p->place[v] = p->n;
-    p->layer[p->n] = (unsigned char)layer;
-    p->vertex[p->n++] = v;
+/* Adds vertex v of the level. */
+SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer) {
+    sub->local[v] = sub->n;
+    sub->layer[sub->n] = (unsigned char)layer;
+    sub->vertex[sub->n++] = v;
 }
 
-static void sli_piece_clear(sli_piece *p) {
+/* Removes all vertices, in time proportional to their number. */
+static void sli_subgraph_clear(sli_subgraph *sub) {
     sl_int k;
-    for (k = 0; k < p->n; k++) {
-        p->place[p->vertex[k]] = -1;
+    for (k = 0; k < sub->n; k++) {
+        sub->local[sub->vertex[k]] = -1;
     }
-    p->n = 0;
+    sub->n = 0;
 }
 
-/* The edges between the vertices that were added; all of them below node. */
-static void sli_piece_edges(sli_piece *p, const sli_level *g, const sli_tree *t, sl_int node,
-                            const sl_int *label) {
+/* Builds the edges between the vertices that were added, all of them below node. */
+static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
+                               sl_int node, const sl_int *label) {
     sl_int k;
     sl_off e, count = 0;
-    for (k = 0; k < p->n; k++) {
-        const sl_int v = p->vertex[k];
-        p->begin[k] = count;
-        p->weight[k] = sli_level_weight(g, v);
-        p->anchor[k] = 0;
-        p->side[k] = p->home[k] = label[v] > node;
+    for (k = 0; k < sub->n; k++) {
+        const sl_int v = sub->vertex[k];
+        sub->begin[k] = count;
+        sub->weight[k] = sli_level_weight(g, v);
+        sub->external[k] = 0;
+        sub->side[k] = sub->home[k] = label[v] > node;
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int u = g->to[e];
-            if (p->place[u] != -1) {
-                p->to[count] = p->place[u];
-                p->edge[count++] = sli_level_edge(g, e);
-            } else if (sli_tree_is_below(t, node, label[u])) {
-                p->anchor[k] += sli_level_edge(g, e);
+            if (sub->local[u] != -1) {
+                sub->to[count] = sub->local[u];
+                sub->edge[count++] = sli_level_edge(g, e);
+            } else if (sli_label_tree_is_below(t, node, label[u])) {
+                sub->external[k] += sli_level_edge(g, e);
             }
         }
     }
-    p->begin[p->n] = count;
+    sub->begin[sub->n] = count;
 }
 
-/* The vertices of a leaf. */
-static void sli_piece_leaf(sli_piece *p, const sli_level *g, const sli_tree *t, sl_int node,
-                           const sl_int *label, const sl_int *vertices, sl_int count) {
+/* Makes the subgraph of a leaf's vertices. */
+static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
+                              sl_int node, const sl_int *label, const sl_int *vertices,
+                              sl_int count) {
     sl_int k;
-    p->n = 0;
+    sub->n = 0;
     for (k = 0; k < count; k++) {
-        sli_piece_add(p, vertices[k], 0);
+        sli_subgraph_add(sub, vertices[k], 0);
     }
-    sli_piece_edges(p, g, t, node, label);
-    p->total[0] = t->weight[node];
-    p->total[1] = 0;
+    sli_subgraph_edges(sub, g, t, node, label);
+    sub->total[0] = t->weight[node];
+    sub->total[1] = 0;
 }
 
-/* Share of a part that its band may have before another layer is added, on the finest level. In a volume two or three
- * layers are most of a small part, and a cut anywhere in it would not balance. */
+/* A band gets no further layer once it has this share of the finest vertices below its node. In a
+ * volume, two or three layers contain most of a small subgraph, and a cut anywhere in them would be
+ * unbalanced. */
 #define SLI_BAND_SHARE 0.3
 
-/* The vertices at the border of a node, and up to so many layers on either side of them. */
-static void sli_piece_band(sli_piece *p, const sli_level *g, const sli_tree *t, sl_int node,
-                           const sl_int *label, const sli_borders *l, int layers) {
+/* Makes the band of a node: the vertices at its border, and up to `layers` layers on each side of
+ * them. The first layer is added regardless of SLI_BAND_SHARE. */
+static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
+                              sl_int node, const sl_int *label, const sli_borders *l, int layers) {
     const sl_int most = (sl_int)(SLI_BAND_SHARE * (double)t->weight[node]);
     sl_int entry, head = 0;
     sl_off e;
     int layer;
-    p->n = 0;
+    sub->n = 0;
     for (entry = l->head[node]; entry != -1; entry = l->next[entry]) {
         const sl_int v = l->vertex[entry];
         const int side = label[v] > node;
         int crosses = 0;
-        if (p->place[v] != -1 || label[v] == node || !sli_tree_is_below(t, node, label[v])) {
+        if (sub->local[v] != -1 || label[v] == node ||
+            !sli_label_tree_is_below(t, node, label[v])) {
             continue;
         }
         for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
             const sl_int other = label[g->to[e]];
-            crosses = other != node && sli_tree_is_below(t, node, other) && (other > node) != side;
+            crosses =
+                other != node && sli_label_tree_is_below(t, node, other) && (other > node) != side;
         }
         if (crosses) {
-            sli_piece_add(p, v, 0);
+            sli_subgraph_add(sub, v, 0);
         }
     }
-    for (layer = 1; layer <= layers && (layer == 1 || p->n < most); layer++) {
-        const sl_int end = p->n;
+    for (layer = 1; layer <= layers && (layer == 1 || sub->n < most); layer++) {
+        const sl_int end = sub->n;
         for (; head < end; head++) {
-            for (e = g->begin[p->vertex[head]]; e < g->begin[p->vertex[head] + 1]; e++) {
+            for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
                 const sl_int u = g->to[e];
-                if (p->place[u] == -1 && sli_tree_is_below(t, node, label[u])) {
-                    sli_piece_add(p, u, layer);
+                if (sub->local[u] == -1 && sli_label_tree_is_below(t, node, label[u])) {
+                    sli_subgraph_add(sub, u, layer);
                 }
             }
         }
     }
-    sli_piece_edges(p, g, t, node, label);
-    p->total[0] = t->weight[t->left[node]];
-    p->total[1] = t->weight[t->right[node]];
+    sli_subgraph_edges(sub, g, t, node, label);
+    sub->total[0] = t->weight[t->left[node]];
+    sub->total[1] = t->weight[t->right[node]];
 }
 
-/* Moves a vertex from one leaf to another below node, or (to == node) into the separator. */
-static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g, sli_tree *t,
-                               sl_int *label, sli_borders *l) {
+/* Moves a vertex to another leaf below node, or into the separator if to == node. */
+static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
+                               sli_label_tree *t, sl_int *label, sli_borders *l) {
     const sl_int from = label[v], weight = sli_level_weight(g, v);
     sl_int up, last = to;
     sl_off e;
@@ -151,22 +159,22 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int other = label[g->to[e]];
         if (other != to && other != last && other != node && (other > node) == (to > node) &&
-            sli_tree_is_below(t, node, other)) {
-            const sl_int border = sli_tree_meet(t, to, other);
+            sli_label_tree_is_below(t, node, other)) {
+            const sl_int border = sli_label_tree_lca(t, to, other);
             sli_borders_add(l, border, v);
             sli_borders_add(l, border, g->to[e]);
         }
     }
 }
 
-/* The leaf on v's new side that has most edges to it, or -1. */
-static sl_int sli_piece_leaf_near(const sli_level *g, const sli_tree *t, sl_int node, sl_int v,
-                                  int side, const sl_int *label) {
+/* The leaf on v's new side with the heaviest edges to v, or -1. */
+static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tree *t, sl_int node,
+                                         sl_int v, int side, const sl_int *label) {
     sl_int best = -1, most = 0;
     sl_off e;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int other = label[g->to[e]];
-        if (other != node && sli_tree_is_below(t, node, other) && (other > node) == side &&
+        if (other != node && sli_label_tree_is_below(t, node, other) && (other > node) == side &&
             sli_level_edge(g, e) > most) {
             most = sli_level_edge(g, e);
             best = other;
@@ -175,23 +183,23 @@ static sl_int sli_piece_leaf_near(const sli_level *g, const sli_tree *t, sl_int 
     return best;
 }
 
-/* Writes the sides of a band into the labels. A vertex that has no neighbour on its new side stays
- * where it was: it borders on nothing but the separator. */
-static void sli_piece_apply(sli_piece *p, const sli_level *g, sli_tree *t, sl_int node,
-                            sl_int *label, sli_borders *l) {
-    sl_int *moved = p->scratch, count = 0, k, left;
-    for (k = 0; k < p->n; k++) {
-        if (p->side[k] == 2) {
-            sli_relabel_vertex(p->vertex[k], node, node, g, t, label, l);
-        } else if (p->side[k] != p->home[k]) {
+/* Writes the sides of a band to the labels. A vertex without a neighbor on its new side keeps its
+ * leaf: all its neighbors are in the separator. */
+static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_tree *t,
+                               sl_int node, sl_int *label, sli_borders *l) {
+    sl_int *moved = sub->scratch, count = 0, k, left;
+    for (k = 0; k < sub->n; k++) {
+        if (sub->side[k] == 2) {
+            sli_relabel_vertex(sub->vertex[k], node, node, g, t, label, l);
+        } else if (sub->side[k] != sub->home[k]) {
             moved[count++] = k;
         }
     }
-    do { /* in layers from the border, so that a round or two are enough */
+    do { /* moves spread in layers from the border, so that one or two rounds are enough */
         left = 0;
         for (k = 0; k < count; k++) {
-            const sl_int m = moved[k], v = p->vertex[m];
-            const sl_int leaf = sli_piece_leaf_near(g, t, node, v, p->side[m], label);
+            const sl_int m = moved[k], v = sub->vertex[m];
+            const sl_int leaf = sli_subgraph_adjacent_leaf(g, t, node, v, sub->side[m], label);
             if (leaf != -1) {
                 sli_relabel_vertex(v, leaf, node, g, t, label, l);
             } else {

@@ -1,23 +1,23 @@
-/* refine.h: iterative refinement of full solutions, column by column, by the backward error of every row */
-#ifndef SLI_REFINE_H
-#define SLI_REFINE_H
+/* refine.h: sl_factor_refine: refinement by the componentwise backward error */
+#ifndef SLI_SOLVE_REFINE_H
+#define SLI_SOLVE_REFINE_H
 
-#include "../public/accuracy.h"
-#include "csc_products.h"
-#include "factor.h"
-#include "inverse.h"
+#include "../../public/accuracy.h"
+#include "../matrix/csc_products.h"
+#include "../factor/factor.h"
+#include "plan.h"
 
-/* Up to 8 right-hand sides on their way. */
+/* A block of up to 8 right-hand sides in progress. */
 typedef struct sli_refinement {
     const sl_factor *F;
     const sl_csc *A;
     sl_triangle triangle;
-    double *R, *T;         /* n x columns: residuals, then corrections; what is tried */
+    double *R, *T;         /* n x columns: residuals, then corrections; trial solutions */
     double *size;          /* n: |A| |x| + |b| */
-    unsigned char *memory; /* for solves */
+    unsigned char *memory; /* vectors of the sweeps */
     double error[SLI_TILE];
     int is_done[SLI_TILE];
-    sl_int steps; /* taken */
+    sl_int steps; /* the most that a column has taken */
 } sli_refinement;
 
 static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
@@ -30,8 +30,8 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
     f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* r = b - A x and the backward error of x: the least change of every entry of A and b, relative to it, that makes x a
- * solution. */
+/* r := b - A x. Returns the componentwise backward error of x: the least relative change of the
+ * entries of A and b that makes x an exact solution. */
 static double sli_row_error(const sli_refinement *f, double *r, const double *x, const double *b) {
     const sl_csc *A = f->A;
     double *size = f->size, worst = 0.0;
@@ -60,7 +60,7 @@ static double sli_row_error(const sli_refinement *f, double *r, const double *x,
     return worst;
 }
 
-/* R := A^-1 R, as good as F knows it, consistent or not. */
+/* R := A^-1 R by the factor, whether consistent or not. */
 static void sli_correct(const sli_refinement *f, sl_int columns) {
     const sli_query q = sli_query_all(f->F->S);
     const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
@@ -72,8 +72,8 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
     sli_unpack(&q, f->R, at, v.x, lanes, columns);
 }
 
-/* One correction of column c, already solved for; done where it does not halve the error. Returns whether it was taken.
- */
+/* Applies the correction of column c, already in R. The column is done once a correction does not
+ * halve its error. Returns whether the correction was kept. */
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
     const size_t n = (size_t)f->F->S->n;
     double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
@@ -116,16 +116,28 @@ static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const dou
     }
 }
 
-/* The larger of two errors, NaN if one is. */
-SLI_INLINE double sli_worse(double a, double b) {
+/* The larger of two errors; NaN if either is. */
+SLI_INLINE double sli_max_error(double a, double b) {
     return a != a || a > b ? a : b;
 }
 
 static void sli_refine_stats(sl_stats *stats, sl_int steps, double error) {
     if (stats != NULL) {
-        stats->refine_steps = steps;
-        stats->backward_error = error;
+        stats->refine.steps = steps;
+        stats->refine.backward_error = error;
     }
+}
+
+SL_API sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs) {
+    sli_block b = {NULL, 0, 0};
+    sli_refinement f;
+    if (W == NULL || F == NULL || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(&f, 0, sizeof f);
+    f.F = F;
+    sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
+    return nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
 }
 
 SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
@@ -152,18 +164,18 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     memset(&f, 0, sizeof f);
     f.F = F;
     f.A = A;
-    f.triangle = sli_triangle_scan(A);
+    f.triangle = F->S->stats.symbolic.triangle;
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
-    status = nrhs > 0 ? sli_work_lay(W, &b) : SL_OK;
-    if (status == SL_OK && nrhs > 0) {
+    status = nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
+    if (status == SL_OK && nrhs > 0 && F->S->n > 0) { /* without rows all arrays are NULL */
         sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
         for (r = 0; r < nrhs; r += 8) {
             sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
                              sli_min(8, nrhs - r), steps);
             for (c = 0; c < sli_min(8, nrhs - r); c++) {
-                worst = sli_worse(f.error[c], worst);
+                worst = sli_max_error(f.error[c], worst);
             }
         }
     }

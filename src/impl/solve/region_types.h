@@ -1,67 +1,69 @@
-/* region_parts.h: the region object, and what a sweep that ends there needs: the product with the cached inverse */
-#ifndef SLI_REGION_PARTS_H
-#define SLI_REGION_PARTS_H
+/* region_types.h: the region object, and the product with its cached inverse */
+#ifndef SLI_SOLVE_REGION_TYPES_H
+#define SLI_SOLVE_REGION_TYPES_H
 
-#include "../public/region.h"
-#include "factor_parts.h"
-#include "reach.h"
+#include "../../public/region.h"
+#include "../factor/factor_types.h"
+#include "../analysis/reach.h"
 
-/* Let T be whole subtrees of the elimination tree and S, the boundary, contain the rows of L below them. For b
- * on T and S, y = L_TT^-1 b_T and u = b_S - L_ST y are what a forward sweep inside T leaves, and
+/* Let T be a set of whole subtrees of the elimination tree, and let S, the boundary, contain the
+ * rows of L below them. For b on T and S, a forward sweep inside T gives y = L_TT^-1 b_T and
+ * u = b_S - L_ST y, and the backward sweep inside T starts from
  *
- *     x_S = Z_SS u, Z = A^-1,
+ *    x_S = Z_SS u,  Z = A^-1.
  *
- * is where the backward sweep inside T starts: all that is above T is in Z_SS. It is kept as N with
- * Z_SS = N + N', N lower triangular with half of the diagonal, in chunks of columns, and -N stands in the
- * places below the diagonal block of a panel whose own columns are 0. What a step does to the rows below it on
- * the way forward is then a product with N, and what these do to it on the way back one with N': the panel is
- * read twice, the second time from the first cache. */
+ * Z_SS takes the place of everything above T. It is stored as N with Z_SS = N + N', where N is
+ * lower triangular with half of the diagonal, in chunks of columns. Each chunk is a panel: -N is
+ * below its diagonal block, and its own columns are 0. The forward step of such a panel is then a
+ * product with N and its backward step one with N'. The panel is read twice, the second time from
+ * the L1 cache. */
 struct sl_region {
     sl_allocator allocator;
     const sl_symbolic *S; /* borrowed */
-    const sl_factor *F;   /* Z is its inverse, and .. */
-    uint64_t generation;  /* .. of these numbers of it; 0 for none */
-    sli_fence fence;
-    sl_int *roots, *rows; /* of the fence */
-    sl_int *asked;        /* fence.n_rows: rows of A */
+    sli_hash analysis;    /* the identity of S */
+    sli_hash identity;    /* of the analysis and the extent: what plans in the region depend on */
+    sli_numbers numbers;  /* Z is a part of the inverse of these */
+    sli_region_extent extent;
+    sl_int *roots, *rows; /* of the extent: roots of the subtrees, boundary */
+    sl_int *requested;    /* boundary rows: as rows of A */
     sl_int inside;        /* rows of A in the subtrees */
-    sl_int *places;       /* fence.n_rows: those of the boundary in the product's second vector */
-    sl_off *begin;        /* chunks + 1: the panels, in doubles */
+    sl_int *relative;     /* boundary rows: relative indices in the second vector of the product */
+    sl_off *begin;        /* chunks + 1: where each panel begins, in doubles */
     double *Z;
-    int is_copied; /* Z is out of a selected inverse */
+    int is_copied; /* Z was copied from a selected inverse */
     double seconds;
     size_t bytes;
 };
 
-/* Columns of a chunk: kernels keep all of so few in registers. */
+/* Columns of a chunk: as many as the kernels keep in registers. */
 #define SLI_REGION_COLUMNS 8
 
 SLI_INLINE sl_int sli_region_chunks(sl_int rows) {
     return rows / SLI_REGION_COLUMNS + (rows % SLI_REGION_COLUMNS != 0);
 }
 
-/* The chunk that begins at column `first` of a boundary, as a step. */
+/* The step of the chunk that begins at column `first` of the boundary. */
 SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
     sli_step step;
     step.panel = R->begin[first / SLI_REGION_COLUMNS];
     step.column = 0;
     step.base = first;
-    step.width = sli_min(SLI_REGION_COLUMNS, R->fence.n_rows - first);
-    step.below = R->fence.n_rows - first;
+    step.width = sli_min(SLI_REGION_COLUMNS, R->extent.n_rows - first);
+    step.below = R->extent.n_rows - first;
     step.first_tile = 0;
     step.up = -1;
     return step;
 }
 
 static void sli_region_layout(sl_region *R, sli_block *b) {
-    const sl_int rows = R->fence.n_rows;
+    const sl_int rows = R->extent.n_rows;
     sl_off size = 0;
     sl_int first;
     (void)sli_take(b, 1, sizeof(sl_region));
-    R->roots = SLI_TAKE(b, sl_int, R->fence.n_roots);
+    R->roots = SLI_TAKE(b, sl_int, R->extent.n_roots);
     R->rows = SLI_TAKE(b, sl_int, rows);
-    R->asked = SLI_TAKE(b, sl_int, rows);
-    R->places = SLI_TAKE(b, sl_int, rows);
+    R->requested = SLI_TAKE(b, sl_int, rows);
+    R->relative = SLI_TAKE(b, sl_int, rows);
     R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
     for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
         size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
@@ -70,35 +72,35 @@ static void sli_region_layout(sl_region *R, sli_block *b) {
     R->bytes = b->used;
 }
 
-/* Does Z belong to the numbers that F holds? */
+/* Is Z the inverse of the numbers that F holds? */
 SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
-    return R->F == F && R->generation == F->generation;
+    return sli_numbers_are_of(&R->numbers, F);
 }
 
-/* Doubles for a product: u, the result, and u again, then the scratch of the kernels. */
+/* Doubles of a product's vectors: u, the result, and u again. */
 SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
-    return 3 * (uint64_t)R->fence.n_rows * (uint64_t)lanes;
+    return 3 * (uint64_t)R->extent.n_rows * (uint64_t)lanes;
 }
 
 SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
-    return sli_scratch_size(SLI_REGION_COLUMNS + R->fence.n_rows, SLI_REGION_COLUMNS, lanes);
+    return sli_sweep_scratch(SLI_REGION_COLUMNS + R->extent.n_rows, SLI_REGION_COLUMNS, lanes);
 }
 
-/* What a plan has to do with a boundary: 1 for each chunk with a row that its forward sweep may leave a number in, or
- * that its backward sweep reads. */
-typedef struct sli_shore {
+/* The chunks of the boundary that a query uses: 1 for each chunk with a row that its forward sweep
+ * may change or its backward sweep reads. */
+typedef struct sli_boundary_use {
     const unsigned char *b, *x; /* chunks each */
-    sl_off entries;             /* doubles of the inverse in those of either kind */
-} sli_shore;
+    sl_off entries;             /* doubles of the inverse in the chunks that b or x uses */
+} sli_boundary_use;
 
-/* x := Z_SS u, interleaved, where u and x matter; x may be u. On the way forward a chunk's columns are u and its
- * rows the result; on the way back, where the vector begins one boundary later, its columns are the result and its
- * rows u. */
-static void sli_region_apply(const sl_region *R, const sli_shore *shore, const sli_kernels *kernels,
-                             int kind, const double *u, double *x, double *vectors,
-                             double *scratch) {
+/* x := Z_SS u, interleaved, in the chunks that are used; x may be u. In the forward step the
+ * columns of a chunk are u and its rows the result. In the backward step, where the vector begins
+ * one boundary later, the columns are the result and the rows u. */
+static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundary,
+                             const sli_kernels *kernels, int kind, const double *u, double *x,
+                             double *vectors, double *scratch) {
     static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-    const sl_int n = R->fence.n_rows;
+    const sl_int n = R->extent.n_rows;
     const size_t size = (size_t)n << kind;
     sl_int first;
     if (n == 0) {
@@ -109,11 +111,11 @@ static void sli_region_apply(const sl_region *R, const sli_shore *shore, const s
     memcpy(vectors + 2 * size, u, size * sizeof(double));
     for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
         const sli_step step = sli_region_step(R, first);
-        if (shore->b[first / SLI_REGION_COLUMNS]) {
-            kernels->forward[kind](1, &step, R->places + first, R->Z, vectors, scratch);
+        if (boundary->b[first / SLI_REGION_COLUMNS]) {
+            kernels->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
         }
-        if (shore->x[first / SLI_REGION_COLUMNS]) {
-            kernels->backward[kind](1, &step, R->places + n, R->Z, sli_ones, vectors + size,
+        if (boundary->x[first / SLI_REGION_COLUMNS]) {
+            kernels->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
                                     scratch);
         }
     }

@@ -1,9 +1,9 @@
-/* work.h: the workspace: one block of a thread's scratch that only grows */
-#ifndef SLI_WORK_H
-#define SLI_WORK_H
+/* work.h: the workspace: one block of scratch memory that only grows */
+#ifndef SLI_SOLVE_WORK_H
+#define SLI_SOLVE_WORK_H
 
-#include "../public/solve.h"
-#include "alloc.h"
+#include "../../public/solve.h"
+#include "../base/alloc.h"
 
 struct sl_work {
     sl_allocator allocator;
@@ -11,7 +11,7 @@ struct sl_work {
     size_t size;
 };
 
-/* At least bytes of scratch; what was in it is lost. */
+/* Grows W to at least `bytes`. Growing discards its contents. */
 static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     void *block;
     if (bytes <= W->size) {
@@ -27,7 +27,7 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     return SL_OK;
 }
 
-/* A workspace for one call: nothing yet, and its block to be released at the end. */
+/* An empty workspace for one call. The caller releases its block. */
 static sl_work sli_work_own(const sl_allocator *a) {
     sl_work own;
     own.allocator = *a;
@@ -36,29 +36,29 @@ static sl_work sli_work_own(const sl_allocator *a) {
     return own;
 }
 
-/* The base of W, grown to what a layout has counted, for its second run. */
-static sl_status sli_work_lay(sl_work *W, sli_block *b) {
+/* Grows W to what the layout in b has counted, and rewinds b to W's memory for the second run. */
+static sl_status sli_work_block(sl_work *W, sli_block *b) {
     const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
     b->base = (unsigned char *)W->block;
     b->used = 0;
     return status;
 }
 
-/* A stage of a call on a workspace: lays its arrays out, then fills them; what q holds after the stages before it
- * tells how large they are. */
+/* A stage of a call on a workspace: lays out its arrays, then fills them. What the earlier stages
+ * left in q determines the sizes. */
 typedef struct sli_stage {
-    void (*lay)(void *q, sli_block *b);
+    void (*layout)(void *q, sli_block *b);
     void (*fill)(void *q); /* or NULL */
 } sli_stage;
 
-/* Runs stages. Where W is too small for one it grows, which loses what is in it, and they begin anew: none may write
- * to the caller's arrays. */
+/* Runs the stages in order. If W has to grow for one, its contents are lost and all stages start
+ * over, so none may write to the caller's arrays. */
 static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count, void *q) {
     sli_block b = {(unsigned char *)W->block, 0, 0};
     int k = 0;
     while (k < count) {
         sli_block trial = {NULL, b.used, 0};
-        stages[k].lay(q, &trial);
+        stages[k].layout(q, &trial);
         if (trial.overflow) {
             return SL_ERR_TOO_LARGE;
         }
@@ -72,7 +72,7 @@ static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count,
             k = 0;
             continue;
         }
-        stages[k].lay(q, &b);
+        stages[k].layout(q, &b);
         if (stages[k].fill != NULL) {
             stages[k].fill(q);
         }
@@ -87,7 +87,7 @@ SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    if (!sli_allocator_is_whole(opt)) {
+    if (!sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
     *out = (sl_work *)sli_alloc(&a, sizeof(sl_work));

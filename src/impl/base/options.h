@@ -1,0 +1,65 @@
+/* options.h: initializes options and checks them in every call */
+#ifndef SLI_BASE_OPTIONS_H
+#define SLI_BASE_OPTIONS_H
+
+#include "../../public/options.h"
+#include "base.h"
+
+/* Groups of options that a call may read besides the allocator and the threads. */
+enum {
+    SLI_READS_NOTHING = 0,
+    SLI_READS_TRIANGLE = 1,
+    SLI_READS_ANALYSIS = 2, /* the ordering and the options that orderings read */
+    SLI_READS_FACTOR = 4,
+    SLI_READS_REGION = 8,
+    SLI_READS_REGION_BYTES = 16
+};
+
+SL_API void sl_options_init(sl_options *opt, size_t size) {
+    if (opt != NULL && size >= sizeof opt->size) {
+        memset(opt, 0, size);
+        opt->size = size;
+    }
+}
+
+#if defined(SL_VERIFY)
+/* The groups in which an option differs from its default. */
+static int sli_options_set(const sl_options *opt) {
+    const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
+                         opt->metis_options != NULL || opt->coordinates != NULL ||
+                         opt->dimensions != 0 || opt->block_size != 0;
+    const int factor = opt->isa != 0 || opt->method != 0 || opt->null_pivots != 0 ||
+                       opt->null_tolerance != 0.0 || opt->mass != NULL ||
+                       opt->consistency_tolerance != 0.0 || opt->regularization != 0.0 ||
+                       opt->signs != NULL || opt->null_vector != NULL;
+    return (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) | (analysis ? SLI_READS_ANALYSIS : 0) |
+           (factor ? SLI_READS_FACTOR : 0) | (opt->region != NULL ? SLI_READS_REGION : 0) |
+           (opt->region_bytes != 0 ? SLI_READS_REGION_BYTES : 0);
+}
+#endif
+
+/* Checks the size of the struct, that no option unknown to this library is set, the completeness of
+ * the allocator, and the number of threads. reads: the groups that the call reads. An option that
+ * is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
+SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
+    size_t k;
+    if (opt == NULL) {
+        return 1;
+    }
+    for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
+        if (opt->reserved[k] != NULL) {
+            return 0;
+        }
+    }
+#if defined(SL_VERIFY)
+    if ((sli_options_set(opt) & ~reads) != 0) {
+        return 0;
+    }
+#else
+    (void)reads;
+#endif
+    return (opt->size == 0 || opt->size == sizeof *opt) && opt->threads.count >= 0 &&
+           (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
+}
+
+#endif

@@ -1,0 +1,37 @@
+/* panel.h: how the columns of L of one supernode are stored: row tiles of 8 */
+#ifndef SLI_KERNELS_PANEL_H
+#define SLI_KERNELS_PANEL_H
+
+#include "../base/base.h"
+
+/* The panel of a supernode with w columns and u rows below its diagonal block has w + u local rows.
+ * It is stored in row tiles of 8, [tile][column][8], for every instruction set: entry (r, j) is in
+ * tile r / 8, column j, lane r % 8. A tile of the diagonal block keeps only its first 8 (tile + 1)
+ * columns. The unit diagonal, the part above it and the padding of the last tile are stored as
+ * 0. */
+#define SLI_TILE 8
+
+/* Position of tile t in a panel of w columns, in doubles. The first w / 8 tiles grow by 8 columns
+ * each, the others have w columns. */
+SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
+    sl_off whole = w / SLI_TILE, tile = t;
+    return tile <= whole ? 32 * tile * (tile + 1)
+                         : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
+}
+
+/* Number of tiles that hold some rows. */
+SLI_INLINE sl_int sli_tiles(sl_int rows) {
+    return rows / SLI_TILE + (rows % SLI_TILE != 0);
+}
+
+/* Size of a panel of w columns and u rows below the diagonal block, in doubles. */
+SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
+    return sli_tile_offset(w, sli_tiles(w + u));
+}
+
+/* Position of local row r of column j in a panel of w columns. */
+SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
+    return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;
+}
+
+#endif

@@ -1,0 +1,99 @@
+/* simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
+#ifndef SLI_KERNELS_SIMD_H
+#define SLI_KERNELS_SIMD_H
+
+#include "panel.h"
+
+/* A template *.inl.h is compiled once for each instruction set. It uses two groups of macros, which
+ * the files simd_*.h define and kernel_set.inl.h undefines.
+ *
+ * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile.
+ *
+ *  SLV_NAME(f)            name of function f in this instruction set
+ *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
+ *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
+ *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
+ *  SLV_DECLARE(a)         declares a
+ *  SLV_ZERO(a)            a = 0
+ *  SLV_LOAD(a, p)         a = p[0..7]; p is 64-byte aligned
+ *  SLV_LOAD_PINNED(a, p)  the same; the compiler may not load it again at each use
+ *  SLV_LOAD_PART(a, p, count, rest)   lanes 0 .. count-1 = p[lane], the others = rest
+ *  SLV_STORE(p, a)        p[0..7] = a; p is 64-byte aligned. SLV_STORE_ANY: p is not aligned
+ *  SLV_BROADCAST(b, p)    every lane of b = *p
+ *  SLV_LANE(b, a, k)      every lane of b = lane k of a; k is a constant
+ *  SLV_GATHER(a, x, at)   lane k of a = x[at(k)]; at is a macro
+ *  SLV_FIRST(a, count)    lanes count .. 7 of a = 0
+ *  SLV_BELOW(a, k)        lanes 0 .. k of a = 0
+ *  SLV_ADD(a, b)          a += b
+ *  SLV_MULTIPLY(a, b, c)  a = b c. SLV_DIVIDE: a = b / c. SLV_FNMA: a -= b c
+ *  SLV_AXPY(a, l, p)      a -= l[0..7] * *p
+ *  SLV_DOT(a, l, v)       a -= l[0..7] v, lane by lane
+ *  SLV_TRANSPOSE(to, from)            8 x 8 doubles, both 64-byte aligned
+ *  SLV_EXPAND(mask, lanes, count)     prepares SLV_EXPAND_ADD(to, from), which adds from[i] to
+ *                                     to[lanes[i]], i < count. mask has the bits of the lanes
+ *  SLV_DUP_LOW(e, l)      e = l[0] l[0] l[1] l[1] l[2] l[2] l[3] l[3]. SLV_DUP_HIGH: from l[4] on
+ *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
+ *
+ *  SLV_SUM_: an accumulator of partial sums, at most 8, as many as suit the registers.
+ *  SLV_SUM_DECLARE, _ZERO, _LOAD, _STORE as above; an accumulator has room for 8 doubles in memory
+ *  SLV_SUM_DOT(a, l, v)   a -= l[0..7] v, in partial sums
+ *  SLV_SUMS(r, a)         lane k of vector r = the sum of accumulator a##k, k = 0 .. 7
+ *
+ *  SLV_TILES, SLV_COLUMNS             row tiles and columns of the register block of a product
+ *  SLV_EACH_COLUMN(op, t)             op(0, t) op(1, t) .. over the columns of that block
+ *
+ * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.
+ *
+ *  SLW_NAME(f), SLW_NRHS  name of function f; the number of right-hand sides
+ *  SLW_ROWS               rows that are kept in registers, 4 or 8
+ *  SLW_HALF(f)            defined where 8 rows do not fit in the registers: name of f for half as
+ *                         many right-hand sides
+ *  SLW_DECLARE, SLW_ZERO, SLW_ADD     as above; SLW_LOAD and SLW_STORE need no alignment
+ *  SLW_FNMA(a, s, b)      a -= s b
+ *  SLW_DIVIDE(a, s)       a /= s
+ */
+
+/* op(0, k) op(1, k) .. over 4 or 8 values; _AGAIN is the same macro for use inside itself; HIGH and
+ * LOW are the two halves in descending order. */
+#define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
+#define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
+#define SLI_EACH4_AGAIN(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
+#define SLI_EACH8_AGAIN(op, k) SLI_EACH4_AGAIN(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
+#define SLI_HIGH4(op, k) op(3, k) op(2, k)
+#define SLI_HIGH8(op, k) op(7, k) op(6, k) op(5, k) op(4, k)
+#define SLI_LOW4(op, k) op(1, k) op(0, k)
+#define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
+
+/* Calls one of 8 copies of a function, compiled for the constant numbers of columns w = 1 .. 8. */
+#define SLI_CASE(k, call) \
+    case k: \
+        call(k); \
+        break;
+#define SLI_CASES(call) \
+    switch (w) { \
+        SLI_CASE(1, call) \
+        SLI_CASE(2, call) \
+        SLI_CASE(3, call) \
+        SLI_CASE(4, call) \
+        SLI_CASE(5, call) \
+        SLI_CASE(6, call) \
+        SLI_CASE(7, call) \
+    default: \
+        call(8); \
+    }
+
+/* SLV_EXPAND and SLV_EXPAND_ADD for instruction sets that have no instruction for them. */
+#define SLI_EXPAND_PLAIN(mask, lanes, count) \
+    const sl_int *lanes_ = (lanes), count_ = (count); \
+    (void)(mask);
+#define SLI_EXPAND_ADD_PLAIN(to, from) \
+    { \
+        double *to_ = (to); \
+        const double *from_ = (from); \
+        sl_int i_; \
+        for (i_ = 0; i_ < count_; i_++) { \
+            to_[lanes_[i_]] += from_[i_]; \
+        } \
+    }
+
+#endif

@@ -1,0 +1,62 @@
+/* step.h: the steps of a sweep, one for each supernode, and the contract of sweep kernels */
+#ifndef SLI_KERNELS_STEP_H
+#define SLI_KERNELS_STEP_H
+
+#include "panel.h"
+
+/* One supernode of a reach. The vector x of a sweep holds only the columns of the reach, without
+ * gaps; for a full sweep the reach is every column and base is the column itself. A sweep enters a
+ * supernode at the start of a row tile. So a local sweep does the same operations in the same order
+ * as a full one, which computes with zeros in the columns that the local one leaves out. */
+typedef struct sli_step {
+    sl_off panel;      /* position of the panel in L */
+    sl_int column;     /* first column needed: 8 first_tile columns into the supernode */
+    sl_int base;       /* position of that column in x */
+    sl_int width;      /* columns of the supernode */
+    sl_int below;      /* rows below its diagonal block; the sweep lists their positions in x */
+    sl_int first_tile; /* tiles and columns before it are not needed */
+    sl_int up;         /* step of the parent supernode, -1 at a root */
+} sli_step;
+
+/* Columns of x that belong to a step. */
+SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
+    return s->width - SLI_TILE * s->first_tile;
+}
+
+/* Right-hand sides are interleaved: row i of x is x[i nrhs] .. x[i nrhs + nrhs - 1], with nrhs = 1,
+ * 2, 4 or 8. A table of kernels has one kernel for each. */
+enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
+
+/* x := L^-1 x over the steps in ascending order. rows: positions in x of the rows below, step after
+ * step. scratch: sli_sweep_scratch doubles for the tallest and widest step, 64-byte aligned. */
+typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
+                                   const double *L, double *x, double *scratch);
+
+/* x := L'^-1 D^-1 x over the steps in descending order. rows_end: one past the last position of the
+ * last step. */
+typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
+                                    const double *L, const double *D, double *x, double *scratch);
+
+/* Row q of a panel in the up-looking factorization. On entry the panel holds the row of A, and
+ * x_super and x hold minus the updates so far. Computes the row of L, adds its updates to the rows
+ * of x before q, and clears x_super. D: pivots of the supernode. *pivot -= l' D l for the row l;
+ * *magnitude += |l' D l|, summed entry by entry. */
+typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
+                               const double *D, double *x_super, double *x, double *scratch,
+                               double *pivot, double *magnitude);
+
+/* Doubles of scratch for a step of a given height (width + below) and width. Kernels for 1 and 2
+ * right-hand sides copy all rows and keep 8 partial sums for each column. The others work on x in
+ * place and copy only the rows of one tile. */
+SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
+    const size_t tile = SLI_TILE;
+    return nrhs > 2 ? tile * (size_t)nrhs
+                    : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
+}
+
+/* Distance in bytes from the entries of L that a sweep reads to those that it prefetches. Small
+ * supernodes are read too slowly for the hardware prefetcher to run far enough ahead, and it starts
+ * again at every page. */
+#define SLI_PREFETCH_DISTANCE 4096
+
+#endif

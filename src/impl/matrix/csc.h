@@ -1,0 +1,121 @@
+/* csc.h: matrices in compressed columns: check, stored triangle, matrices of the library */
+#ifndef SLI_MATRIX_CSC_H
+#define SLI_MATRIX_CSC_H
+
+#include "../../public/csc.h"
+#include "../base/alloc.h"
+#include "../base/status.h"
+
+struct sl_matrix {
+    sl_allocator allocator;
+    sl_int n_rows, n_cols;
+    sl_int *p; /* n_cols + 1 */
+    sl_int *i; /* p[n_cols]; allocated longer if duplicates were summed */
+    double *x; /* p[n_cols]; NULL: a pattern */
+};
+
+SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
+    return A->n_cols > 0 ? A->p[A->n_cols] : 0;
+}
+
+SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
+    sl_int j, p;
+    sli_stats_clear_error(stats);
+    if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    if (A->n_cols == 0) {
+        return SL_OK;
+    }
+    if (A->p[0] != 0) {
+        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        if (A->p[j + 1] < A->p[j]) {
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+        }
+    }
+    if (sli_nnz(A) > 0 && A->i == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* The triangles that have entries. The two patterns are not compared. */
+static sl_triangle sli_triangle_scan(const sl_csc *A) {
+    sl_int j, p;
+    int lower = 0, upper = 0;
+    for (j = 0; j < A->n_cols && !(lower && upper); j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            lower |= A->i[p] > j;
+            upper |= A->i[p] < j;
+        }
+    }
+    return lower && upper ? SL_TRIANGLE_BOTH
+           : lower        ? SL_TRIANGLE_LOWER
+           : upper        ? SL_TRIANGLE_UPPER
+                          : SL_TRIANGLE_NONE;
+}
+
+/* Is this entry read? Of a matrix that stores both triangles only the lower one is. */
+SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
+    return triangle == SL_TRIANGLE_NONE ||
+           (triangle == SL_TRIANGLE_UPPER ? row <= column : row >= column);
+}
+
+/* Lays out a matrix with room for nnz entries. */
+static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_values) {
+    (void)sli_take(b, 1, sizeof(sl_matrix));
+    M->p = SLI_TAKE(b, sl_int, (size_t)M->n_cols + 1);
+    M->i = SLI_TAKE(b, sl_int, nnz);
+    M->x = has_values ? SLI_TAKE(b, double, nnz) : NULL;
+}
+
+static sl_status sli_matrix_new(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int nnz,
+                                int has_values, const sl_allocator *a) {
+    sl_matrix draft;
+    sli_block b = {NULL, 0, 0};
+    sl_status status;
+    draft.allocator = *a;
+    draft.n_rows = n_rows;
+    draft.n_cols = n_cols;
+    sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
+    status = sli_block_alloc(&b, a);
+    if (status == SL_OK) {
+        sli_matrix_layout(&draft, &b, (size_t)nnz, has_values);
+        *out = (sl_matrix *)(void *)b.base;
+        **out = draft;
+    }
+    return status;
+}
+
+SL_API void sl_matrix_free(sl_matrix *M) {
+    if (M != NULL) {
+        const sl_allocator a = M->allocator;
+        sli_free(&a, M);
+    }
+}
+
+SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
+    sl_csc A = {0, 0, NULL, NULL, NULL};
+    if (M != NULL) {
+        A.n_rows = M->n_rows;
+        A.n_cols = M->n_cols;
+        A.p = M->p;
+        A.i = M->i;
+        A.x = M->x;
+    }
+    return A;
+}
+
+#endif

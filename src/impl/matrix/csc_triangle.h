@@ -1,0 +1,76 @@
+/* csc_triangle.h: the triangle that a factorization reads; checks that a pattern is symmetric */
+#ifndef SLI_MATRIX_CSC_TRIANGLE_H
+#define SLI_MATRIX_CSC_TRIANGLE_H
+
+#include "csc_build.h"
+
+/* Checks that A has the pattern of its transpose T: marks the rows of each column of A, then every
+ * row in the same column of T must be marked. mark: n_cols elements. */
+static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int *mark,
+                                        sl_stats *stats) {
+    sl_int j, p;
+    memset(mark, 0, (size_t)A->n_cols * sizeof(sl_int));
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            mark[A->i[p]] = j + 1;
+        }
+        for (p = T->p[j]; p < T->p[j + 1]; p++) {
+            if (mark[T->i[p]] != j + 1) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, j, T->i[p], 0.0);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* The triangle of a checked square matrix that a factorization reads: the one in the options, or
+ * else the stored one. If both are stored, the pattern must be symmetric. *out is unchanged on
+ * error. */
+static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                  sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
+    const sl_triangle found = sli_triangle_scan(A);
+    sl_csc pattern = *A, T;
+    sl_matrix *transpose;
+    sl_int *mark;
+    sl_status status = SL_OK;
+    if ((unsigned)wanted > (unsigned)SL_TRIANGLE_BOTH) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (wanted == SL_TRIANGLE_LOWER || wanted == SL_TRIANGLE_UPPER) {
+        *out = wanted;
+        return SL_OK;
+    }
+    if (found == SL_TRIANGLE_BOTH) {
+        const sl_options only_memory = sli_options_with(&a);
+        pattern.x = NULL;
+        status = sl_matrix_transpose(&transpose, &pattern, &only_memory);
+        if (status != SL_OK) {
+            return status;
+        }
+        T = sl_matrix_view(transpose);
+        mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
+        status = mark == NULL ? SL_ERR_MEMORY : sli_csc_check_symmetry(A, &T, mark, stats);
+        sli_free(&a, mark);
+        sl_matrix_free(transpose);
+    }
+    if (status == SL_OK) {
+        *out = found;
+    }
+    return status;
+}
+
+SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
+                                 sl_stats *stats) {
+    sl_status status = sl_csc_check(A, stats);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (out == NULL || A->n_rows != A->n_cols || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_csc_triangle(A, out, opt, stats);
+}
+
+#endif

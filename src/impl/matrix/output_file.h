@@ -1,0 +1,157 @@
+/* output_file.h: a file that takes the place of an old one only once it is complete */
+#ifndef SLI_MATRIX_OUTPUT_FILE_H
+#define SLI_MATRIX_OUTPUT_FILE_H
+
+#include "../base/alloc.h"
+
+#define SLI_TEMPORARY_NAMES 100 /* tried beside a file: path.tmp00 to path.tmp99 */
+#define SLI_TEMPORARY_SUFFIX 16 /* bytes of ".tmp" and any int, as compilers count them */
+
+typedef struct sli_output {
+    FILE *file;
+    const char *path;
+    char *temporary; /* name of the file that is renamed to path; NULL: path itself is written */
+} sli_output;
+
+#if defined(SLI_POSIX)
+/* Whether a file can take this name by rename: nothing has the name yet, or a regular file that may
+ * be written. Not a device, pipe or symbolic link, whose name would be lost. *exists: whether it is
+ * such a file. */
+static int sli_is_replaceable(const char *path, int *exists) {
+    struct stat found;
+    FILE *probe;
+    *exists = 0;
+    if (sli_is_link(path) || strncmp(path, "/dev/", 5) == 0) {
+        return 0;
+    }
+    if (stat(path, &found) != 0) {
+        return errno == ENOENT;
+    }
+    if (!S_ISREG(found.st_mode)) {
+        return 0;
+    }
+    *exists = 1;
+    probe = fopen(path, "ab");
+    if (probe != NULL) {
+        fclose(probe);
+    }
+    return probe != NULL;
+}
+
+/* Gives the new file the permissions of the old one. Returns 0 if that fails or the new one has
+ * another owner or group, or is on another device: the old one is a mount point then. */
+static int sli_take_attributes(const char *name, const char *old_name) {
+    struct stat made, old;
+    return stat(name, &made) == 0 && stat(old_name, &old) == 0 && made.st_dev == old.st_dev &&
+           made.st_uid == old.st_uid && made.st_gid == old.st_gid &&
+           ((made.st_mode & 0777) == (old.st_mode & 0777) || chmod(name, old.st_mode & 0777) == 0);
+}
+#else
+/* The same with the means of C: what has no length, such as a device, is written in place. */
+static int sli_is_replaceable(const char *path, int *exists) {
+    FILE *probe = fopen(path, "r+b");
+    long length = 0;
+    *exists = 0; /* no attributes to keep */
+    if (probe != NULL) {
+        length = fseek(probe, 0, SEEK_END) == 0 ? ftell(probe) : 0;
+        fclose(probe);
+        return length > 0;
+    }
+    probe = fopen(path, "rb"); /* can be read and not written: not to be replaced */
+    if (probe != NULL) {
+        fclose(probe);
+    }
+    return probe == NULL;
+}
+#endif
+
+/* Creates a file that did not exist. The mode "x" is of C11; the C libraries of POSIX systems had
+ * it before. Elsewhere another program may create the file between the two calls. */
+static FILE *sli_create_new(const char *name) {
+#if defined(SLI_POSIX)
+    return fopen(name, "wbx");
+#else
+    FILE *old = fopen(name, "rb");
+    if (old != NULL) {
+        fclose(old);
+        return NULL;
+    }
+    return fopen(name, "wb");
+#endif
+}
+
+/* Creates the file o->temporary. Returns 0, without a file, if it could not take the place of path,
+ * so that path itself must be written. Returns 1 with the file, or with o->file NULL if there is no
+ * space for it or no name. */
+static int sli_create_beside(sli_output *o, int exists) {
+    const size_t length = strlen(o->path);
+    int k;
+    memcpy(o->temporary, o->path, length);
+    for (k = 0; k < SLI_TEMPORARY_NAMES && o->file == NULL; k++) {
+        snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
+        o->file = sli_create_new(o->temporary);
+    }
+    if (o->file == NULL) {
+        return errno != EACCES && errno != EPERM && errno != EROFS && errno != ENAMETOOLONG;
+    }
+#if defined(SLI_POSIX)
+    if (exists && !sli_take_attributes(o->temporary, o->path)) {
+        fclose(o->file);
+        o->file = NULL;
+        remove(o->temporary);
+        return 0;
+    }
+#else
+    (void)exists;
+#endif
+    return 1;
+}
+
+/* Opens o->file for what path shall contain. On error o needs no closing. */
+static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
+    int exists, could_replace;
+    o->path = path;
+    o->temporary = NULL;
+    o->file = NULL;
+    if (sli_is_replaceable(path, &exists)) {
+        o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
+        if (o->temporary == NULL) {
+            return SL_ERR_MEMORY;
+        }
+        could_replace = sli_create_beside(o, exists);
+        if (o->file != NULL) {
+            return SL_OK;
+        }
+        sli_free(a, o->temporary);
+        o->temporary = NULL;
+        if (could_replace) {
+            return SL_ERR_IO;
+        }
+    }
+    o->file = fopen(path, "wb");
+    return o->file != NULL ? SL_OK : SL_ERR_IO;
+}
+
+/* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
+static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+    int ok = fclose(o->file) == 0 && complete;
+    if (o->temporary != NULL) {
+        int is_lost = !ok;
+        if (ok && rename(o->temporary, o->path) != 0) {
+#if defined(SLI_POSIX)
+            ok = 0;
+            is_lost = 1;
+#else
+            /* rename may refuse an existing name; the temporary file is then the only copy */
+            ok = remove(o->path) == 0 && rename(o->temporary, o->path) == 0;
+#endif
+        }
+        if (is_lost) {
+            remove(o->temporary);
+        }
+        sli_free(a, o->temporary);
+    }
+    return ok;
+}
+
+#endif

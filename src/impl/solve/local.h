@@ -1,0 +1,164 @@
+/* local.h: sl_local_solve: one local solve without a plan, compiled in the workspace */
+#ifndef SLI_SOLVE_LOCAL_H
+#define SLI_SOLVE_LOCAL_H
+
+#include "compile.h"
+#include "sweep.h"
+
+/* A local solve in progress. */
+typedef struct sli_local {
+    const sl_symbolic *S;
+    sli_set b, x;
+    sli_query query;
+    sl_int nrhs;
+    sl_stats *stats;
+    sl_status status;      /* of sorting the sets */
+    unsigned char *memory; /* vectors of the sweeps */
+} sli_local;
+
+static void sli_local_layout_seeds(void *data, sli_block *b) {
+    sli_local *l = (sli_local *)data;
+    sli_set_layout_seeds(&l->b, b);
+    sli_set_layout_seeds(&l->x, b);
+}
+
+static void sli_local_sort(void *data) {
+    sli_local *l = (sli_local *)data;
+    memset(&l->query, 0, sizeof l->query);
+    l->status = sli_set_sort(l->S, &l->b, l->stats);
+    if (l->status == SL_OK) {
+        l->status = sli_set_sort(l->S, &l->x, l->stats);
+    }
+    if (l->status == SL_OK) {
+        sli_set_measure(l->S, &l->b, &l->query.forward);
+        sli_set_measure(l->S, &l->x, &l->query.backward);
+    }
+}
+
+static void sli_local_layout_reaches(void *data, sli_block *b) {
+    sli_local *l = (sli_local *)data;
+    sli_set_layout_reach(&l->b, b, &l->query.forward);
+    sli_set_layout_reach(&l->x, b, &l->query.backward);
+}
+
+static void sli_local_compile(void *data) {
+    sli_local *l = (sli_local *)data;
+    if (l->status == SL_OK) {
+        sli_query_fill(&l->query, l->S, NULL, &l->b, &l->x);
+    }
+}
+
+static void sli_local_layout_vectors(void *data, sli_block *b) {
+    sli_local *l = (sli_local *)data;
+    const size_t bytes =
+        l->status == SL_OK && l->nrhs > 0 ? sli_vectors_bytes(&l->query, l->nrhs) : 0;
+    l->memory = (unsigned char *)sli_take(b, bytes, 1);
+}
+
+/* The sizes of the reaches are known only once the sets are sorted. If the workspace has to grow
+ * for them, the sets are sorted again. */
+static const sli_stage sli_local_stages[3] = {{sli_local_layout_seeds, sli_local_sort},
+                                              {sli_local_layout_reaches, sli_local_compile},
+                                              {sli_local_layout_vectors, NULL}};
+
+SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int nb,
+                                const sl_int *xset, sl_int nx, double *X, size_t ldx,
+                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
+                                sl_stats *stats) {
+    sl_work own;
+    sli_local l;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_check_sets(F->S, bset, nb, xset, nx);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&l, 0, sizeof l);
+    l.S = F->S;
+    l.b = sli_set_of(F->S, bset, nb);
+    l.x = sli_set_of(F->S, xset, nx);
+    l.nrhs = nrhs;
+    l.stats = stats;
+    status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, SLI_COLUMN_MAJOR, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!F->is_valid) {
+        return SL_ERR_STATE;
+    }
+    own = sli_work_own(&F->allocator);
+    W = W == NULL ? &own : W;
+    status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
+    status = status == SL_OK ? sli_work_stages(W, sli_local_stages, 3, &l) : status;
+    status = status == SL_OK ? l.status : status;
+    if (status == SL_OK && stats != NULL) {
+        sli_query_stats(&l.query, stats);
+        stats->plan.bytes = 0;
+    }
+    if (status == SL_OK && nrhs > 0 && l.query.nx > 0) {
+        status = sli_sweep(F, &l.query, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
+                           sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs, l.memory);
+    }
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+/* min(count most, all), without overflow. */
+static sl_off sli_times_at_most(sl_off most, sl_int count, sl_off all) {
+    return count > 0 && most > all / count ? all : most * count;
+}
+
+/* An upper bound on the reach of any `count` rows: count times the longest path to a root, but at
+ * most the whole tree. Supernodes in descending order are a preorder of the tree, so the path to
+ * each one is the path to the one before it, cut back to its parent. O(supernodes) time, no
+ * memory. */
+static sli_reach sli_reach_bound(const sl_symbolic *S, sl_int count) {
+    sli_reach R = sli_reach_all(S);
+    sl_off supers = 0, columns = 0, rows = 0, most_supers = 0, most_columns = 0, most_rows = 0;
+    sl_int s, at = -1;
+    for (s = S->n_supers - 1; s >= 0; s--) {
+        for (; at != S->super_parent[s]; at = S->super_parent[at]) {
+            supers--;
+            columns -= S->steps[at].width;
+            rows -= S->steps[at].below;
+        }
+        at = s;
+        supers++;
+        columns += S->steps[s].width;
+        rows += S->steps[s].below;
+        most_supers = supers > most_supers ? supers : most_supers;
+        most_columns = columns > most_columns ? columns : most_columns;
+        most_rows = rows > most_rows ? rows : most_rows;
+    }
+    R.count = (sl_int)sli_times_at_most(most_supers, count, R.count);
+    R.columns = (sl_int)sli_times_at_most(most_columns, count, R.columns);
+    R.n_rows = sli_times_at_most(most_rows, count, R.n_rows);
+    return R;
+}
+
+SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int nb, sl_int nx,
+                                       sl_int nrhs) {
+    static const sl_int some_rows = 0; /* never read; a set that is NULL would be all rows */
+    sli_block b = {NULL, 0, 0};
+    sli_local l;
+    if (W == NULL || S == NULL || nb < 0 || nx < 0 || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(&l, 0, sizeof l);
+    l.S = S;
+    l.b = sli_set_of(S, &some_rows, nb);
+    l.x = sli_set_of(S, &some_rows, nx);
+    l.nrhs = nrhs;
+    l.query.forward = sli_reach_bound(S, nb);
+    l.query.backward = sli_reach_bound(S, nx);
+    sli_local_layout_seeds(&l, &b);
+    sli_local_layout_reaches(&l, &b);
+    sli_local_layout_vectors(&l, &b);
+    b.used = b.used > 0 ? b.used : 1;
+    return sli_work_block(W, &b);
+}
+
+#endif

@@ -1,0 +1,237 @@
+/* singular.h: solves with null pivots: the consistency check, and centering */
+#ifndef SLI_SOLVE_SINGULAR_H
+#define SLI_SOLVE_SINGULAR_H
+
+#include "../analysis/reach.h"
+#include "../factor/factor_types.h"
+
+/* Sums over the columns of a step, which begins at a whole tile. 8 independent chains of additions
+ * hide the latency. Double f of a step goes to chain f % 8, in a local sweep as in a full one, so
+ * the bits agree. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
+                                       sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) {
+            chains[q] += fabs(row[f + q]);
+        }
+    }
+    for (q = 0; f < count; q++) {
+        chains[q] += fabs(row[f++]);
+    }
+}
+
+SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const double *row,
+                                      sl_int columns, sl_int lanes) {
+    const ptrdiff_t count = (ptrdiff_t)columns * lanes;
+    ptrdiff_t f = 0;
+    sl_int q;
+    for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
+        SLI_UNROLL
+        for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
+            chains[q] += v[q / lanes] * row[f + q];
+        }
+    }
+    for (q = 0; f < count; q++) {
+        chains[q] += v[q / lanes] * row[f++];
+    }
+}
+
+/* sums(r) := the sum of the chains of right-hand side r, in order. */
+static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
+    sl_int q;
+    for (q = 0; q < lanes; q++) {
+        sums[q] = chains[q];
+    }
+    for (; q < SLI_TILE; q++) {
+        sums[q % lanes] += chains[q];
+    }
+}
+
+/* Expands a call for each number of lanes, as a constant. */
+#define SLI_FOR_LANES(lanes, call) \
+    if ((lanes) == 1) { \
+        call(1); \
+    } else if ((lanes) == 2) { \
+        call(2); \
+    } else if ((lanes) == 4) { \
+        call(4); \
+    } else { \
+        call(8); \
+    }
+
+/* norms(r) := the sum of |b| in a packed block of right-hand sides. */
+static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
+    double chains[SLI_TILE];
+    sl_int s;
+    memset(chains, 0, sizeof chains);
+    for (s = 0; s < R->count; s++) {
+        const sl_int columns = sli_step_columns(&R->steps[s]);
+        const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
+#define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+    }
+    sli_chains_sum(chains, lanes, norms);
+}
+
+/* The columns of the whole tree whose root is a step of a reach. */
+typedef struct sli_tree_range {
+    sl_int first, root;
+} sli_tree_range;
+
+SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step *root) {
+    const sl_int super = S->super_of[root->column];
+    sli_tree_range tree;
+    tree.first = S->super_first[S->first_descendant[super]];
+    tree.root = S->super_first[super + 1] - 1;
+    return tree;
+}
+
+/* After the forward sweep: y(k) := z' b at each null pivot k in the reach whose null vector z is
+ * known, scaled to z(k) = 1. */
+static void sli_null_products(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+    sl_int s, first = 0, m, r;
+    for (s = 0; s < R->count; s++) {
+        sli_tree_range tree;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_range_of(F->S, &R->steps[s]);
+        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
+            const sl_int null = F->nulls[m], at = sli_reach_index_of(R, null);
+            if (at != -1 && F->g[null] != 0.0) { /* at most one in a tree */
+                double chains[SLI_TILE], sums[SLI_TILE];
+                memset(chains, 0, sizeof chains);
+                for (; first <= s; first++) {
+                    const sli_step *step = &R->steps[first];
+                    const double *g = F->g + step->column, *row = y + (ptrdiff_t)step->base * lanes;
+                    const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, g, row, columns, constant)
+                    SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+                }
+                sli_chains_sum(chains, lanes, sums);
+                for (r = 0; r < lanes; r++) {
+                    y[(ptrdiff_t)at * lanes + r] = sums[r] / F->z[null];
+                }
+                break;
+            }
+        }
+        first = s + 1;
+    }
+}
+
+/* After the forward sweep: is |z' b| small at every null pivot? NaN and overflow pass: they show in
+ * x. */
+static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
+                             const double *norms) {
+    sl_int s, m, r;
+    for (s = 0; s < R->count; s++) {
+        sli_tree_range tree;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_range_of(F->S, &R->steps[s]);
+        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
+            const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+            for (r = 0; at != -1 && r < lanes; r++) {
+                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
+                    return 0;
+                }
+            }
+        }
+    }
+    return 1;
+}
+
+/* For one tree and each right-hand side: c' and t of nullspace.h. */
+typedef struct sli_center_terms {
+    double c[SLI_TILE], t[SLI_TILE];
+} sli_center_terms;
+
+/* Computes the terms of the tree that begins at step s. Returns the step after its root. m: the
+ * number of its anchor, or -1. */
+static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int s,
+                                    const double *y, sl_int lanes, sl_int *m, sli_tree_range *tree,
+                                    sli_center_terms *terms) {
+    double chains[SLI_TILE], sums[SLI_TILE];
+    sl_int r, at, up = s;
+    memset(terms, 0, sizeof *terms);
+    memset(chains, 0, sizeof chains);
+    while (up != -1) {
+        const sli_step *step = &R->steps[s++];
+        const double *v = F->center + step->column, *row = y + (ptrdiff_t)step->base * lanes;
+        const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+        up = step->up;
+    }
+    *tree = sli_tree_range_of(F->S, &R->steps[s - 1]);
+    *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
+    if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
+        *m = -1;
+        return s;
+    }
+    at = sli_reach_index_of(R, F->anchors[*m]);
+    if (at != -1) {
+        memcpy(terms->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
+    }
+    sli_chains_sum(chains, lanes, sums);
+    for (r = 0; r < lanes; r++) {
+        terms->c[r] *= F->ratios[*m];
+        terms->t[r] = terms->c[r] * F->squares[*m] - sums[r];
+    }
+    return s;
+}
+
+/* row := y - c w on the columns of one step of the backward sweep. Called with constant lanes. */
+SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
+                                          sl_int columns, const double *c, sl_int lanes) {
+    sl_int k, r;
+    for (k = 0; k < columns; k++, row += lanes) {
+        const double w = v[k] * D[k];
+        SLI_UNROLL
+        for (r = 0; r < lanes; r++) {
+            row[r] -= c[r] * w;
+        }
+    }
+}
+
+/* Centers between the sweeps. y holds the columns of the reach `from`; x, which may be y, those of
+ * the reach `to`. Trees ascend in both. Trees without a row of b need nothing. */
+static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
+                       const sli_reach *to, double *x, sl_int lanes) {
+    sl_int s = 0, at = 0, m;
+    while (s < from->count && at < to->count) {
+        sli_center_terms terms;
+        sli_tree_range tree;
+        sl_int index;
+        s = sli_center_tree_terms(F, from, s, y, lanes, &m, &tree, &terms);
+        for (; at < to->count && to->steps[at].column <= tree.root; at++) {
+            const sli_step *step = &to->steps[at];
+            const double *v = F->center + step->column, *D = F->D + step->column;
+            double *row = x + (ptrdiff_t)step->base * lanes;
+            const sl_int columns = sli_step_columns(step);
+            if (m != -1 && step->column >= tree.first) {
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c, constant)
+                SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+            }
+        }
+        index = m != -1 ? sli_reach_index_of(to, F->anchors[m]) : -1;
+        if (index != -1) { /* the backward sweep divides by 1 there */
+            memcpy(x + (ptrdiff_t)index * lanes, terms.t, (size_t)lanes * sizeof(double));
+        }
+    }
+}
+
+#undef SLI_FOR_LANES
+
+#endif

@@ -1,0 +1,123 @@
+/* options.h: options of all calls, threads, and the allocator */
+#ifndef SL_PUBLIC_OPTIONS_H
+#define SL_PUBLIC_OPTIONS_H
+
+#include "types.h"
+
+/** Runs body(data, k) once for each k = 0 .. count-1, in any order and concurrently if it can, and
+ *  returns when all are done. */
+typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                                void *data);
+
+/** Threads, opt-in: all zero means none. Results do not depend on the number of threads. */
+typedef struct sl_threads {
+    sl_int count; /* 0 or 1: the calling thread only */
+    /* the caller's thread pool; NULL: OpenMP if compiled with it, else serial execution */
+    sl_parallel_for run;
+    void *context; /* passed to run */
+} sl_threads;
+
+/** Memory of the objects. Set both functions or neither; only one is SL_ERR_ARGUMENT.
+ *
+ *  Neither: malloc and free; on Linux, blocks of 4 MB and more use huge pages. Every object keeps a
+ *  copy of its allocator.
+ */
+typedef struct sl_allocator {
+    void *(*allocate)(void *context, size_t bytes); /* NULL on failure; aligned as malloc does */
+    void (*release)(void *context, void *block);    /* block came from allocate, never NULL */
+    void *context;
+} sl_allocator;
+
+/** Options. Every call takes this struct and reads the fields listed for it; all zero, or a NULL
+ *  pointer, means defaults.
+ *
+ *  | call                                       | fields that it reads                     |
+ *  |--------------------------------------------|------------------------------------------|
+ *  | every call with an sl_options argument     | size, allocator                          |
+ *  | sl_symbolic_create                         | ordering .. block_size                   |
+ *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
+ *  | sl_factor_create and _create_combination   | threads, isa .. signs, null_vector       |
+ *  | sl_batch_factor                            | threads, isa .. signs, null_vector       |
+ *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
+ *  | sl_selected_create                         | threads                                  |
+ *  | sl_plan_create                             | region                                   |
+ *  | sl_region_create                           | region_bytes                             |
+ *
+ *  With SL_VERIFY a call refuses a field that is set and that it does not read.
+ */
+typedef struct sl_options {
+    /* sizeof(sl_options), set by sl_options_init; 0 means the same; else SL_ERR_ARGUMENT */
+    size_t size;
+    sl_allocator allocator;
+    sl_threads threads;
+
+    /* ---- analysis ---- */
+
+    sl_ordering ordering;
+    sl_relaxation relaxation;
+    /* the triangle to read; SL_TRIANGLE_NONE: the pattern decides. LOWER or UPPER ignore the
+     * entries on the other side of the diagonal, whatever their pattern */
+    sl_triangle triangle;
+    /* n: perm[k] = row of A that is pivot k; read with SL_ORDERING_GIVEN only */
+    const sl_int *perm;
+    /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
+     * numbering and debug level are ignored */
+    const sl_int *metis_options;
+    /* n / block_size x dimensions, row-major: the position of each row in space, for
+     * SL_ORDERING_ND, which bisects space where that gives the better separator; NULL: unknown */
+    const double *coordinates;
+    sl_int dimensions; /* of coordinates: 2 or 3 */
+    /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
+     * vertex; divides n; 0 or 1: no blocks */
+    sl_int block_size;
+
+    /* ---- factorization ---- */
+
+    sl_isa isa;
+    sl_method method;
+    sl_null_pivots null_pivots;
+    /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
+     * not read where a known null vector decides (sl_factor_create); 0: (64 + n/8) epsilon;
+     * negative: only an exact zero is null */
+    double null_tolerance;
+    /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
+     * solution has sum m x = 0, and b is made consistent by a multiple of m; NULL: x is 0 in the
+     * null rows */
+    const double *mass;
+    /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
+     * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
+     * single-precision errors; negative: nothing is refused */
+    double consistency_tolerance;
+    /* with SL_NULL_PIVOT_REFUSE: a null pivot, or one of the wrong sign, becomes sign * max(|d|,
+     * regularization * (sum of the magnitudes it was computed from, 1 if that is 0)); 1e-8 suits
+     * refinement; 0: no regularization */
+    double regularization;
+    /* n, copied: the sign that each row's pivot should have, 1 or -1, or 0 for either; NULL: all 1
+     */
+    const sl_int *signs;
+
+    /* ---- local solves ---- */
+
+    /* where the sweeps of a plan may end; borrowed, must outlive the plan; NULL: at the roots only
+     */
+    const sl_region *region;
+    /* upper bound on the bytes of a region that has a boundary; 0: no bound */
+    size_t region_bytes;
+
+    /* with SL_NULL_PIVOT_SKIP: n numbers, copied: a vector that is a null vector of each connected
+     * component that has one; 0 in all rows of a component: its null vectors are unknown; NULL: all
+     * 1 */
+    const double *null_vector;
+
+    /* must be NULL; new options take their place, so that the size of the struct never changes */
+    const void *reserved[7];
+} sl_options;
+
+/** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.
+ *
+ *  For bindings: a library with another sl_options refuses the struct with SL_ERR_ARGUMENT instead
+ *  of misreading it. C programs may equally well zero the struct.
+ */
+SL_API void sl_options_init(sl_options *opt, size_t size);
+
+#endif

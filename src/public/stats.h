@@ -1,0 +1,122 @@
+/* stats.h: what calls report: the location of an error, counts, times and sizes, in groups */
+#ifndef SL_PUBLIC_STATS_H
+#define SL_PUBLIC_STATS_H
+
+#include "types.h"
+
+/** Where an error is. Every call resets it. Row and column numbers are the caller's. */
+typedef struct sl_error {
+    sl_int row;    /* -1: does not apply */
+    sl_int column; /* -1: does not apply */
+    sl_off line;   /* of a file, 1-based; -1: does not apply */
+    double value;  /* the pivot or entry that was refused; 0 if none */
+} sl_error;
+
+/** An analysis: sl_symbolic_create, sl_symbolic_stats. */
+typedef struct sl_symbolic_info {
+    sl_int n;
+    sl_triangle triangle;
+    sl_off nnz_a;      /* entries of A that are read: one triangle with diagonal, with duplicates */
+    sl_off nnz_l;      /* entries of L with its unit diagonal, without relaxation */
+    sl_off nnz_panels; /* doubles stored for L, padding and relaxation included */
+    double flops;      /* sum over columns of (entries)^2, without relaxation */
+    sl_int supernodes;
+    sl_int supernodes_fundamental; /* before relaxation */
+    sl_int tree_height;            /* columns on the longest path of the elimination tree */
+    sl_int components;             /* roots of the elimination tree */
+    double seconds_order;          /* processor seconds of the ordering */
+    double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
+    double seconds_tree;           /* elimination tree, column counts and supernodes */
+    double seconds_structure;      /* rows of L and the map of A into L */
+    size_t bytes;
+} sl_symbolic_info;
+
+/** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_stats. */
+typedef struct sl_factor_info {
+    sl_isa isa;
+    sl_method method;   /* the method that was used */
+    sl_int positive;    /* pivots by sign: the inertia of A */
+    sl_int negative;    /* the same */
+    sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
+    sl_int regularized; /* pivots that regularization changed; they count by their new sign */
+    /* with SL_NULL_PIVOT_SKIP: kept pivots within rounding of 0. A component with a known null
+     * vector has them where its parts are joined weakly, or if it has a second null vector */
+    sl_int weak;
+    /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
+     * unique, and options.mass does not apply to them */
+    sl_int regular;
+    double pivot_min;   /* smallest |d| */
+    double pivot_max;   /* largest |d| */
+    double seconds_setup; /* processor seconds of schedule and memory in sl_factor_create */
+    double seconds;       /* processor seconds of the numbers, summed over all threads */
+    size_t bytes;
+} sl_factor_info;
+
+/** A local solve: sl_plan_create, sl_plan_stats, sl_local_solve. */
+typedef struct sl_plan_info {
+    sl_int b_supernodes;   /* supernodes that the forward sweep visits */
+    sl_int b_columns;      /* their columns */
+    sl_off b_entries;      /* doubles of L that the forward sweep reads */
+    sl_int x_supernodes;   /* the same for the backward sweep */
+    sl_int x_columns;      /* the same */
+    sl_off x_entries;      /* the same */
+    int in_region;         /* 1: sweeps end at the boundary of options.region; 0: at the roots */
+    sl_off region_entries; /* doubles of the region's inverse that a solve reads */
+    size_t bytes;
+} sl_plan_info;
+
+/** Entries of the inverse: sl_inverse_diagonal, _pairs, _block, _bilinear. */
+typedef struct sl_inverse_info {
+    sl_inverse_method method;
+    /* SL_INVERSE_FORWARD: of the largest reach swept; SL_INVERSE_SELECTED: of the inverted part */
+    sl_int supernodes;
+    sl_int columns; /* the same */
+    sl_off entries; /* SL_INVERSE_FORWARD: doubles of L that all sweeps together read; else 0 */
+} sl_inverse_info;
+
+/** A selected inverse: sl_selected_create, sl_selected_stats. */
+typedef struct sl_selected_info {
+    sl_int supernodes; /* supernodes whose part of the inverse is kept */
+    sl_int columns;    /* their columns */
+    sl_off entries;    /* doubles kept */
+    double seconds;    /* processor seconds, summed over all threads */
+    size_t bytes;
+} sl_selected_info;
+
+/** A region: sl_region_create, sl_region_refactor, sl_region_stats. */
+typedef struct sl_region_info {
+    sl_int rows;     /* rows of A that a plan in it may use, the boundary included */
+    sl_int boundary; /* rows of the boundary */
+    sl_int subtrees; /* subtrees of supernodes in its interior */
+    sl_off entries;  /* doubles of the inverse that are kept */
+    int is_copied;   /* 1: copied from a selected inverse; 0: computed by forward sweeps */
+    double seconds;  /* processor seconds */
+    size_t bytes;
+} sl_region_info;
+
+/** Refinement: sl_factor_refine, sl_plan_solve_refined. */
+typedef struct sl_refine_info {
+    sl_int steps;          /* corrections applied, the maximum over all right-hand sides */
+    double backward_error; /* what remains, the maximum over all right-hand sides */
+} sl_refine_info;
+
+/** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
+ *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
+ */
+typedef struct sl_stats {
+    sl_error error;
+    sl_symbolic_info symbolic;
+    sl_factor_info factor;
+    sl_plan_info plan;
+    sl_inverse_info inverse;
+    sl_selected_info selected;
+    sl_region_info region;
+    sl_refine_info refine;
+    /* new fields take this space, so that the size of the struct never changes; not written */
+    sl_off reserved[31];
+} sl_stats;
+
+/** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
+SL_API size_t sl_stats_size(void);
+
+#endif
