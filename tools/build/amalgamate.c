@@ -1,21 +1,40 @@
-/* amalgamate.c: expands the quoted includes of the manifest into the one header that users take
+/* amalgamate.c: writes the single header sparse_local.h from the parts that the manifest lists
  *
- *     amalgamate [--check] MANIFEST OUT [LICENSE]
+ *     amalgamate [--check] [--flat] MANIFEST OUT [LICENSE]
  *
- * MANIFEST  the ordered list of parts; lines of its own (guards, headings) go to OUT as they stand.
- * OUT       written only if its bytes change; with --check compared only.
- * LICENSE   a text file that closes OUT as a comment, since a header travels alone.
+ * --check   compares OUT with what would be written and writes nothing.
+ * --flat    expands a template at each of its includes; the result does not include itself.
+ * MANIFEST  the ordered list of parts; its other lines (guards, headings) are copied unchanged.
+ * OUT       the header; written only if its bytes change.
+ * LICENSE   a text file, appended as a comment, because a header is often copied by itself.
  *
- * A part stands in OUT once, where the manifest includes it; an include of it from another part vanishes, as the guard
- * would have it. A part named *.inl.h has no guard and stands at each of its includes. Includes in angle brackets
- * stay. Nothing else is touched: no renaming, no dates, so that the same input gives the same bytes.
+ * A part is a guarded file. It is expanded once, where the manifest includes it, without its guard.
+ * An include of it from another part is dropped, as its guard would do.
+ *
+ * A template is a file named *.inl.h. It has no guard and is compiled several times. A template
+ * that a part includes becomes a section at the end of OUT, and the include becomes
+ *
+ *     #define SLI_SECTION_<NAME>
+ *     #include SL_HEADER
+ *
+ * so that OUT includes itself and each template is in it exactly once. A template that another
+ * template includes is expanded in place; it may be included only once.
+ *
+ * Parts below impl/ are indented by two columns a level instead of four, because a header is read
+ * by its users and copied in one piece: that makes OUT smaller by a twentieth.
+ *
+ * The first line of a file, "name.h: what it does", gets the path of the file and so marks where it
+ * begins. A template inside another one also has a line where it ends. Includes in angle brackets
+ * and all other lines are copied as they are: no renaming, no dates. The same input gives the same
+ * bytes.
  */
+#include <ctype.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 512, ENTRIES_MAX = 512, DEPTH_MAX = 16 };
+enum { PATH_SIZE = 512, ENTRIES_MAX = 512, SECTIONS_MAX = 32, DEPTH_MAX = 16 };
 
 typedef struct text {
     char *bytes;
@@ -23,21 +42,24 @@ typedef struct text {
     size_t room;
 } text;
 
-/* one line of the table of contents */
+/* One line of the table of contents. */
 typedef struct entry {
-    char name
-        [PATH_SIZE]; /* path of a part from the manifest's folder; empty: a heading of the manifest */
+    /* path of the file, relative to the folder of the manifest; empty for a heading */
+    char name[PATH_SIZE];
     char title[PATH_SIZE];
-    size_t line; /* of the body */
+    size_t line; /* in the body */
     int is_guarded;
 } entry;
 
 typedef struct job {
-    char folder[PATH_SIZE]; /* of the manifest, with the closing slash; "" for the current one */
+    char folder[PATH_SIZE]; /* of the manifest, with a trailing slash; "" is the current folder */
+    int is_flat;
     text body;
     size_t lines;
     entry entries[ENTRIES_MAX];
     size_t n_entries;
+    char sections[SECTIONS_MAX][PATH_SIZE]; /* templates that parts include */
+    size_t n_sections;
     char version[3][16];
 } job;
 
@@ -65,7 +87,8 @@ static void append_string(text *t, const char *string) {
     append(t, string, strlen(string));
 }
 
-/* The file with '\n' line ends and a closing one, whatever the editor left. Returns whether there is one. */
+/* Reads a file. Drops carriage returns and ends the last line. Returns 0 if there is no such file.
+ * */
 static int read_file(text *t, const char *path) {
     FILE *f = fopen(path, "rb");
     if (!f) return 0;
@@ -85,7 +108,8 @@ static void copy_path(char *to, const char *from, size_t length) {
     to[length] = 0;
 }
 
-/* to = target as seen from the folder of the part `from`, "." and ".." worked out; both from the manifest's folder */
+/* to = target, which is relative to the folder of `from`, with "." and ".." resolved. Both `from`
+ * and `to` are relative to the folder of the manifest. */
 static void resolve(char *to, const char *from, const char *target, size_t length) {
     const char *slash = strrchr(from, '/');
     size_t used = slash ? (size_t)(slash - from) : 0;
@@ -117,7 +141,7 @@ static const char *skip_blanks(const char *s) {
     return s;
 }
 
-/* The target of a quoted include and its length, or NULL for any other line. */
+/* Returns the target of a quoted include and its length, or NULL for any other line. */
 static const char *quoted_include(const char *line, size_t *length) {
     line = skip_blanks(line);
     if (*line != '#') return NULL;
@@ -129,19 +153,39 @@ static const char *quoted_include(const char *line, size_t *length) {
     return line[*length] == '"' ? line : NULL;
 }
 
-static int is_repeated(const char *path) {
+static int is_template(const char *path) {
     size_t length = strlen(path);
     return length > 6 && strcmp(path + length - 6, ".inl.h") == 0;
 }
 
-static int starts_with_guard(const char *s) {
-    while (s && *s) {
-        const char *line = skip_blanks(s);
-        if (*line == '#') return strncmp(skip_blanks(line + 1), "ifndef", 6) == 0;
-        s = strchr(s, '\n');
-        if (s) s++;
-    }
-    return 0;
+/* The include guard of a part: the lines #ifndef X and #define X before anything else but comments,
+ * and #endif as the last line. All are NULL if there is no such guard. */
+typedef struct guard {
+    const char *ifndef, *define, *endif;
+} guard;
+
+/* The macro of a directive of this kind, or NULL. */
+static const char *macro_of(const char *line, const char *directive) {
+    size_t length = strlen(directive);
+    line = skip_blanks(line);
+    return strncmp(line, directive, length) == 0 ? skip_blanks(line + length) : NULL;
+}
+
+static guard find_guard(const char *bytes) {
+    guard g = {NULL, NULL, NULL};
+    const char *line = bytes, *last = NULL;
+    while (*line && *skip_blanks(line) != '#')
+        line += strcspn(line, "\n") + 1;
+    const char *tested = macro_of(line, "#ifndef "),
+               *next = line + strcspn(line, "\n") + (*line != 0);
+    const char *defined = macro_of(next, "#define ");
+    if (!tested || !defined) return g;
+    size_t length = strcspn(tested, "\n") + 1;
+    if (strncmp(tested, defined, length) != 0) return g;
+    for (const char *k = next; *k; k += strcspn(k, "\n") + 1)
+        if (*k != '\n') last = k;
+    if (strncmp(last, "#endif", 6) == 0) g.ifndef = line, g.define = next, g.endif = last;
+    return g;
 }
 
 static void emit(job *j, const char *line, size_t length) {
@@ -156,20 +200,45 @@ static void emit(job *j, const char *line, size_t length) {
     }
 }
 
-static void emit_mark(job *j, const char *what, const char *path) {
-    char line[PATH_SIZE + 32];
-    int length = snprintf(line, sizeof line, "/* %s src/%s */\n", what, path);
-    emit(j, line, (size_t)length);
+/* Emits a line of the file `path`; in the implementation, with half of each four columns of its
+ * indentation. */
+static void emit_from(job *j, const char *path, const char *line, size_t length) {
+    if (strncmp(path, "impl/", 5) == 0) {
+        size_t dropped = strspn(line, " ") / 4 * 2;
+        line += dropped;
+        length -= dropped;
+    }
+    emit(j, line, length);
 }
 
-/* Adds a line to the table of contents: from "/ * name: title * /" of a part, or from a heading of the manifest. */
+static void emit_lines(job *j, const char *lines) {
+    while (*lines) {
+        size_t length = strcspn(lines, "\n") + 1;
+        emit(j, lines, length);
+        lines += length;
+    }
+}
+
+/* Emits a line that names a file or a macro. */
+static void emit_format(job *j, const char *format, const char *name) {
+    const char *at = strstr(format, "%s");
+    text line = {NULL, 0, 0};
+    append(&line, format, (size_t)(at - format));
+    append_string(&line, name);
+    append_string(&line, at + 2);
+    emit(j, line.bytes, line.length);
+    free(line.bytes);
+}
+
+/* Adds a line to the table of contents. `line` is the first line of a file, "/ * name: title * /",
+ * or a heading of the manifest. */
 static void enter(job *j, const char *path, const char *line) {
     if (j->n_entries == ENTRIES_MAX)
         fail(path, 0, "too many parts for the table of contents", NULL);
     entry *e = &j->entries[j->n_entries++];
     copy_path(e->name, path, strlen(path));
     e->line = j->lines + 1;
-    e->is_guarded = starts_with_guard(line);
+    e->is_guarded = find_guard(line).ifndef != NULL;
     if (strncmp(line, "/*", 2) == 0) line += 2;
     size_t end = strcspn(line, "\n");
     const char *close = strstr(line, "*/");
@@ -195,57 +264,153 @@ static entry *find_entry(job *j, const char *path) {
 
 static void expand(job *j, const char *path, int depth);
 
-/* An include of a part: expands it, or drops it where it stands in the product already. */
+/* The macro that selects the section of a template: SLI_SECTION_ and its base name in capitals. */
+static void section_macro(char *to, const char *path) {
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    size_t used = (size_t)sprintf(to, "SLI_SECTION_");
+    for (; *base && *base != '.'; base++)
+        to[used++] = (char)toupper((unsigned char)*base);
+    to[used] = 0;
+}
+
+/* Adds a template to the sections. Returns whether it is the first of all. */
+static int add_section(job *j, const char *path) {
+    char macro[PATH_SIZE + 16], other[PATH_SIZE + 16];
+    section_macro(macro, path);
+    for (size_t k = 0; k < j->n_sections; k++) {
+        section_macro(other, j->sections[k]);
+        if (strcmp(j->sections[k], path) == 0) return 0;
+        if (strcmp(macro, other) == 0)
+            fail(path, 0, "another template has the same base name", "rename one of them");
+    }
+    if (j->n_sections == SECTIONS_MAX) fail(path, 0, "too many templates", NULL);
+    copy_path(j->sections[j->n_sections++], path, strlen(path));
+    return j->n_sections == 1;
+}
+
+/* Emits a self-inclusion that selects the section of a template. The first one checks SL_HEADER: a
+ * section undefines its macro, so a macro that is still defined was seen by another file. */
+static void self_include(job *j, const char *path) {
+    static const char check_before[] =
+        "/* The header includes itself from here on: its templates, at the end, are compiled once "
+        "for\n"
+        " * each instruction set. SL_HEADER is the name of this file. */\n"
+        "#if defined(__has_include)\n"
+        "#if !__has_include(SL_HEADER)\n"
+        "#error \"sparse_local.h was renamed: define SL_HEADER as its new name, in quotes\"\n"
+        "#endif\n"
+        "#endif\n";
+    static const char check_after[] =
+        "#error \"sparse_local.h: SL_HEADER names another file, not this one\"\n"
+        "#endif\n";
+    char macro[PATH_SIZE + 16];
+    section_macro(macro, path);
+    if (add_section(j, path)) {
+        emit_lines(j, check_before);
+        emit_format(j, "#define %s\n", macro);
+        emit_lines(j, "#include SL_HEADER /* not found: define SL_HEADER, see above */\n");
+        emit_format(j, "#ifdef %s\n", macro);
+        emit_lines(j, check_after);
+    } else {
+        emit_format(j, "#define %s\n", macro);
+        emit_lines(j, "#include SL_HEADER\n");
+    }
+}
+
+/* Emits the templates, each in a section of its own. The file that is found by SL_HEADER may be
+ * another version of the header, which would be noticed late or never. */
+static void emit_sections(job *j) {
+    const char *heading = "/* templates: the header includes them from itself, once for each "
+                          "instruction set */\n";
+    if (j->n_sections == 0) return;
+    emit_lines(j, "\n");
+    enter(j, "", heading);
+    emit_lines(j, heading);
+    for (size_t k = 0; k < j->n_sections; k++) {
+        char macro[PATH_SIZE + 16];
+        section_macro(macro, j->sections[k]);
+        emit_lines(j, "\n");
+        emit_format(j, "#ifdef %s\n", macro);
+        emit_format(j, "#undef %s\n", macro);
+        for (int v = 0; v < 3; v++) {
+            static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
+            char check[64];
+            snprintf(check, sizeof check, "%s SL_VERSION_%s != %s%s", v ? "    " : "#if", names[v],
+                     j->version[v], v < 2 ? " || \\\n" : "\n");
+            emit_lines(j, check);
+        }
+        emit_lines(j, "#error \"sparse_local.h: SL_HEADER names another version of the header\"\n"
+                      "#endif\n");
+        expand(j, j->sections[k], 1);
+        emit_lines(j, "#endif\n");
+    }
+}
+
+/* Handles an include of a part or template: expands it, turns it into a self-inclusion, or drops
+ * it. */
 static void include(job *j, const char *from, size_t line, const char *target, size_t length,
                     int depth) {
     char path[PATH_SIZE], here[2 * PATH_SIZE];
     resolve(path, from, target, length);
     snprintf(here, sizeof here, "%s%s", j->folder, from);
-    if (depth == DEPTH_MAX)
-        fail(here, line, "includes nest too deep: do they run in a circle?", NULL);
+    if (depth == DEPTH_MAX) fail(here, line, "includes nest too deep: is there a cycle?", NULL);
     const entry *before = find_entry(j, path);
-    if (is_repeated(path)) {
-        expand(j, path, depth + 1);
+    if (is_template(path)) {
+        if (!j->is_flat && !is_template(from)) {
+            self_include(j, path);
+        } else if (!j->is_flat && before) {
+            fail(here, line, "templates include this template twice", "include it from a part");
+        } else {
+            expand(j, path, depth + 1);
+        }
     } else if (!before) {
         if (depth > 0)
-            fail(here, line, "includes a part that has not come yet",
+            fail(here, line, "includes a part that the manifest does not list before this one",
                  "list it earlier in the manifest");
         expand(j, path, depth + 1);
     } else if (depth == 0) {
         fail(here, line, "this part is listed twice", "list it once");
     } else if (!before->is_guarded) {
         fail(here, line, "includes a part without guard",
-             "guard that part, or name it *.inl.h to have it here again");
+             "guard that part, or name it *.inl.h to make it a template");
     }
 }
 
-/* Emits a file line by line; depth 0 is the manifest, whose first line the banner replaces. */
+/* Emits a file line by line. Depth 0 is the manifest, whose first line the banner replaces. */
 static void expand(job *j, const char *path, int depth) {
     char full[2 * PATH_SIZE];
     text part = {NULL, 0, 0};
     snprintf(full, sizeof full, "%s%s", j->folder, path);
     if (!read_file(&part, full)) fail(full, 0, "cannot be read", NULL);
+    const guard g = find_guard(part.bytes);
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *body = part.bytes;
     if (depth > 0) {
         if (!find_entry(j, path)) enter(j, path, part.bytes);
-        emit_mark(j, "begin", path);
+        if (strncmp(body, "/* ", 3) != 0 || strncmp(body + 3, name, strlen(name)) != 0)
+            fail(full, 1, "does not begin with its name", "begin with: /* name.h: what it does */");
+        append_string(&j->body, "/* src/");
+        append(&j->body, path, (size_t)(name - path));
+        body += 3;
     }
     int dropped = 0;
     size_t number = 1;
-    for (const char *line = part.bytes; *line; number++) {
+    for (const char *line = body; *line; number++) {
         size_t length = strcspn(line, "\n") + 1, width;
         const char *target = quoted_include(line, &width);
         if (target) {
             size_t lines = j->lines;
             include(j, path, number, target, width, depth);
             dropped = j->lines == lines;
+        } else if (depth > 0 && (line == g.ifndef || line == g.define || line == g.endif)) {
+            dropped = 0;
         } else if (!(depth == 0 && number == 1) && !(dropped && *line == '\n')) {
             if (depth == 0 && strncmp(line, "/*", 2) == 0) enter(j, "", line);
-            emit(j, line, length);
+            emit_from(j, path, line, length);
             dropped = 0;
         }
         line += length;
     }
-    if (depth > 0) emit_mark(j, "end", path);
+    if (depth > 1) emit_format(j, "/* end of %s */\n", name);
     free(part.bytes);
 }
 
@@ -257,7 +422,9 @@ static uint64_t hash(const text *t) {
     return h;
 }
 
-/* The comment on top; shift is the number of its own lines, which the line numbers of the contents count. */
+/* Appends the comment at the top of the header and returns its number of lines. shift: that number,
+ * which the line numbers in the contents include. Only public parts are listed with their titles.
+ * The titles of the others would be 8 kB; they are in the first lines of the parts. */
 static size_t banner(text *out, const job *j, const char *name, size_t shift) {
     char line[2 * PATH_SIZE + 64];
     uint64_t h = hash(&j->body);
@@ -266,21 +433,35 @@ static size_t banner(text *out, const job *j, const char *name, size_t shift) {
              j->version[0], j->version[1], j->version[2]);
     append_string(out, line);
     snprintf(line, sizeof line,
-             " * FNV-1a of all that follows this comment, license aside: %08lx%08lx\n",
+             " * FNV-1a of the lines after this comment, without the license: %08lx%08lx\n",
              (unsigned long)(h >> 32), (unsigned long)(h & 0xffffffffu));
     append_string(out, line);
     append_string(out, " *\n * Contents\n");
     lines += 4;
-    for (size_t k = 0; k < j->n_entries; k++, lines++) {
+    size_t column = 0; /* of the last line, if that lists parts of the implementation */
+    for (size_t k = 0; k < j->n_entries; k++) {
         const entry *e = &j->entries[k];
-        if (*e->name) {
-            unsigned long at = (unsigned long)(e->line + shift);
-            snprintf(line, sizeof line, " * %6lu  %-26s %s\n", at, e->name, e->title);
+        const char *slash = strrchr(e->name, '/'), *base = slash ? slash + 1 : e->name;
+        unsigned long at = (unsigned long)(e->line + shift);
+        if (strncmp(e->name, "impl/", 5) == 0) {
+            size_t width = strlen(base) + 8;
+            size_t is_new = column == 0 || column + width > 100;
+            snprintf(line, sizeof line, "%s%s%6lu %s", is_new && column > 0 ? "\n" : "",
+                     is_new ? " * " : " ", at, base);
+            lines += is_new;
+            column = (is_new ? 2 : column) + width;
         } else {
-            snprintf(line, sizeof line, " *         (%s)\n", e->title);
+            if (column > 0) append_string(out, "\n");
+            column = 0;
+            lines++;
+            if (*e->name)
+                snprintf(line, sizeof line, " * %6lu %-12s %s\n", at, base, e->title);
+            else
+                snprintf(line, sizeof line, " * (%s)\n", e->title);
         }
         append_string(out, line);
     }
+    if (column > 0) append_string(out, "\n");
     append_string(out, " */\n");
     return lines + 1;
 }
@@ -288,7 +469,7 @@ static size_t banner(text *out, const job *j, const char *name, size_t shift) {
 static void append_license(text *out, const char *path) {
     text license = {NULL, 0, 0};
     if (!read_file(&license, path)) fail(path, 0, "cannot be read", NULL);
-    if (strstr(license.bytes, "*/")) fail(path, 0, "would end the comment it goes to", NULL);
+    if (strstr(license.bytes, "*/")) fail(path, 0, "contains the end of a comment", NULL);
     append_string(out, "\n/*\n");
     for (const char *line = license.bytes; *line;) {
         size_t length = strcspn(line, "\n") + 1;
@@ -305,7 +486,7 @@ static int check(const text *made, const text *there, const char *path) {
     for (size_t k = 0; k < made->length && k < there->length && made->bytes[k] == there->bytes[k];
          k++)
         line += made->bytes[k] == '\n';
-    fprintf(stderr, "%s:%lu: from here on it is not what src/ makes\nfix: run: make header\n", path,
+    fprintf(stderr, "%s:%lu: differs from what src/ gives\nfix: run: make header\n", path,
             (unsigned long)line);
     return 1;
 }
@@ -320,11 +501,18 @@ static void write_file(const text *t, const char *path) {
 int main(int argc, char **argv) {
     static job j;
     text out = {NULL, 0, 0}, there = {NULL, 0, 0};
-    int only_check = argc > 1 && strcmp(argv[1], "--check") == 0;
-    char **args = argv + 1 + only_check;
-    int n_args = argc - 1 - only_check;
+    int only_check = 0, n_args = argc - 1;
+    char **args = argv + 1;
+    for (; n_args > 0 && strncmp(*args, "--", 2) == 0; args++, n_args--) {
+        if (strcmp(*args, "--check") == 0)
+            only_check = 1;
+        else if (strcmp(*args, "--flat") == 0)
+            j.is_flat = 1;
+        else
+            fail(*args, 0, "unknown option", NULL);
+    }
     if (n_args < 2 || n_args > 3)
-        fail("usage", 0, "amalgamate [--check] MANIFEST OUT [LICENSE]", NULL);
+        fail("usage", 0, "amalgamate [--check] [--flat] MANIFEST OUT [LICENSE]", NULL);
 
     const char *slash = strrchr(args[0], '/');
     const char *manifest = slash ? slash + 1 : args[0];
@@ -332,6 +520,7 @@ int main(int argc, char **argv) {
     expand(&j, manifest, 0);
     if (!*j.version[0] || !*j.version[1] || !*j.version[2])
         fail(args[0], 0, "no part defines SL_VERSION_*", NULL);
+    emit_sections(&j);
 
     slash = strrchr(args[1], '/');
     const char *name = slash ? slash + 1 : args[1];

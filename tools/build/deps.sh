@@ -1,13 +1,13 @@
 #!/bin/sh
-# deps.sh: looks for what a target needs and has apt-get install what is missing (make deps)
+# deps.sh: installs missing dependencies of a make target with apt-get (make deps)
 #
-#     tools/deps.sh WHAT=PACKAGE ...
+#     tools/build/deps.sh WHAT=PACKAGE ...
 #
-# WHAT is a header (metis.h), a command (g++) or the absolute path of a file (* allowed); PACKAGE is the Debian package
-# that has it.
-# Installs as root, or by sudo where that asks for no password; else prints the one command to run and fails.
+# WHAT is a header (metis.h), a command (g++) or the absolute path of a file (may contain *).
+# PACKAGE is the Debian package that contains it. Installs as root, or with sudo if that needs no
+# password; otherwise prints the command to run and fails.
 
-# one at a time, where make runs several
+# Only one instance runs at a time, even if make starts several.
 mkdir -p build && exec 9>build/deps.lock
 if command -v flock >/dev/null 2>&1; then flock 9; fi
 
@@ -23,8 +23,8 @@ done
 [ -z "$missing" ] && exit 0
 
 if ! command -v apt-get >/dev/null 2>&1; then
-    echo "missing here, by their Debian names:$missing" >&2
-    echo "fix: install them with this system's package manager" >&2
+    echo "missing (names of the Debian packages):$missing" >&2
+    echo "fix: install them with the package manager of this system" >&2
     exit 1
 fi
 as_root=
@@ -49,5 +49,5 @@ trap 'rm -f "$log"' EXIT
         $as_root apt-get install -y --no-install-recommends $missing
 } >"$log" 2>&1 && exit 0
 tail -n 20 "$log" >&2
-echo "fix: see above, then run: apt-get install$missing" >&2
+echo "fix: see the messages above, then run: apt-get install$missing" >&2
 exit 1

@@ -1,16 +1,17 @@
 #!/bin/sh
-# figures.sh: the figures of the paper, by the program and by the bench (make figures)
+# figures.sh: draws the figures of the paper with sparse-local and the bench (make figures)
 #
-#     tools/figures.sh PROGRAM BENCH FOLDER [MESH]
+#     tools/build/figures.sh PROGRAM BENCH FOLDER [MESH]
 #
-# On made-up surfaces, or on MESH. Pictures are PNG or SVG; the numbers stand beside them as CSV, and what the programs
-# printed as TXT. The times (Figures 4 to 6) are those of the bench; BENCH=quick in the environment makes them short.
+# Uses generated surfaces, or MESH. FOLDER receives pictures (PNG, SVG), the numbers behind them
+# (CSV) and the output of the programs (TXT). Figures 4 to 6 show times that the bench measures;
+# BENCH=quick in the environment shortens them. PATCH and CENTER change the patch.
 
 program=$1 bench=$2 folder=$3 mesh=$4
 mkdir -p "$folder" || exit 1
 failed=0
 
-# draw NAME COMMAND ARGUMENT ...: runs a command of the program, its output into NAME.txt.
+# draw NAME COMMAND ARGUMENT ...: runs a command of the program; its output goes to NAME.txt.
 draw() {
     name=$1
     shift
@@ -19,26 +20,36 @@ draw() {
 }
 
 surface=${mesh:-star:6}
-draw figure1 reach "$surface" --patch "${PATCH:-2000}" --center "${CENTER:-100}" --png "$folder/figure1_reach.png" \
-    --separators "$folder/figure1_separators.png" --tree "$folder/figure1_tree.svg" --csv "$folder/figure1.csv"
-draw figure2 reach grid:6x5 --center 7 --patch 3 --levels 3 --size 480x400 --png "$folder/figure2_mesh.png" \
-    --separators "$folder/figure2_separators.png" --tree "$folder/figure2_tree.svg" \
-    --graph "$folder/figure2_graph.svg" --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
-patch="--patch ${PATCH:-2000} --center ${CENTER:-100}"
-draw figure3 param "$surface" $patch --png "$folder/figure3_param.png" --layout "$folder/figure3_layout.png" \
-    --close "$folder/figure3_patch.png" --out "$folder/figure3.obj" --csv "$folder/figure3.csv"
-draw arap arap "$surface" $patch --png "$folder/arap.png" --layout "$folder/arap_layout.png"
-draw scp scp "$surface" $patch --png "$folder/scp.png" --layout "$folder/scp_layout.png"
-draw geodesic geodesic "$surface" --from "${CENTER:-100}" --png "$folder/geodesic.png"
+center=${CENTER:-100}
+patch="--patch ${PATCH:-2000} --center $center"
+# shellcheck disable=SC2086 # $patch is several words
+{
+    draw figure1 reach "$surface" $patch --png "$folder/figure1_reach.png" \
+        --separators "$folder/figure1_separators.png" --tree "$folder/figure1_tree.svg" \
+        --csv "$folder/figure1.csv"
+    draw figure2 reach grid:6x5 --center 7 --patch 3 --levels 3 --size 480x400 \
+        --png "$folder/figure2_mesh.png" --separators "$folder/figure2_separators.png" \
+        --tree "$folder/figure2_tree.svg" --graph "$folder/figure2_graph.svg" \
+        --pattern "$folder/figure2_patterns.png" --csv "$folder/figure2.csv"
+    draw figure3 param "$surface" $patch --png "$folder/figure3_param.png" \
+        --layout "$folder/figure3_layout.png" --close "$folder/figure3_patch.png" \
+        --out "$folder/figure3.obj" --csv "$folder/figure3.csv"
+    draw arap arap "$surface" $patch --png "$folder/arap.png" --layout "$folder/arap_layout.png"
+    draw scp scp "$surface" $patch --png "$folder/scp.png" --layout "$folder/scp_layout.png"
+}
+draw geodesic geodesic "$surface" --from "$center" --png "$folder/geodesic.png"
 draw voronoi geodesic "$surface" --from random:60 --voronoi --png "$folder/voronoi.png"
-draw adf adf "${mesh:-star:6}" --area-time 0.3 --png "$folder/adf.png" --csv "$folder/adf.csv"
+draw adf adf "$surface" --area-time 0.3 --png "$folder/adf.png" --csv "$folder/adf.csv"
 draw adf_53k adf torus:400x133 --csv "$folder/adf_53k.csv"
-draw hks hks "$surface" --like "${CENTER:-100}" --png "$folder/hks.png" --csv "$folder/hks.csv"
-draw heat heat "$surface" --from "${CENTER:-100}" --scaled-time 10 --png "$folder/heat.png" --csv "$folder/heat.csv"
-draw histogram pairs "${mesh:-hills:447x447}" --count 10000 --svg "$folder/histogram.svg" --csv "$folder/histogram.csv"
+draw hks hks "$surface" --like "$center" --png "$folder/hks.png" --csv "$folder/hks.csv"
+draw heat heat "$surface" --from "$center" --scaled-time 10 --png "$folder/heat.png" \
+    --csv "$folder/heat.csv"
+draw histogram pairs "${mesh:-hills:447x447}" --count 10000 --svg "$folder/histogram.svg" \
+    --csv "$folder/histogram.csv"
 
 BENCH_OUT=$folder MESH=$mesh "$bench" patches scaling amortize multi_rhs >"$folder/bench.txt" ||
-    { echo "  the bench FAILED: $folder/bench.txt" >&2; failed=1; }
+    { echo "  bench FAILED, see $folder/bench.txt" >&2; failed=1; }
+# rename PLOT FIGURE: gives a plot of the bench, if it was drawn, the name of the figure.
 rename() {
     [ ! -f "$folder/$1" ] || { mv "$folder/$1" "$folder/$2" && echo "  ${2%.svg}: bench, $1"; }
 }
@@ -46,7 +57,7 @@ rename patches_by_mesh.svg figure4.svg
 rename patches_by_patch.svg figure5.svg
 rename scaling.svg figure6_left.svg
 rename amortize.svg figure6_right.svg
-awk -f "$(dirname "$0")/paper_table.awk" "$folder"/patches.csv "$folder"/multi_rhs.csv "$folder"/adf_53k.txt \
-    "$folder"/histogram.txt >"$folder/paper.md" && cat "$folder/paper.md"
+awk -f "$(dirname "$0")/paper_table.awk" "$folder"/patches.csv "$folder"/multi_rhs.csv \
+    "$folder"/adf_53k.txt "$folder"/histogram.txt >"$folder/paper.md" && cat "$folder/paper.md"
 echo "figures are in $folder"
 exit $failed

@@ -1,58 +1,107 @@
-# readme_table.awk: turns what `make bench-peers` measured into the Markdown table of the README (make readme-table)
+# readme_table.awk: the results of `make bench-peers` as Markdown tables (make readme-table)
 #
-#     awk -f tools/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv [peers_harmonic.csv ...]
+#     awk -f tools/build/readme_table.awk peers.machine.txt peers.csv [peers_harmonic.csv ...]
 #
-# A table a file, a column a system, a row a step. A cell says the median of ours, how many times as long the best peer
-# takes and which one that is, and the share of ours that the limit of one core (of as many cores as threads) would
-# take. The best peer may use as many threads as ours, or fewer.
+# The files are in build/bench-out. There is a table per CSV file, with a column per system and a
+# row per step. A cell has three numbers:
+#   - the median time of this library;
+#   - the median time of the fastest peer as a multiple of it, with a letter for the peer. A peer
+#     may use as many threads as this library or one, whichever is faster;
+#   - the physical limit as a share of the first number. The limit is the time that the cores in
+#     use need to read L or to do the floating-point operations, whichever is longer.
+# A local solve has two rows, one with the plan created inside the timed call and one on a plan
+# created before. Both have the same peers: cholmod_solve2 finds its reach in every call.
 
 BEGIN {
-    n_steps = split("order to factor|analyse|first factor|refactor|refactor, 2 threads|full solve, 1 rhs|" \
-                    "full solve, 3 rhs|full solve, 8 rhs|full solve, 64 rhs|vertex|pair|patch 1000, 2 rhs|patch 10000, 2 rhs", steps, "|")
+    add_step("order to factor", "order + analyze + factor")
+    add_step("analyze", "analyze, order given")
+    add_step("first factor", "first factor")
+    add_step("refactor", "refactor")
+    add_step("refactor, 2 threads", "refactor, 2 threads")
+    add_step("full solve, 1 rhs", "full solve, 1 rhs")
+    add_step("full solve, 3 rhs", "full solve, 3 rhs")
+    add_step("full solve, 8 rhs", "full solve, 8 rhs")
+    add_step("vertex, 1 rhs, solve on a plan", "one vertex, solve on a plan")
+    add_step("vertex, 1 rhs, plan + solve", "one vertex, plan + solve")
+    add_step("patch 1000, 2 rhs, solve on a plan", "patch of 1000, 2 rhs, solve on a plan")
+    add_step("patch 1000, 2 rhs, plan + solve", "patch of 1000, 2 rhs, plan + solve")
+    letters["CHOLMOD METIS"] = "M"
+    letters["CHOLMOD defaults"] = "C"
     letters["CHOLMOD supernodal"] = "S"
-    letters["METIS + CHOLMOD supernodal"] = "M"
     letters["CHOLMOD simplicial"] = "s"
     letters["CHOLMOD solve2 Bset"] = "B"
     letters["CHOLMOD full solve"] = "F"
     letters["Eigen simplicial"] = "E"
+    letters["Eigen defaults"] = "A"
 }
 
 FNR == 1 && FILENAME ~ /machine\.txt$/ { machine = $0; next }
-FNR == 1 { n_tables++; fields($0); for (c = 1; c <= n_fields; c++) at[field[c]] = c; next }
+FNR == 1 {
+    n_tables++
+    split_csv($0)
+    for (c = 1; c <= n_fields; c++) column[field[c]] = c
+    next
+}
 
 {
-    fields($0)
-    system_name = field[at["system"]]
-    step = field[at["case"]]
-    rhs = field[at["nrhs"]]
-    threads = field[at["threads"]]
-    if (step == "full solve" || step ~ /^patch/) step = step ", " rhs " rhs"
+    split_csv($0)
+    system_name = field[column["system"]]
+    step = field[column["case"]]
+    rhs = field[column["nrhs"]]
+    threads = field[column["threads"]]
+    if (rhs > 0) step = step ", " rhs " rhs"
     if (threads > 1) step = step ", " threads " threads"
-    if (!(system_name in seen)) {
-        seen[system_name] = field[at["n"]]
+    if (!((n_tables, system_name) in seen)) {
+        seen[n_tables, system_name] = field[column["n"]]
         systems[++n_systems] = system_name
         table_of[n_systems] = n_tables
     }
     key = system_name SUBSEP step
-    method = field[at["method"]]
-    seconds = field[at["median_s"]]
-    if (method == "ours" || method == "ours, given order") {
+    method = field[column["method"]]
+    seconds = field[column["median_s"]]
+    if (method ~ /^ours/) {
+        # The table shows the plain setting, not a forced instruction set or a region.
+        if (method == "ours, solve on a plan" || method == "ours, plan + solve") {
+            variant = substr(method, 5)
+            peers_of[key variant] = key
+            key = key variant
+        } else if (method != "ours" && method != "ours, given order") next
         ours[key] = seconds
-        share[key] = field[at["limit_share"]]
-    } else if (method !~ /^ours/ && (!(key in best) || seconds < best[key])) {
+        share[key] = field[column["limit_share"]]
+    } else if (!(key in best) || seconds < best[key]) {
         sub(/, once$/, "", method)
         best[key] = seconds + 0
-        who[key] = method
+        peer[key] = method
     }
 }
 
 END {
-    if (n_systems == 0) { print "readme_table.awk: no measurements: make bench-peers first" >"/dev/stderr"; exit 1 }
+    if (n_systems == 0) {
+        print "readme_table.awk: no results; run make bench-peers first" >"/dev/stderr"
+        exit 1
+    }
     printf "%s.\n\n", machine
-    print "Median; how many times as long the best peer takes (M METIS and S, S CHOLMOD supernodal, s CHOLMOD simplicial, B CHOLMOD"
-    print "solve2 with Bset, F CHOLMOD full solve, E Eigen SimplicialLDLT; all over our order); and how much of our time"
-    print "the machine needs at least, to read L or to do the operations."
+    print "Each cell: the median time of this library; the time of the fastest peer as a multiple"
+    print "of it; the physical limit as a share of our time. The limit is the time that the machine"
+    print "needs at least, to read L or to do the operations. Peers run in their best and in their"
+    print "default settings, and the fastest counts. CHOLMOD with its own ordering: `M` METIS, `C`"
+    print "nothing set. CHOLMOD in our ordering: `S` supernodal, `s` simplicial, `B` cholmod_solve2"
+    print "with Bset, `F` a full solve in its fastest setting. Eigen SimplicialLDLT: `A` with AMD,"
+    print "its default, `E` in our ordering."
     for (t = 1; t <= n_tables; t++) table(t)
+}
+
+function add_step(name, label) {
+    steps[++n_steps] = name
+    labels[name] = label
+}
+
+# Three right-hand sides belong to the tables that have no eight.
+function is_left_out(t, step, c) {
+    if (step != "full solve, 3 rhs") return 0
+    for (c = 1; c <= n_systems; c++)
+        if (table_of[c] == t && ((systems[c] SUBSEP "full solve, 8 rhs") in ours)) return 1
+    return 0
 }
 
 function table(t, c, r, line, rule, filled, text) {
@@ -60,12 +109,13 @@ function table(t, c, r, line, rule, filled, text) {
     rule = "|---|"
     for (c = 1; c <= n_systems; c++) {
         if (table_of[c] != t) continue
-        line = line " " systems[c] ", n " number(seen[systems[c]]) " |"
+        line = line " " systems[c] ", n " number(seen[t, systems[c]]) " |"
         rule = rule "---|"
     }
     print "\n" line "\n" rule
     for (r = 1; r <= n_steps; r++) {
-        line = "| " steps[r] " |"
+        if (is_left_out(t, steps[r])) continue
+        line = "| " labels[steps[r]] " |"
         filled = 0
         for (c = 1; c <= n_systems; c++) {
             if (table_of[c] != t) continue
@@ -77,15 +127,15 @@ function table(t, c, r, line, rule, filled, text) {
     }
 }
 
-function cell(key, text, alone) {
+function cell(key, text, peers, one_thread) {
     if (!(key in ours)) return ""
-    alone = key
-    if (sub(/, [0-9]+ threads$/, "", alone) && alone in best && (!(key in best) || best[alone] < best[key])) {
-        best[key] = best[alone]
-        who[key] = who[alone]
-    }
+    peers = (key in peers_of) ? peers_of[key] : key
+    one_thread = peers
+    if (sub(/, [0-9]+ threads$/, "", one_thread) && (one_thread in best) && \
+        (!(peers in best) || best[one_thread] < best[peers])) peers = one_thread
     text = time_text(ours[key])
-    if (key in best) text = text sprintf("; %.1fx %s", best[key] / ours[key], letters[who[key]])
+    if (peers in best)
+        text = text sprintf("; %.1fx %s", best[peers] / ours[key], letters[peer[peers]])
     if (share[key] > 0) text = text sprintf("; %.0f%%", 100 * share[key])
     return text
 }
@@ -96,12 +146,13 @@ function time_text(s) {
     return digits(s) " s"
 }
 
+# Three significant digits.
 function digits(x) { return sprintf(x < 9.995 ? "%.2f" : x < 99.95 ? "%.1f" : "%.0f", x) }
 
 function number(n) { return n < 1e6 ? int(n / 1e3 + 0.5) "k" : sprintf("%.1fM", n / 1e6) }
 
-# A line of a CSV file, texts between quotes, into field[1..n_fields]
-function fields(line, parts, n, k, whole) {
+# Splits a line of a CSV file, with texts in double quotes, into field[1..n_fields].
+function split_csv(line, parts, n, k, whole) {
     n = split(line, parts, "\"")
     whole = ""
     for (k = 1; k <= n; k++) {

@@ -1,4 +1,4 @@
-/* app.c: errors, memory, time, progress and random numbers of the commands of sparse-local */
+/* app.c: errors, memory, time, progress and random numbers, shared by all commands */
 #define _POSIX_C_SOURCE 200809L
 #include "app.h"
 
@@ -8,10 +8,10 @@
 #include <time.h>
 #include <unistd.h>
 
-static double work_began = -1;  /* of the work at hand; -1: none */
-static bool line_shown = false; /* a progress line stands on the terminal */
+static double work_began = -1;  /* app_now at the first app_progress of this work; -1: none */
+static bool line_shown = false; /* the terminal shows a progress line */
 
-static void say(const char *format, va_list list) {
+static void print_error(const char *format, va_list list) {
     app_progress_end();
     (void)fprintf(stderr, "sparse-local: ");
     (void)vfprintf(stderr, format, list);
@@ -21,7 +21,7 @@ static void say(const char *format, va_list list) {
 void app_die(const char *format, ...) {
     va_list list;
     va_start(list, format);
-    say(format, list);
+    print_error(format, list);
     va_end(list);
     exit(1);
 }
@@ -29,7 +29,7 @@ void app_die(const char *format, ...) {
 void app_die_usage(const char *format, ...) {
     va_list list;
     va_start(list, format);
-    say(format, list);
+    print_error(format, list);
     va_end(list);
     exit(2);
 }
@@ -38,8 +38,8 @@ void app_must(sl_status status, const char *what, const sl_stats *stats) {
     if (status == SL_OK) {
         return;
     }
-    if (stats != NULL && stats->error_row >= 0) {
-        app_die("%s: %s (vertex %d)", what, sl_status_string(status), (int)stats->error_row);
+    if (stats != NULL && stats->error.row >= 0) {
+        app_die("%s: %s (vertex %d)", what, sl_status_string(status), (int)stats->error.row);
     }
     app_die("%s: %s", what, sl_status_string(status));
 }
@@ -54,18 +54,18 @@ void *app_alloc(size_t count, size_t size) {
 
 void app_print_reads(const char *name, const sl_stats *plan) {
     printf("%-10s forward %d rows, %lld entries of L; backward %d rows, %lld entries", name,
-           (int)plan->b_columns, (long long)plan->b_entries, (int)plan->x_columns,
-           (long long)plan->x_entries);
-    if (plan->plan_in_region) {
-        printf("; %lld of the region's inverse", (long long)plan->plan_region_entries);
+           (int)plan->plan.b_columns, (long long)plan->plan.b_entries, (int)plan->plan.x_columns,
+           (long long)plan->plan.x_entries);
+    if (plan->plan.in_region) {
+        printf("; %lld of the region's inverse", (long long)plan->plan.region_entries);
     }
     printf("\n");
 }
 
 void app_print_region(const char *name, const sl_stats *region, double seconds) {
-    printf("%-10s %d rows in %d subtrees, %d on its boundary; %.1f KB; made in %.2f ms\n", name,
-           (int)region->region_rows, (int)region->region_subtrees, (int)region->region_boundary,
-           1e-3 * (double)region->bytes_region, 1e3 * seconds);
+    printf("%-10s %d rows in %d subtrees, %d on its boundary; %.1f KB; created in %.2f ms\n", name,
+           (int)region->region.rows, (int)region->region.subtrees, (int)region->region.boundary,
+           1e-3 * (double)region->region.bytes, 1e3 * seconds);
 }
 
 double app_now(void) {

@@ -1,4 +1,4 @@
-/* app.h: what the commands of sparse-local share: errors, memory, time, progress, the mesh asked for, files written */
+/* app.h: shared by all commands: errors, memory, time, progress, mesh input, file output */
 #ifndef TOOLS_APP_H
 #define TOOLS_APP_H
 
@@ -7,10 +7,10 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "mesh.h"
-#include "mesh_write.h"
+#include "tools/mesh/mesh.h"
+#include "tools/mesh/mesh_write.h"
 #include "options.h"
-#include "render.h"
+#include "tools/draw/render.h"
 
 #if defined(__GNUC__)
 #define APP_PRINTF __attribute__((format(printf, 1, 2)))
@@ -20,116 +20,139 @@
 #define APP_NORETURN
 #endif
 
-/* ---- errors and memory: a command that cannot go on says why and ends the program ---- */
+/* ---- errors and memory: a command that cannot continue prints the reason and exits ---- */
 
-/** Prints "sparse-local: ..." to standard error and ends with status 1: the data are at fault. */
+/** Prints "sparse-local: ..." to standard error and exits with status 1: the input is wrong. */
 APP_NORETURN APP_PRINTF void app_die(const char *format, ...);
 
-/** The same with status 2: the command line is at fault. */
+/** Prints "sparse-local: ..." to standard error and exits with status 2: the command line is
+ *  wrong. */
 APP_NORETURN APP_PRINTF void app_die_usage(const char *format, ...);
 
-/** Dies unless status is SL_OK, naming what was done and, where stats is not NULL and tells, the row at fault. */
+/** Dies unless status is SL_OK. The message names the operation `what` and, if stats is not NULL
+ *  and has it, the row at which it failed. */
 void app_must(sl_status status, const char *what, const sl_stats *stats);
 
-/** count elements of size bytes, zeroed; dies when there is no memory. Release with free. */
+/** Allocates count elements of size bytes, zeroed; dies if out of memory. Release with free. */
 void *app_alloc(size_t count, size_t size);
 
-/* ---- what a solve reads ---- */
+/* ---- counts of a solve ---- */
 
-/** Prints a line on what one solve of a plan reads, after `name`, 10 characters at most: rows, entries of L on both ways,
- *  entries of a region's inverse. Counts, so that they tell what times on a busy machine do not. */
+/** Prints a line, labeled `name` (at most 10 characters), on what one solve with a plan reads: rows
+ *  and entries of L in both sweeps, entries of a region's inverse. Unlike times, these counts do
+ *  not depend on the load of the machine. */
 void app_print_reads(const char *name, const sl_stats *plan);
 
-/** Prints a line on a region: what it holds, what it keeps, what it took. */
+/** Prints a line on a region: its size, its memory, and the time it took to create. */
 void app_print_region(const char *name, const sl_stats *region, double seconds);
 
 /* ---- time and progress ---- */
 
-/** Seconds of a clock that only runs forward. */
+/** Seconds of a monotonic clock. */
 double app_now(void);
 
-/** Says on standard error how far long work is: only where that is a terminal, and not before a second has passed. */
+/** Shows the progress of a long computation on standard error, if that is a terminal and a second
+ *  has passed since the first call. fraction: 0..1. */
 void app_progress(const char *what, double fraction);
 
-/** Says on standard error what is being done, of which no share is known: only where that is a terminal. */
+/** Shows on standard error what is being computed, if that is a terminal. */
 void app_stage(const char *what);
 
-/** Wipes the progress line; the next piece of work starts its own second. */
+/** Clears the progress line and restarts the second after which app_progress shows it. */
 void app_progress_end(void);
 
-/* ---- what most commands take ---- */
+/* ---- input and output of most commands ---- */
 
-/** Where the answer goes and how it is drawn; all NULL or 0 is fine. */
+/** Output files and the camera of the picture; all zero: no output, default camera. */
 typedef struct app_output {
-    const char *out;  /* a mesh file with the fields: .ply or .obj, .gz after it or not */
-    const char *png;  /* a picture */
-    const char *csv;  /* the numbers */
+    const char *out;  /* mesh file with the results at its vertices: .ply, .obj, optional .gz */
+    const char *png;  /* picture */
+    const char *csv;  /* table */
     const char *size; /* of the picture: "800x600" */
-    const char *view; /* "azimuth,elevation" in degrees; NULL: chosen by the mesh */
+    const char *view; /* "azimuth,elevation" in degrees; NULL: default, or see direction */
     const char *up;   /* "x", "y" or "z" */
-    double toward[3]; /* the side to be seen where there is no view; 0 0 0: any */
+    /* Without `view` the camera is on this side of the mesh; 0 0 0: on the default side. */
+    double direction[3];
+    /* true: the camera is exactly in this direction; false: at most 55 degrees above or below the
+     * horizon, so that vertical edges remain vertical in the picture. */
+    bool is_frontal;
 } app_output;
 
-/** The options of an app_output, to be put into a command's table. */
+/** Rows of an option table for the fields of an app_output. */
 #define APP_OUTPUT_OPTIONS(o)                                                                      \
     {OPTION_TEXT, "out", &(o)->out, "FILE",                                                        \
-     "write the mesh with what was computed: .ply or .obj, plain or .gz"},                         \
-        {OPTION_TEXT, "csv", &(o)->csv, "FILE", "write the numbers"}, APP_PICTURE_OPTIONS(o)
+     "write the mesh with the results at its vertices: .ply or .obj, optionally .gz"},             \
+        {OPTION_TEXT, "csv", &(o)->csv, "FILE", "write the results as a table"},                   \
+        APP_PICTURE_OPTIONS(o)
 
 #define APP_PICTURE_OPTIONS(o)                                                                     \
-    {OPTION_TEXT, "png", &(o)->png, "FILE", "draw a picture"},                                     \
-        {OPTION_TEXT, "size", &(o)->size, "WxH", "pixels of the picture (800x600)"},               \
+    {OPTION_TEXT, "png", &(o)->png, "FILE", "draw the result as a picture"},                       \
+        {OPTION_TEXT, "size", &(o)->size, "WxH", "size of the picture in pixels (800x600)"},       \
         {OPTION_TEXT, "view", &(o)->view, "A,E",                                                   \
-         "look from azimuth A and elevation E, in degrees (30,20; a flat mesh: from above)"},      \
+         "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
+         "the patch are, else 30,20; a flat mesh is seen from above)"},                            \
     {                                                                                              \
-        OPTION_TEXT, "up", &(o)->up, "x|y|z", "the axis that points upwards (y)"                   \
+        OPTION_TEXT, "up", &(o)->up, "x|y|z", "axis that points upward in the picture (y)"         \
     }
 
-/** What MESH may be, for the help texts. */
+/** Describes the operand MESH, for the help texts. */
 extern const char app_mesh_help[];
 
-/** Reads a file or makes a surface (surface.h); dies with the file and the line where that fails.
+/** Reads a mesh file or generates a surface (surface_generator.h). On failure dies with the file
+ *  and the line.
  *
- *  faces_needed  [in]  also dies where there are no faces.
+ *  faces_needed  [in]  whether to die as well if the mesh has no faces.
  */
 void app_mesh(mesh *out, const char *operand, bool faces_needed);
 
-/** Reads a list of vertices "3,17,100-200", "all" or "random:5" (5 distinct ones); dies where one is not below n.
+/** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices). Dies if
+ *  the list is malformed or a vertex is not below n.
  *
- *  count  [out]  how many.
- *  Returns  the list, in the order given, repetitions kept (a local question refuses those: app_distinct); free it.
+ *  count  [out]  length of the list.
+ *  Returns  the list in the order given, including repetitions; local solves refuse those, see
+ *           app_distinct. Release with free.
  */
 sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
                      sl_int *count);
 
-/** Keeps the first of each vertex; returns how many are left. */
+/** Removes repeated vertices, keeping the first of each; returns the new length of the list. */
 sl_int app_distinct(sl_int *vertices, sl_int count, sl_int n);
 
-/** The next of the numbers that a seed gives, in 0..2^64-1; the same on every machine. */
+/** The next pseudorandom number in 0..2^64-1; the sequence of a seed is the same on every
+ *  machine. */
 uint64_t app_random(uint64_t *state);
 
-/** A number in 0..below-1. */
+/** A pseudorandom number in 0..below-1. */
 sl_int app_random_below(uint64_t *state, sl_int below);
 
-/** Opens a file for writing text; dies where that cannot be. app_close dies where something was not written. */
+/** Opens a text file for writing (output_open); dies if it cannot be opened. */
 FILE *app_create(const char *path);
-void app_close(FILE *file, const char *path);
 
-/** Fills in the view that the options ask for; dies on malformed ones. */
+/** Closes a file of app_create and gives it its name; dies if not everything could be written. */
+void app_close(FILE *file);
+
+/** Sets the view from the options; dies if one is malformed. */
 void app_view(render_view *view, const app_output *o);
 
-/** Where the options give no view: turns the camera to the side where these vertices are. */
-void app_look_at(app_output *o, const mesh *m, const sl_int *vertices, sl_int count);
+/** Sets o->direction to the mean normal of the faces at these vertices, weighted by area, so that a
+ *  picture shows them. Dies if an option of the picture is malformed.
+ *
+ *  vertices    [in]  count vertices of m; NULL: all faces of m.
+ *  is_frontal  [in]  see app_output.
+ */
+void app_aim_camera(app_output *o, const mesh *m, const sl_int *vertices, sl_int count,
+                    bool is_frontal);
 
-/** The range of a field for the colour map: all values at the corners of faces but the lowest and the highest half per
- *  cent, so that a speck of dust does not make the rest one colour. 0 and 1 where there are none. */
+/** The range of a field for the color map: its values at the corners of faces without the lowest
+ *  and the highest 0.5 %, so that a few outliers do not leave one color for the rest. 0 and 1 if no
+ *  value is finite. */
 void app_range(double *low, double *high, const mesh *m, const double *value);
 
-/** Writes what `o` asks for: o->out with the fields of `extra`, and o->png as `style` says. Dies where that fails. */
+/** Writes the mesh with `extra` to o->out and the picture in `style` to o->png; dies on failure. */
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
                const render_style *style);
 
-/** Writes a picture as PNG; dies where that fails. */
+/** Writes a picture as PNG; dies on failure. */
 void app_write_png(const picture *p, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* app_files.c: what the commands of sparse-local read and write: the mesh, lists of vertices, tables, pictures */
+/* app_files.c: input and output shared by all commands: meshes, vertex lists, tables, pictures */
 #include "app.h"
 
 #include <errno.h>
@@ -6,37 +6,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "surface.h"
+#include "tools/io/output_file.h"
+#include "tools/mesh/surface_generator.h"
 
 const char app_mesh_help[] =
-    "a file (.obj .off .ply .stl, plain or .gz) or a made-up surface: grid:100x100, hills:100x100, "
-    "sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
+    "a mesh file (.obj, .off, .ply, .stl, optionally .gz) or a generated surface: "
+    "grid:100x100, hills:100x100, sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
 
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     char message[512];
-    bool made = surface_is_named(operand);
-    if (made ? !surface_make(out, operand, message, sizeof message)
+    bool made = surface_is_specification(operand);
+    if (made ? !surface_generate(out, operand, message, sizeof message)
              : !mesh_read(out, operand, message, sizeof message)) {
         app_die("%s", message);
     }
     if (faces_needed && out->n_faces == 0) {
-        app_die("%s: has no faces, only %d vertices: there is no surface to compute on", operand,
+        app_die("%s: has no faces, only %d vertices; this command needs a surface", operand,
                 (int)out->n_vertices);
     }
 }
 
-/* A vertex number at *text, which moves behind it. */
+/* Reads a vertex number at *text and advances *text past it. */
 static sl_int read_vertex(const char *option_name, const char **text, sl_int n) {
     char *after = NULL;
     errno = 0;
     long v = strtol(*text, &after, 10);
     if (after == *text || **text == '+' || **text == '-') {
-        app_die_usage("--%s: \"%s\" is no list of vertices (3,17,100-200 or all or random:5)",
+        app_die_usage("--%s: \"%s\" is not a list of vertices (3,17,100-200 or all or random:5)",
                       option_name, *text);
     }
     if (errno != 0 || v >= n) {
-        app_die("--%s: there is no vertex %.*s, the last is %d", option_name, (int)(after - *text),
-                *text, (int)n - 1);
+        app_die("--%s: there is no vertex %.*s; the last one is %d", option_name,
+                (int)(after - *text), *text, (int)n - 1);
     }
     *text = after;
     return (sl_int)v;
@@ -47,7 +48,7 @@ static sl_int *random_vertices(const char *option_name, const char *text, sl_int
     char *after = NULL;
     long wanted = strtol(text, &after, 10);
     if (after == text || *after != '\0' || wanted < 1 || wanted > n) {
-        app_die_usage("--%s random:%s: a number from 1 to %d is needed", option_name, text, (int)n);
+        app_die_usage("--%s random:%s: expected a number from 1 to %d", option_name, text, (int)n);
     }
     sl_int *all = app_alloc((size_t)n, sizeof *all);
     for (sl_int v = 0; v < n; v++) {
@@ -69,8 +70,8 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
         return random_vertices(option_name, text + 7, n, seed, count);
     }
     bool all = strcmp(text, "all") == 0;
-    size_t room = all ? (size_t)n : 0;
-    sl_int *list = app_alloc(room, sizeof *list);
+    size_t capacity = all ? (size_t)n : 0;
+    sl_int *list = app_alloc(capacity, sizeof *list);
     sl_int used = 0;
     for (; all && used < n; used++) {
         list[used] = used;
@@ -83,13 +84,13 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
             last = read_vertex(option_name, &text, n);
         }
         if (last < first || last - first >= INT32_MAX - used) {
-            app_die_usage("--%s: %d-%d is an empty range, or the list is too long", option_name,
+            app_die_usage("--%s: %d-%d is an empty range or makes the list too long", option_name,
                           (int)first, (int)last);
         }
-        size_t more = (size_t)used + (size_t)(last - first) + 1;
-        if (more > room) {
-            room = 2 * more;
-            sl_int *larger = realloc(list, room * sizeof *list);
+        size_t needed = (size_t)used + (size_t)(last - first) + 1;
+        if (needed > capacity) {
+            capacity = 2 * needed;
+            sl_int *larger = realloc(list, capacity * sizeof *list);
             if (larger == NULL) {
                 app_die("out of memory");
             }
@@ -102,8 +103,7 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
             break;
         }
         if (*text++ != ',') {
-            app_die_usage("--%s: \"%s\": a comma is needed between vertices", option_name,
-                          text - 1);
+            app_die_usage("--%s: \"%s\": expected a comma between vertices", option_name, text - 1);
         }
     }
     *count = used;
@@ -124,17 +124,18 @@ sl_int app_distinct(sl_int *vertices, sl_int count, sl_int n) {
 }
 
 FILE *app_create(const char *path) {
-    FILE *file = fopen(path, "w");
+    char message[512];
+    FILE *file = output_open(path, message, sizeof message);
     if (file == NULL) {
-        app_die("%s: cannot be written: %s", path, strerror(errno));
+        app_die("%s", message);
     }
     return file;
 }
 
-void app_close(FILE *file, const char *path) {
-    bool failed = ferror(file) != 0;
-    if (fclose(file) != 0 || failed) {
-        app_die("%s: was not written whole: %s", path, strerror(errno));
+void app_close(FILE *file) {
+    char message[512];
+    if (!output_close(file, message, sizeof message)) {
+        app_die("%s", message);
     }
 }
 
@@ -144,41 +145,52 @@ void app_view(render_view *view, const app_output *o) {
     if (o->size != NULL &&
         (sscanf(o->size, "%dx%d%c", &view->width, &view->height, &rest) != 2 || view->width < 1 ||
          view->height < 1 || view->width > 8000 || view->height > 8000)) {
-        app_die_usage("--size %s: not like 800x600, sides from 1 to 8000", o->size);
+        app_die_usage("--size %s: expected WxH such as 800x600, each from 1 to 8000", o->size);
     }
     if (o->view != NULL) {
         if (sscanf(o->view, "%lf,%lf%c", &view->azimuth, &view->elevation, &rest) != 2) {
-            app_die_usage("--view %s: not like 30,20", o->view);
+            app_die_usage("--view %s: expected azimuth,elevation such as 30,20", o->view);
         }
         view->automatic = false;
     }
     if (o->up != NULL) {
-        const char *axis = strchr("yxz", o->up[0]); /* in the order of render_up */
+        static const char order[] = "yxz"; /* of camera_up */
+        const char *axis = strchr(order, o->up[0]);
         if (axis == NULL || o->up[0] == '\0' || o->up[1] != '\0') {
-            app_die_usage("--up %s: not x, y or z", o->up);
+            app_die_usage("--up %s: expected x, y or z", o->up);
         }
-        view->up = (render_up)(axis - "yxz");
+        view->up = (camera_up)(axis - order);
     }
     if (o->view == NULL) {
-        const double steepest = 55; /* so that what stands upright still does */
-        render_look_from(view, o->toward);
-        view->elevation = fmax(-steepest, fmin(steepest, view->elevation));
+        const double *d = o->direction;
+        const double steepest = 55;
+        render_look_from(view, d);
+        if (!o->is_frontal) {
+            view->elevation = fmax(-steepest, fmin(steepest, view->elevation));
+        } else if (isfinite(d[0] + d[1] + d[2]) && (d[0] != 0 || d[1] != 0 || d[2] != 0)) {
+            view->automatic = false;
+        }
     }
 }
 
-void app_look_at(app_output *o, const mesh *m, const sl_int *vertices, sl_int count) {
+void app_aim_camera(app_output *o, const mesh *m, const sl_int *vertices, sl_int count,
+                    bool is_frontal) {
     unsigned char *chosen = app_alloc((size_t)m->n_vertices, 1);
-    memset(o->toward, 0, sizeof o->toward);
-    for (sl_int k = 0; k < count; k++) {
+    render_view view;
+    app_view(&view, o);
+    memset(o->direction, 0, sizeof o->direction);
+    o->is_frontal = is_frontal;
+    for (sl_int k = 0; vertices != NULL && k < count; k++) {
         chosen[vertices[k]] = 1;
     }
-    for (size_t f = 0; f < (size_t)m->n_faces; f++) { /* the sum of the normals there */
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
         const sl_int *v = m->faces + 3 * f;
         const double *a = m->xyz + 3 * (size_t)v[0], *b = m->xyz + 3 * (size_t)v[1],
                      *c = m->xyz + 3 * (size_t)v[2];
-        for (int d = 0; d < 3 && (chosen[v[0]] || chosen[v[1]] || chosen[v[2]]); d++) {
+        bool counts = vertices == NULL || chosen[v[0]] || chosen[v[1]] || chosen[v[2]];
+        for (int d = 0; d < 3 && counts; d++) {
             int e = (d + 1) % 3, g = (d + 2) % 3;
-            o->toward[d] += (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
+            o->direction[d] += (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
         }
     }
     free(chosen);
@@ -222,7 +234,7 @@ void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
         picture p;
         app_view(&view, o);
         if (!render_mesh(&p, m, &view, style)) {
-            app_die("%s: no memory for a picture of %d x %d", o->png, view.width, view.height);
+            app_die("%s: out of memory for a picture of %d x %d", o->png, view.width, view.height);
         }
         app_write_png(&p, o->png);
         picture_free(&p);

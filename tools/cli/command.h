@@ -1,9 +1,9 @@
-/* command.h: the commands of sparse-local; each stands in its own file command_NAME.c */
+/* command.h: the commands of sparse-local; command NAME is in command_NAME.c */
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
 
-/* argv[0] is the name of the command. Each returns the exit status: 0, or 1 where a check failed; errors end the program
- * by themselves (app.h). */
+/* argv[0] is the name of the command. Returns the exit status: 0, or 1 if a check of the results
+ * failed. Errors exit the program (app.h). */
 int command_adf(int argc, char **argv);
 int command_heat(int argc, char **argv);
 int command_hks(int argc, char **argv);

@@ -1,68 +1,70 @@
-/* command_arap.c: sparse-local arap: as-rigid-as-possible layouts of a patch, on the whole mesh's factor */
+/* command_arap.c: as-rigid-as-possible layout of a patch, with the factor of the whole mesh */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "arap.h"
+#include "tools/geometry/arap.h"
 #include "command.h"
-#include "layout_job.h"
+#include "layout_command.h"
 
-static const char text[] = "Lays a patch out in the plane with its lengths kept as well as can be: "
-                           "from the harmonic layout, turns of the "
-                           "faces and a Poisson problem for the vertices, in turn (Liu et al. "
-                           "2008), the same matrix each time. That matrix "
-                           "is the Laplacian N of the patch by itself, its boundary free. The "
-                           "whole mesh's L is another: solved with L the "
-                           "energy would also ask the mesh beyond the patch not to stretch at all, "
-                           "and hold the patch back. So the factor of "
-                           "L serves for corrections: --solves local solves of it in each "
-                           "iteration, after which the rows of N hold but for "
-                           "a rest on the boundary; with 1 the energy never rises, with 2 an "
-                           "iteration is worth nearly as much as an exact "
-                           "one, and it comes to rest at the same layouts. --own-factor factors "
-                           "the patch itself and makes exact steps.\n"
-                           "The energy printed is the mean over the patch of (a - 1)^2 + (b - "
-                           "1)^2, a and b the stretches of a face.";
+static const options_usage usage = {
+    "arap", "MESH", 1, 1,
+    "Computes a planar layout of a patch that preserves lengths as well as possible."};
 
-typedef struct job {
-    layout_job j;
+static const options_manual manual = {
+    "Starts from the harmonic layout and alternates between rotations of the faces and a Poisson "
+    "problem for the vertices (Liu et al. 2008); the matrix is the same in all iterations. It is "
+    "the Laplacian N of the patch alone, with a free boundary. The Laplacian L of the whole mesh "
+    "is a different matrix: a solve with L would also penalize distortion of the mesh outside the "
+    "patch. The factor of L therefore serves as a preconditioner: each iteration makes --solves "
+    "local solves, after which N x = b holds except for a residual on the boundary. With 1 solve "
+    "the energy never increases; with 2 an iteration is nearly as effective as an exact one. Both "
+    "converge to the same layouts. --own-factor factors N and makes exact steps.",
+    LAYOUT_OUTPUT
+    "\nenergy: mean over the patch of (a - 1)^2 + (b - 1)^2, a and b the singular values of the "
+    "map of a face, after each iteration.",
+    "torus:120x40 --center 100 --patch 800 --png mesh.png --layout layout.png\n"
+    "bunny.obj --patch 2000 --iterations 30 --out patch.obj"};
+
+typedef struct arap_command {
+    layout_command layout;
     sl_int iterations, solves;
     bool own_factor;
-    sl_symbolic *S; /* of the patch, with --own-factor */
-    sl_factor *F;
-} job;
+    sl_symbolic *S; /* analysis of N, with --own-factor */
+    sl_factor *F;   /* factor of N, with --own-factor */
+} arap_command;
 
-static void factor_patch(job *q) {
-    const sl_csc N = sl_matrix_view(q->j.s.N);
+static void factor_patch(arap_command *cmd) {
+    const sl_csc N = sl_matrix_view(cmd->layout.s.N);
     sl_options opt;
     memset(&opt, 0, sizeof opt);
-    opt.definiteness = SL_SEMIDEFINITE;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
     double began = app_now();
-    app_must(sl_symbolic_create(&q->S, &N, NULL, NULL), "analysis of the patch", NULL);
-    app_must(sl_factor_create(&q->F, q->S, &N, &opt, NULL), "factor of the patch", NULL);
-    printf("own factor of the patch: %.2f ms\n", 1e3 * (app_now() - began));
+    app_must(sl_symbolic_create(&cmd->S, &N, NULL, NULL), "analysis of the patch", NULL);
+    app_must(sl_factor_create(&cmd->F, cmd->S, &N, &opt, NULL), "factor of the patch", NULL);
+    printf("factor     of the patch alone: %.2f ms\n", 1e3 * (app_now() - began));
 }
 
-/* Up to so many iterations, or until the energy stands still. */
-static void iterate(job *q, double *X) {
+/* Iterates until the energy decreases by 1e-6 of itself or less, at most --iterations times. */
+static void iterate(arap_command *cmd, double *X) {
     arap a;
     sl_work *work = NULL;
-    if (!arap_create(&a, &q->j.d.p)) {
+    if (!arap_create(&a, &cmd->layout.d.p)) {
         app_die("out of memory");
     }
     app_must(sl_work_create(&work, NULL), "workspace", NULL);
-    double energy = arap_turn(&a, X), seconds = 0;
-    printf("energy     %.6g at the start\n", energy);
-    for (sl_int k = 1; k <= q->iterations; k++) {
+    double energy = arap_local_step(&a, X), seconds = 0;
+    printf("energy     %.6g initially\n", energy);
+    for (sl_int k = 1; k <= cmd->iterations; k++) {
         double began = app_now();
-        app_must(q->own_factor ? arap_move_own(&a, X, q->F, work)
-                               : arap_move(&a, X, &q->j.s, (int)q->solves),
+        app_must(cmd->own_factor ? arap_global_step_exact(&a, X, cmd->F, work)
+                                 : arap_global_step(&a, X, &cmd->layout.s, (int)cmd->solves),
                  "global step", NULL);
-        double next = arap_turn(&a, X);
+        double next = arap_local_step(&a, X);
         seconds += app_now() - began;
         printf("           %.6g after %d\n", next, (int)k);
-        app_progress("iterations", (double)k / (double)q->iterations);
+        app_progress("iterations", (double)k / (double)cmd->iterations);
         if (!(energy - next > 1e-6 * energy)) {
             break;
         }
@@ -75,38 +77,38 @@ static void iterate(job *q, double *X) {
 }
 
 int command_arap(int argc, char **argv) {
-    job q;
+    arap_command cmd;
     const char *operand = NULL;
-    memset(&q, 0, sizeof q);
-    q.iterations = 10;
-    q.solves = 2;
-    layout_job_defaults(&q.j);
+    memset(&cmd, 0, sizeof cmd);
+    cmd.iterations = 10;
+    cmd.solves = 2;
+    layout_command_defaults(&cmd.layout);
     const option options[] = {
-        LAYOUT_JOB_OPTIONS(&q.j),
-        {OPTION_COUNT, "iterations", &q.iterations, "N", "at most so many (10)"},
-        {OPTION_COUNT, "solves", &q.solves, "N",
-         "local solves on the mesh's factor in each iteration (2)"},
-        {OPTION_FLAG, "own-factor", &q.own_factor, NULL, "factor the patch itself; exact steps"},
+        LAYOUT_OPTIONS(&cmd.layout),
+        {OPTION_COUNT, "iterations", &cmd.iterations, "N", "maximum number of iterations (10)"},
+        {OPTION_COUNT, "solves", &cmd.solves, "N",
+         "local solves with the factor of the mesh per iteration (2)"},
+        {OPTION_FLAG, "own-factor", &cmd.own_factor, NULL,
+         "factor the Laplacian of the patch and solve every global step exactly"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    const options_usage usage = {"arap", "MESH", 1, 1, text};
-    options_read(&usage, options, argc, argv, &operand);
-    if (q.solves < 1 || q.solves > 1000) {
-        app_die_usage("--solves: 1 to 1000 are possible");
+    options_read(&usage, &manual, options, argc, argv, &operand);
+    if (cmd.solves < 1 || cmd.solves > 1000) {
+        app_die_usage("--solves: expected 1 to 1000");
     }
-    layout_job_open(&q.j, operand);
-    double *X = layout_job_harmonic(&q.j);
-    if (q.own_factor) {
-        factor_patch(&q);
+    layout_command_open(&cmd.layout, operand);
+    double *X = layout_command_harmonic(&cmd.layout);
+    if (cmd.own_factor) {
+        factor_patch(&cmd);
     }
-    layout_job_report_head();
-    (void)layout_job_report(&q.j, "harmonic", X);
-    iterate(&q, X);
-    layout_job_report_head();
-    (void)layout_job_report(&q.j, "as rigid as possible", X);
-    layout_job_write(&q.j, X);
+    layout_command_report_head();
+    (void)layout_command_report(&cmd.layout, "harmonic", X);
+    iterate(&cmd, X);
+    layout_command_report_head();
+    (void)layout_command_report(&cmd.layout, "as rigid as possible", X);
+    layout_command_write(&cmd.layout, X);
     free(X);
-    sl_factor_free(q.F);
-    sl_symbolic_free(q.S);
-    layout_job_close(&q.j);
+    sl_factor_free(cmd.F);
+    sl_symbolic_free(cmd.S);
+    layout_command_close(&cmd.layout);
     return 0;
 }

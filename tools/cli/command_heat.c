@@ -1,20 +1,28 @@
-/* command_heat.c: heat that flows from some vertices for a time, wanted at some others, in a radius, or everywhere */
+/* command_heat.c: heat diffusion from source vertices, solved at selected vertices */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app.h"
 #include "command.h"
-#include "heat_system.h"
+#include "tools/cli/heat_system.h"
 
-static const options_usage usage = {"heat", "MESH", 1, 1,
-                                    "Lets one unit of heat at each source diffuse by (M + t L) x = "
-                                    "b and gives x at the wanted vertices alone, exactly: "
-                                    "what lies between is never computed. The forward sweep visits "
-                                    "the paths of the elimination tree from the sources, "
-                                    "the backward sweep those from the wanted vertices."};
+static const options_usage usage = {
+    "heat", "MESH", 1, 1,
+    "Diffuses heat from source vertices and solves for it only at the wanted vertices."};
 
-/* The vertices no farther from a source than radius, by straight distance. */
+static const options_manual manual = {
+    "Each source has one unit of heat; (M + t L) x = b is one implicit Euler step of length t with "
+    "the lumped mass M and the cotangent Laplacian L. x is exact at the wanted vertices and is not "
+    "computed elsewhere: the forward sweep visits the paths in the elimination tree from the "
+    "sources to the root, the backward sweep those from the wanted vertices.",
+    "The columns and entries of L that the solve reads, and microseconds for the plan, the first "
+    "solve and each further solve. Up to 20 values are printed unless --csv is given; --csv has "
+    "columns vertex,heat. The picture shows the logarithm of the heat over 12 decades.",
+    "star:6 --from 100 --scaled-time 10 --png heat.png\nbunny.obj --from 17 --radius 0.2 --csv "
+    "heat.csv"};
+
+/* The vertices within a Euclidean distance of a source. */
 static sl_int *within(const mesh *m, const sl_int *sources, sl_int n_sources, double radius,
                       sl_int *count) {
     sl_int *list = app_alloc((size_t)m->n_vertices, sizeof *list);
@@ -31,9 +39,9 @@ static sl_int *within(const mesh *m, const sl_int *sources, sl_int n_sources, do
     return list;
 }
 
-/* The region of sources and wanted vertices together, with a line on it. */
-static sl_region *region_of(const heat_system *h, const sl_int *sources, sl_int n_sources,
-                            const sl_int *wanted, sl_int n_wanted) {
+/* Creates the region of the sources and the wanted vertices and prints a line on it. */
+static sl_region *create_region(const heat_system *h, const sl_int *sources, sl_int n_sources,
+                                const sl_int *wanted, sl_int n_wanted) {
     sl_region *R = NULL;
     sl_stats stats = h->stats;
     size_t count = (size_t)n_sources + (size_t)n_wanted;
@@ -50,7 +58,8 @@ static sl_region *region_of(const heat_system *h, const sl_int *sources, sl_int 
     return R;
 }
 
-/* Solves for x on the wanted vertices: a plan, then as many solves as one likes; here it is timed. */
+/* Plans and solves for x at the wanted vertices, and times it: one plan serves any number of
+ * solves. */
 static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int n_sources,
                   const sl_int *wanted, sl_int n_wanted, bool in_region) {
     double *heat = app_alloc((size_t)n_sources, sizeof *heat);
@@ -62,8 +71,8 @@ static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int
     sl_options opt;
     sl_stats stats = h->stats;
     memset(&opt, 0, sizeof opt);
-    stats.error_row = -1;
-    sl_region *R = in_region ? region_of(h, sources, n_sources, wanted, n_wanted) : NULL;
+    stats.error.row = -1;
+    sl_region *R = in_region ? create_region(h, sources, n_sources, wanted, n_wanted) : NULL;
     opt.region = R;
     double begin = app_now();
     app_must(sl_plan_create(&P, h->S, sources, n_sources, wanted, n_wanted, &opt, &stats), "plan",
@@ -76,14 +85,15 @@ static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int
     app_must(sl_plan_solve(P, h->F, x, (size_t)n_wanted, heat, (size_t)n_sources, 1, W),
              "local solve", NULL);
     double second = app_now();
-    printf("sources %d, wanted %d of %d vertices, t = %.6g\n", (int)n_sources, (int)n_wanted,
+    printf("%d sources, wanted %d of %d vertices, t = %.6g\n", (int)n_sources, (int)n_wanted,
            (int)h->n, h->t);
     printf("columns visited: forward %d, backward %d of %d; entries of L read %lld of %lld\n",
-           (int)stats.b_columns, (int)stats.x_columns, (int)stats.n,
-           (long long)(stats.b_entries + stats.x_entries), (long long)(2 * stats.nnz_panels));
-    if (stats.plan_in_region) {
+           (int)stats.plan.b_columns, (int)stats.plan.x_columns, (int)stats.symbolic.n,
+           (long long)(stats.plan.b_entries + stats.plan.x_entries),
+           (long long)(2 * stats.symbolic.nnz_panels));
+    if (stats.plan.in_region) {
         printf("entries read of the region's inverse: %lld\n",
-               (long long)stats.plan_region_entries);
+               (long long)stats.plan.region_entries);
     }
     printf("microseconds: plan %.1f, first solve %.1f, each further solve %.1f\n",
            1e6 * (planned - begin), 1e6 * (first - planned), 1e6 * (second - first));
@@ -99,10 +109,10 @@ static void write_csv(const char *path, const double *x, const sl_int *wanted, s
     for (sl_int k = 0; k < n_wanted; k++) {
         fprintf(csv, "%d,%.17g\n", (int)wanted[k], x[k]);
     }
-    app_close(csv, path);
+    app_close(csv);
 }
 
-/* Pictures show the logarithm: heat falls off exponentially. */
+/* The picture shows the logarithm, because heat decreases exponentially with the distance. */
 static void write_mesh(const app_output *output, const mesh *m, const double *x,
                        const sl_int *wanted, sl_int n_wanted, const sl_int *sources,
                        sl_int n_sources) {
@@ -146,20 +156,19 @@ int command_heat(int argc, char **argv) {
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
-        {OPTION_TEXT, "from", &from, "VERTICES", "the sources: 3,17,100-200 or random:5 (0)"},
-        {OPTION_TEXT, "at", &at, "VERTICES", "where heat is wanted: a list, or all (all)"},
+        {OPTION_TEXT, "from", &from, "VERTICES", "source vertices: 3,17,100-200 or random:5 (0)"},
+        {OPTION_TEXT, "at", &at, "VERTICES", "wanted vertices: a list or all (all)"},
         {OPTION_REAL, "radius", &radius, "R",
-         "where heat is wanted: no farther than R from a source"},
+         "wanted vertices: those within the Euclidean distance R of a source"},
         {OPTION_FLAG, "region", &in_region, NULL,
-         "make a region of the sources and the wanted vertices, and end the sweeps at its "
-         "boundary: "
-         "for questions that are asked again and again"},
+         "create a region of the sources and the wanted vertices and end the sweeps at its "
+         "boundary; worthwhile if the same system is solved many times"},
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    options_read(&usage, options, argc, argv, &operand);
+    options_read(&usage, &manual, options, argc, argv, &operand);
     if (at != NULL && radius > 0) {
-        app_die_usage("--at and --radius: one of them");
+        app_die_usage("--at and --radius: give one of them");
     }
     mesh m;
     heat_system h;
@@ -181,7 +190,7 @@ int command_heat(int argc, char **argv) {
             printf("%d %.17g\n", (int)wanted[k], x[k]);
         }
     }
-    app_look_at(&output, &m, sources, n_sources);
+    app_aim_camera(&output, &m, sources, n_sources, false);
     write_mesh(&output, &m, x, wanted, n_wanted, sources, n_sources);
     free(x);
     free(wanted);

@@ -1,31 +1,38 @@
-/* command_hks.c: heat-kernel signatures: auto-diffusion of vertices over a range of times */
+/* command_hks.c: heat kernel signatures: the auto-diffusion function at several times */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app.h"
 #include "command.h"
-#include "heat_system.h"
+#include "tools/cli/heat_system.h"
 
-static const options_usage usage = {
-    "hks", "MESH", 1, 1,
-    "The heat-kernel signature of a vertex: its auto-diffusion "
-    "(see adf) at several times, spaced evenly on a logarithmic "
-    "scale. The pattern is analysed once; as many times at once as "
-    "there are threads are factored by one call and asked by "
-    "another. The times span those of the first 300 eigenvalues, whose sizes Weyl's law "
-    "tells from the area."};
+static const options_usage usage = {"hks", "MESH", 1, 1,
+                                    "Computes heat kernel signatures of vertices."};
+
+static const options_manual manual = {
+    "The signature of a vertex consists of its auto-diffusion function (see adf) at several times, "
+    "which are evenly spaced on a logarithmic scale. By default the times span those of the first "
+    "300 eigenvalues of the Laplacian, which Weyl's law estimates from the area of the surface. "
+    "The "
+    "pattern is analyzed once; then as many times as there are threads are factored by one call, "
+    "and another call computes their diagonals.",
+    "The range of times and the seconds of each phase. --csv has a column per time, headed by the "
+    "time. The picture shows the logarithm of the value at the middle time, or the distance to the "
+    "signature of --like: the root mean square of the differences of the logarithms.",
+    "star:6 --like 100 --png hks.png --csv hks.csv\nbunny.obj --times 8 --at 17,100-200 --csv "
+    "hks.csv"};
 
 static const double pi = 3.14159265358979323846;
 
-/* Signatures as usual [Sun, Ovsjanikov, Guibas 2009]: from 4 ln 10 / lambda_300 to 4 ln 10 / lambda_2, with
- * lambda_k = 4 pi k / area. */
+/* The usual range [Sun, Ovsjanikov, Guibas 2009]: 4 ln 10 / lambda_300 to 4 ln 10 / lambda_2, with
+ * lambda_k = 4 pi k / area by Weyl's law. */
 static void find_times(double *times, sl_int count, double first, double last, const mesh *m) {
     double area = heat_area(m);
     first = first > 0 ? first : 4 * log(10) * area / (4 * pi * 300);
     last = last > 0 ? last : 4 * log(10) * area / (4 * pi * 2);
     if (!(first > 0 && last >= first) || !isfinite(last)) {
-        app_die("no times from %g to %g: the area is %g; give --first and --last", first, last,
+        app_die("no range of times from %g to %g (area %g): give --first and --last", first, last,
                 area);
     }
     for (sl_int k = 0; k < count; k++) {
@@ -33,20 +40,22 @@ static void find_times(double *times, sl_int count, double first, double last, c
     }
 }
 
-/* How many factors are held at once: one for each thread, as long as their numbers keep within 4 GB. More would only
- * spread the numbers over memory that is new: one thread with 8 factors takes about a fourth longer than with 1. */
+/* Number of factors held at once: one per thread, as far as their values fit into 4 GB. More
+ * factors would only touch more memory: one thread with 8 factors takes about 25 % longer than with
+ * 1. */
 static sl_int block_size(const heat_system *h, sl_int n_times, sl_int threads) {
-    double fit = 4e9 / (sizeof(double) * (double)(h->stats.nnz_panels + 1));
+    double fit = 4e9 / (sizeof(double) * (double)(h->stats.symbolic.nnz_panels + 1));
     sl_int block = threads < n_times ? threads : n_times;
     block = fit < block ? (sl_int)fit : block;
     return block > 1 ? block : 1;
 }
 
-/* values[k count + i]: vertex i of the list at time k. */
+/* values[k * count + i]: vertex i of the list at time k. */
 static void compute(double *values, heat_system *h, const double *times, sl_int n_times,
                     const sl_int *vertices, sl_int count, bool all, const sl_threads *threads) {
     sl_stats stats = h->stats;
     sl_int block = block_size(h, n_times, threads->count);
+    sl_options options = {.threads = *threads};
     sl_factor **factors = app_alloc((size_t)block, sizeof *factors);
     for (sl_int first = 0; first < n_times; first += block) {
         sl_int width = n_times - first < block ? n_times - first : block;
@@ -54,7 +63,7 @@ static void compute(double *values, heat_system *h, const double *times, sl_int 
         heat_system_factors(h, factors, times + first, width, threads);
         app_must(sl_batch_diagonal((const sl_factor *const *)factors, width,
                                    values + (size_t)first * (size_t)count, (size_t)count,
-                                   all ? NULL : vertices, count, threads, NULL, NULL, &stats),
+                                   all ? NULL : vertices, count, &options, NULL, NULL, &stats),
                  "auto-diffusion", &stats);
     }
     app_progress_end();
@@ -78,11 +87,12 @@ static void write_csv(const char *path, const double *values, const double *time
         }
     }
     fprintf(csv, "\n");
-    app_close(csv, path);
+    app_close(csv);
 }
 
-/* How far the signature of vertex i of the list is from that of place `like`: the root mean square of the differences
- * of logarithms, or, without `like`, the logarithm at the middle time. */
+/* The value drawn at vertex i of the list: the distance of its signature to that at position `like`
+ * of the list, the root mean square of the differences of logarithms. Without `like` (-1) it is the
+ * logarithm at the middle time. */
 static double shown_value(const double *values, sl_int n_times, sl_int count, sl_int i,
                           sl_int like) {
     if (like < 0) {
@@ -128,67 +138,67 @@ static void write_mesh(const app_output *output, const mesh *m, const double *va
     free(columns);
 }
 
-/* Where the list has the vertex that --like names. */
+/* The position in the list of the vertex that --like names. */
 static sl_int find_like(const char *like, const sl_int *vertices, sl_int count, sl_int n) {
-    sl_int likes = 0, place = -1;
-    sl_int *wanted = app_vertices("like", like, n, 1, &likes);
-    for (sl_int i = 0; i < count && place < 0; i++) {
-        place = vertices[i] == wanted[0] ? i : -1;
+    sl_int n_wanted = 0, position = -1;
+    sl_int *wanted = app_vertices("like", like, n, 1, &n_wanted);
+    for (sl_int i = 0; i < count && position < 0; i++) {
+        position = vertices[i] == wanted[0] ? i : -1;
     }
     free(wanted);
-    if (likes != 1 || place < 0) {
-        app_die_usage("--like %s: one vertex, and one of those of --at", like);
+    if (n_wanted != 1 || position < 0) {
+        app_die_usage("--like %s: expected one vertex, which --at includes", like);
     }
-    return place;
+    return position;
 }
 
 int command_hks(int argc, char **argv) {
     const char *operand = NULL, *at = "all", *like = NULL;
     double first = 0, last = 0;
-    sl_int n_times = 16, count = 0, like_place = -1;
+    sl_int n_times = 16, count = 0, like_position = -1;
     sl_threads threads = {1, NULL, NULL};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
-        {OPTION_TEXT, "at", &at, "VERTICES", "a list 3,17,100-200, or random:5, or all (all)"},
-        {OPTION_COUNT, "times", &n_times, "K", "how many times (16)"},
-        {OPTION_REAL, "first", &first, "T", "the first time (by the area)"},
-        {OPTION_REAL, "last", &last, "T", "the last time (by the area)"},
+        {OPTION_TEXT, "at", &at, "VERTICES", "vertices: 3,17,100-200 or random:5 or all (all)"},
+        {OPTION_COUNT, "times", &n_times, "K", "number of times (16)"},
+        {OPTION_REAL, "first", &first, "T", "first time (from the area)"},
+        {OPTION_REAL, "last", &last, "T", "last time (from the area)"},
         {OPTION_TEXT, "like", &like, "VERTEX",
-         "the picture shows how far each signature is from that of this vertex (otherwise the "
-         "middle time)"},
+         "draw the distance of each signature to that of this vertex (default: draw the values at "
+         "the middle time)"},
         {OPTION_COUNT, "threads", &threads.count, "N",
-         "how many work at once, where the program is built with OpenMP (1)"},
+         "number of threads, if the program is built with OpenMP (1)"},
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    options_read(&usage, options, argc, argv, &operand);
+    options_read(&usage, &manual, options, argc, argv, &operand);
     if (n_times < 1 || n_times > 1000 || first < 0 || last < 0) {
-        app_die_usage("--times from 1 to 1000, --first and --last above 0");
+        app_die_usage("--times: expected 1 to 1000; --first and --last: expected above 0");
     }
     if (threads.count > 1024) {
-        app_die_usage("--threads: no more than 1024");
+        app_die_usage("--threads: expected at most 1024");
     }
     mesh m;
     heat_system h;
     app_mesh(&m, operand, true);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     if (like != NULL) {
-        like_place = find_like(like, vertices, count, m.n_vertices);
+        like_position = find_like(like, vertices, count, m.n_vertices);
     }
     double *times = app_alloc((size_t)n_times, sizeof *times);
     double *values = app_alloc((size_t)n_times * (size_t)count, sizeof *values);
     find_times(times, n_times, first, last, &m);
-    heat_system_analyse(&h, &m);
+    heat_system_analyze(&h, &m);
     double begin = app_now();
     compute(values, &h, times, n_times, vertices, count, strcmp(at, "all") == 0, &threads);
     printf("signatures of %d of %d vertices at %d times from %.6g to %.6g\n", (int)count,
            (int)m.n_vertices, (int)n_times, times[0], times[n_times - 1]);
-    printf("seconds: order and analyse %.4g, all times together %.4g\n",
-           h.stats.seconds_order + h.stats.seconds_analyse, app_now() - begin);
+    printf("seconds: order and analyze %.4g, factors and signatures %.4g\n",
+           h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze, app_now() - begin);
     if (output.csv != NULL) {
         write_csv(output.csv, values, times, n_times, vertices, count);
     }
-    write_mesh(&output, &m, values, n_times, vertices, count, like_place);
+    write_mesh(&output, &m, values, n_times, vertices, count, like_position);
     free(values);
     free(times);
     free(vertices);

@@ -1,33 +1,37 @@
-/* command_pairs.c: heat that pairs of vertices exchange: one tree for both sweeps, or one each? */
+/* command_pairs.c: heat exchanged by pairs of vertices, by three methods */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app.h"
 #include "command.h"
-#include "heat_system.h"
-#include "plot.h"
+#include "tools/cli/heat_system.h"
+#include "tools/draw/plot.h"
 
 static const options_usage usage = {
-    "pairs", "MESH", 1, 1,
-    "The heat that vertex i receives from vertex j is one entry of (M + t L)^-1. For each pair it "
-    "is computed in three "
-    "ways: by a local solve over one tree (the paths of i and j together, for both sweeps), by one "
-    "over two trees "
-    "(forward along the path of j, backward along that of i), and by sl_inverse_pairs, all pairs "
-    "in one call. The values "
-    "must agree; the histogram shows how many times faster two trees are."};
+    "pairs", "MESH", 1, 1, "Computes the heat exchanged by pairs of vertices, by three methods."};
+
+static const options_manual manual = {
+    "The heat that vertex i receives from vertex j is entry (i, j) of (M + t L)^-1. Each entry is "
+    "computed by a local solve over one tree (both sweeps visit the paths of i and j), by a local "
+    "solve over two trees (the forward sweep visits the path of j, the backward sweep that of i), "
+    "and by sl_inverse_pairs, which takes all pairs in one call.",
+    "Median microseconds per pair of each method, the speedup of two trees over one, and the "
+    "largest relative difference of the values. --csv has columns "
+    "from,to,heat,one_tree_s,two_trees_s. --svg is a histogram of the speedups.",
+    "hills:200x200 --count 10000 --svg speedup.svg\nbunny.obj --from 17 --to 100-200 --csv "
+    "heat.csv"};
 
 enum { BINS = 40, ROUNDS = 3 };
 
 static const double bin_width = 0.1;
 
 typedef struct pair_times {
-    double *one_tree, *two_trees; /* seconds of each pair, the best of some rounds */
-    double together;              /* all pairs by one call */
+    double *one_tree, *two_trees; /* seconds of each pair, best of ROUNDS */
+    double together;              /* seconds of all pairs in one call, best of ROUNDS */
 } pair_times;
 
-/* x_one: the heat at i over one tree; x_two: over two trees. */
+/* x_one, x_two: the heat at i, computed over one tree and over two trees. */
 static void solve_pairs(double *x_one, double *x_two, pair_times *times, const sl_factor *F,
                         const sl_int *i, const sl_int *j, sl_int count) {
     sl_work *W = NULL;
@@ -41,10 +45,10 @@ static void solve_pairs(double *x_one, double *x_two, pair_times *times, const s
         times->one_tree[k] = times->two_trees[k] = HUGE_VAL;
         for (int round = 0; round < ROUNDS; round++) {
             double begin = app_now();
-            app_must(sl_local_solve(F, x, 2, both, n_both, b, 2, both, n_both, 1, W, NULL),
+            app_must(sl_local_solve(F, both, n_both, both, n_both, x, 2, b, 2, 1, W, NULL),
                      "one tree", NULL);
             double middle = app_now();
-            app_must(sl_local_solve(F, &x_two[k], 1, &i[k], 1, b, 1, &j[k], 1, 1, W, NULL),
+            app_must(sl_local_solve(F, &j[k], 1, &i[k], 1, &x_two[k], 1, b, 1, 1, W, NULL),
                      "two trees", NULL);
             double end = app_now();
             times->one_tree[k] = fmin(times->one_tree[k], middle - begin);
@@ -56,7 +60,7 @@ static void solve_pairs(double *x_one, double *x_two, pair_times *times, const s
     sl_work_free(W);
 }
 
-/* All pairs by one call, the best of some rounds as above; returns seconds. */
+/* Computes all pairs in one call; returns seconds, best of ROUNDS. */
 static double solve_together(double *entries, const sl_factor *F, const sl_int *i, const sl_int *j,
                              sl_int count) {
     double best = HUGE_VAL;
@@ -88,8 +92,8 @@ static double median(const double *values, sl_int count) {
 static void draw_histogram(const char *path, const pair_times *times, sl_int count) {
     int bins[BINS] = {0}, first = BINS, last = -1;
     char message[512];
-    plot *p = plot_create("Pairs: how many times faster two trees are than one",
-                          "time of one tree / time of two trees", "pairs", false, false);
+    plot *p = plot_create("Speedup of two trees over one tree, by pairs of vertices",
+                          "time over one tree / time over two trees", "pairs", false, false);
     for (sl_int k = 0; k < count; k++) {
         int bin = (int)fmin(BINS - 1, times->one_tree[k] / times->two_trees[k] / bin_width);
         bins[bin]++;
@@ -111,12 +115,13 @@ static void draw_histogram(const char *path, const pair_times *times, sl_int cou
     plot_free(p);
 }
 
-/* Lists of the same length, or one vertex against many; without lists, random pairs of different vertices. */
+/* Pairs from two lists of equal length, or of one vertex with a list; without lists random pairs of
+ * distinct vertices. */
 static void choose_pairs(sl_int **i, sl_int **j, sl_int *count, const char *to, const char *from,
                          sl_int wanted, uint64_t seed, sl_int n) {
     sl_int n_to = 0, n_from = 0;
     if ((to == NULL) != (from == NULL)) {
-        app_die_usage("--from and --to: both or neither");
+        app_die_usage("--from and --to: give both or neither");
     }
     if (to == NULL) {
         *count = wanted;
@@ -133,7 +138,8 @@ static void choose_pairs(sl_int **i, sl_int **j, sl_int *count, const char *to, 
     sl_int *first = app_vertices("from", from, n, seed, &n_from);
     sl_int *second = app_vertices("to", to, n, seed + 1, &n_to);
     if (n_from != n_to && n_from != 1 && n_to != 1) {
-        app_die_usage("--from has %d vertices, --to %d: as many, or one", (int)n_from, (int)n_to);
+        app_die_usage("--from has %d vertices, --to has %d: expected equal numbers, or one of 1",
+                      (int)n_from, (int)n_to);
     }
     *count = n_from > n_to ? n_from : n_to;
     *i = app_alloc((size_t)*count, sizeof **i);
@@ -146,7 +152,7 @@ static void choose_pairs(sl_int **i, sl_int **j, sl_int *count, const char *to, 
     free(first);
 }
 
-/* Prints what was measured; returns how far the ways differ, as a share of the value. */
+/* Prints the measurements; returns the largest relative difference between the methods. */
 static double report(const pair_times *times, const double *one, const double *two,
                      const double *entries, sl_int count) {
     double *gain = app_alloc((size_t)count, sizeof *gain), worst = 0;
@@ -157,12 +163,12 @@ static double report(const pair_times *times, const double *one, const double *t
         double size = fmax(fabs(two[k]), 1e-300);
         worst = fmax(worst, fmax(fabs(one[k] - two[k]), fabs(entries[k] - two[k])) / size);
     }
-    printf("microseconds a pair: one tree %.2f, two trees %.2f (medians), all in one call %.2f\n",
+    printf("microseconds per pair: one tree %.2f, two trees %.2f (medians), all in one call %.2f\n",
            1e6 * median(times->one_tree, count), 1e6 * median(times->two_trees, count),
            count > 0 ? 1e6 * times->together / count : 0);
-    printf("two trees: %.2f times faster in the median, slower for %.2f %% of the pairs\n",
-           median(gain, count), count > 0 ? 100.0 * slower / count : 0);
-    printf("the ways differ by at most %.2g of a value\n", worst);
+    printf("two trees: median speedup %.2f, slower for %.2f %% of the pairs\n", median(gain, count),
+           count > 0 ? 100.0 * slower / count : 0);
+    printf("the methods differ by at most %.2g, relative to the value\n", worst);
     free(gain);
     return worst;
 }
@@ -175,7 +181,7 @@ static void write_csv(const char *path, const sl_int *i, const sl_int *j, const 
         fprintf(csv, "%d,%d,%.17g,%.4g,%.4g\n", (int)j[k], (int)i[k], heat[k], times->one_tree[k],
                 times->two_trees[k]);
     }
-    app_close(csv, path);
+    app_close(csv);
 }
 
 int command_pairs(int argc, char **argv) {
@@ -183,25 +189,26 @@ int command_pairs(int argc, char **argv) {
     sl_int count = 10000, seed = 1;
     heat_time time = {0, 0, 0};
     const option options[] = {
-        {OPTION_COUNT, "count", &count, "K", "how many random pairs (10000)"},
-        {OPTION_COUNT, "seed", &seed, "S", "another number, other pairs (1)"},
-        {OPTION_TEXT, "from", &from, "VERTICES", "instead: where the heat comes from"},
-        {OPTION_TEXT, "to", &to, "VERTICES", "and where it is wanted"},
+        {OPTION_COUNT, "count", &count, "K", "number of random pairs (10000)"},
+        {OPTION_COUNT, "seed", &seed, "S", "seed of the random pairs (1)"},
+        {OPTION_TEXT, "from", &from, "VERTICES", "source vertices, in place of random pairs"},
+        {OPTION_TEXT, "to", &to, "VERTICES",
+         "target vertices: as many as sources, or one of the two lists has one vertex"},
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
-        {OPTION_TEXT, "csv", &csv, "FILE", "write pairs, heat, and seconds of both ways"},
-        {OPTION_TEXT, "svg", &histogram, "FILE", "draw the histogram"},
+        {OPTION_TEXT, "csv", &csv, "FILE", "write the heat and the times of each pair"},
+        {OPTION_TEXT, "svg", &histogram, "FILE", "draw a histogram of the speedups"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    options_read(&usage, options, argc, argv, &operand);
+    options_read(&usage, &manual, options, argc, argv, &operand);
     mesh m;
     heat_system h;
     sl_int *i = NULL, *j = NULL;
     app_mesh(&m, operand, true);
     choose_pairs(&i, &j, &count, to, from, count, (uint64_t)seed, m.n_vertices);
     heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
-    size_t room = (size_t)count;
-    double *values = app_alloc(3 * room, sizeof *values); /* one way after the other */
-    double *one = values, *two = values + room, *entries = values + 2 * room;
-    pair_times times = {app_alloc(room, sizeof(double)), app_alloc(room, sizeof(double)), 0};
+    size_t size = (size_t)count;
+    double *values = app_alloc(3 * size, sizeof *values); /* of the three methods */
+    double *one = values, *two = values + size, *entries = values + 2 * size;
+    pair_times times = {app_alloc(size, sizeof(double)), app_alloc(size, sizeof(double)), 0};
     solve_pairs(one, two, &times, h.F, i, j, count);
     times.together = solve_together(entries, h.F, i, j, count);
     printf("%d pairs on %d vertices, t = %.6g\n", (int)count, (int)m.n_vertices, h.t);

@@ -1,120 +1,119 @@
-/* command_param.c: sparse-local param: a patch laid out in the plane by a local solve on the whole mesh's factor */
+/* command_param.c: harmonic layout of a patch by a local solve with the factor of the whole mesh */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cg.h"
+#include "tools/matrix/cg.h"
 #include "command.h"
-#include "harmonic_map.h"
-#include "layout_job.h"
-#include "product.h"
+#include "tools/geometry/harmonic_map.h"
+#include "layout_command.h"
+#include "tools/matrix/sparse_product.h"
 
-static const char text[] =
-    "Lays a patch of the mesh out in the plane by harmonic coordinates [HDA17, section 4]. The "
-    "boundary is laid "
-    "out first; the flux that this layout has there (Neumann data, equation 3) is the right-hand "
-    "side, nonzero "
-    "on the boundary alone, and the Laplacian of the WHOLE mesh is solved for the patch alone, on "
-    "a factor made "
-    "once: exactly the patch's rows of a full solve. In this problem the mesh beyond the patch "
-    "goes on, harmonic, "
-    "and takes about half of the flux; --system patch asks for the patch by itself instead, its "
-    "boundary free: "
-    "another problem, whose solution some ten local solves on the same factor give to 10 digits. "
-    "--dirichlet "
-    "keeps the boundary where it was laid, the classic harmonic map: that needs a factor of the "
-    "patch's inside.\n"
-    "Printed figures, of the layout scaled to the area of the patch: conformal energy over area "
-    "(0: all angles "
-    "kept), mean ratio of the two stretches of a face (1: angles kept), mean squared error of "
-    "lengths (0: lengths "
-    "kept), spread of the logarithm of areas (0: areas in proportion), faces turned over.";
+static const options_usage usage = {"param", "MESH", 1, 1,
+                                    "Computes a planar layout of a patch by harmonic coordinates."};
 
-/* The best of a few repetitions, in seconds. */
+static const options_manual manual = {
+    "The method of [HDA17], section 4. The boundary is laid out first. The normal derivative of "
+    "that "
+    "layout along the boundary (Neumann data, equation 3) is the right-hand side, which is nonzero "
+    "only at the boundary. The Laplacian of the whole mesh is solved on the patch alone with a "
+    "factor that is computed once; the result equals the patch's rows of a full solve. In this "
+    "problem the solution continues harmonically outside the patch, which takes about half of the "
+    "flux. --system patch solves the Laplacian of the patch alone with a free boundary, a "
+    "different "
+    "problem; about ten local solves with the same factor give its solution to 10 digits. "
+    "--dirichlet fixes the boundary where it was laid out, the classical harmonic map; this "
+    "factors "
+    "the interior of the patch.",
+    LAYOUT_OUTPUT
+    "\n--compare: milliseconds of each method, best of 5, and the difference of its result.\n"
+    "--sweep: the same for patches of several sizes, as in Figures 4 and 5 of the paper.",
+    "star:6 --center 100 --patch 2000 --png mesh.png --layout layout.png\n"
+    "bunny.obj --patch 2000 --compare --sweep 500,1000,5000"};
+
+/* Times are the best of this many repetitions. */
 enum { REPETITIONS = 5 };
 
-typedef struct job {
-    layout_job j;
-    sl_int n;
-    double *boundary; /* the boundary in the plane */
-    double *flux;     /* n x 2: right-hand side */
-    double *X;        /* n x 2 */
-    double seconds;
-    int solves;
-} job;
+typedef struct param_command {
+    layout_command layout;
+    sl_int n;         /* vertices of the patch */
+    double *boundary; /* layout of the boundary */
+    double *flux;     /* n x 2, column-major: right-hand side */
+    double *X;        /* n x 2, column-major: layout */
+    int solves;       /* local solves or iterations of the last solve */
+} param_command;
 
-enum { MOST_SOLVES = 60 };
+enum { MAX_SOLVES = 60 };
 
-static void solve_mesh(job *q) {
-    app_must(patch_solver_mesh(&q->j.s, q->X, q->flux, 2), "solve on the patch", NULL);
-    q->solves = 1;
-}
-
-static void solve_patch(job *q) {
-    q->solves = MOST_SOLVES;
-    app_must(patch_solver_part(&q->j.s, q->X, q->flux, 2, 1e-10, &q->solves), "solve on the patch",
+static void solve_mesh(param_command *cmd) {
+    app_must(patch_solver_solve_mesh(&cmd->layout.s, cmd->X, cmd->flux, 2), "solve on the patch",
              NULL);
+    cmd->solves = 1;
 }
 
-static void solve_refactor(job *q) {
-    const sl_csc N = sl_matrix_view(q->j.s.N);
-    app_must(refactor_solve(q->X, &N, q->flux, 2), "factor of the patch", NULL);
-    q->solves = 0;
+static void solve_patch(param_command *cmd) {
+    cmd->solves = MAX_SOLVES;
+    app_must(patch_solver_solve_patch(&cmd->layout.s, cmd->X, cmd->flux, 2, 1e-10, &cmd->solves),
+             "solve on the patch", NULL);
 }
 
-static void solve_dirichlet(job *q) {
-    app_must(harmonic_dirichlet(q->X, &q->j.d, q->boundary), "factor of the patch's inside", NULL);
-    q->solves = 0;
+static void solve_refactor(param_command *cmd) {
+    const sl_csc N = sl_matrix_view(cmd->layout.s.N);
+    app_must(factor_and_solve(cmd->X, &N, cmd->flux, 2), "factor of the patch", NULL);
+    cmd->solves = 0;
 }
 
-static void solve_cg(job *q) {
-    const sl_csc N = sl_matrix_view(q->j.s.N);
+static void solve_dirichlet(param_command *cmd) {
+    app_must(harmonic_dirichlet(cmd->X, &cmd->layout.d, cmd->boundary),
+             "factor of the interior of the patch", NULL);
+    cmd->solves = 0;
+}
+
+static void solve_cg(param_command *cmd) {
+    const sl_csc N = sl_matrix_view(cmd->layout.s.N);
     sl_matrix *both;
-    double *work = app_alloc(4 * (size_t)q->n, sizeof *work);
-    if (!csc_both_triangles(&both, &N)) {
+    double *work = app_alloc(4 * (size_t)cmd->n, sizeof *work);
+    if (!csc_expand_symmetric(&both, &N)) {
         app_die("out of memory");
     }
     const sl_csc A = sl_matrix_view(both);
-    q->solves = 0;
+    cmd->solves = 0;
     for (size_t c = 0; c < 2; c++) {
-        q->solves += cg_jacobi(&A, q->X + c * (size_t)q->n, q->flux + c * (size_t)q->n, 1e-10,
-                               1000000, work);
+        cmd->solves += cg_jacobi(&A, cmd->X + c * (size_t)cmd->n, cmd->flux + c * (size_t)cmd->n,
+                                 1e-10, 1000000, work);
     }
     sl_matrix_free(both);
     free(work);
 }
 
-/* The full solve, of all of the mesh. */
-static void solve_full(job *q) {
-    size_t all = (size_t)q->j.m.n_vertices, n = (size_t)q->n;
+/* A full solve on the whole mesh. */
+static void solve_full(param_command *cmd) {
+    size_t all = (size_t)cmd->layout.m.n_vertices, n = (size_t)cmd->n;
     double *B = app_alloc(2 * all, sizeof *B);
     for (size_t k = 0; k < 2 * n; k++) {
-        B[k / n * all + (size_t)q->j.d.p.vertices[k % n]] = q->flux[k];
+        B[k / n * all + (size_t)cmd->layout.d.p.vertices[k % n]] = cmd->flux[k];
     }
-    app_must(sl_factor_solve(q->j.F, B, all, B, all, 2, NULL), "full solve", NULL);
+    app_must(sl_factor_solve(cmd->layout.F, B, all, B, all, 2, NULL), "full solve", NULL);
     for (size_t k = 0; k < 2 * n; k++) {
-        q->X[k] = B[k / n * all + (size_t)q->j.d.p.vertices[k % n]];
+        cmd->X[k] = B[k / n * all + (size_t)cmd->layout.d.p.vertices[k % n]];
     }
     free(B);
 }
 
-static void timed(job *q, void (*solve)(job *)) {
-    q->seconds = INFINITY;
+/* Milliseconds of a method, best of REPETITIONS. */
+static double best_ms(param_command *cmd, void (*solve)(param_command *)) {
+    double seconds = INFINITY;
     for (int k = 0; k < REPETITIONS; k++) {
         double began = app_now();
-        solve(q);
-        q->seconds = fmin(q->seconds, app_now() - began);
+        solve(cmd);
+        seconds = fmin(seconds, app_now() - began);
     }
+    return 1e3 * seconds;
 }
 
-/* Milliseconds of one way. */
-static double best(job *q, void (*solve)(job *)) {
-    timed(q, solve);
-    return 1e3 * q->seconds;
-}
-
-/* Largest difference of two layouts but for a shift, against the size of the second. */
+/* Largest difference between two layouts up to a translation, relative to the size of the
+ * second. */
 static double difference(const double *X, const double *Y, sl_int n) {
     double worst = 0, size = 0;
     for (sl_int c = 0; c < 2; c++) {
@@ -130,162 +129,173 @@ static double difference(const double *X, const double *Y, sl_int n) {
     return size > 0 ? worst / size : worst;
 }
 
-/* Milliseconds of the same solves by plans to the roots. */
-static double best_to_the_roots(job *q, void (*solve)(job *)) {
-    patch_solver inside = q->j.s;
-    app_must(patch_solver_create(&q->j.s, q->j.S, q->j.F, &q->j.d.p), "plan of the patch", NULL);
-    double milliseconds = best(q, solve);
-    patch_solver_free(&q->j.s);
-    q->j.s = inside;
+/* Milliseconds of a method by plans without a region, best of REPETITIONS. */
+static double best_ms_without_region(param_command *cmd, void (*solve)(param_command *)) {
+    patch_solver in_region = cmd->layout.s;
+    app_must(patch_solver_create(&cmd->layout.s, cmd->layout.S, cmd->layout.F, &cmd->layout.d.p),
+             "plan of the patch", NULL);
+    double milliseconds = best_ms(cmd, solve);
+    patch_solver_free(&cmd->layout.s);
+    cmd->layout.s = in_region;
     return milliseconds;
 }
 
-/* What the region saves each solve, against what it took. */
-static void compare_region(job *q) {
-    double mesh_roots = best_to_the_roots(q, solve_mesh), mesh_inside = best(q, solve_mesh);
-    double part_roots = best_to_the_roots(q, solve_patch), part_inside = best(q, solve_patch);
-    double saved = mesh_roots - mesh_inside;
-    printf("in the region, and to the roots\n");
-    printf("%-52s %10.3f  %.3f to the roots\n", "  local solve of the mesh's problem", mesh_inside,
-           mesh_roots);
-    printf("  local solves of the patch's own: %4d%*s %10.3f  %.3f to the roots\n", q->solves, 15,
-           "", part_inside, part_roots);
+/* Prints a method, with a count of its units where unit is not NULL, and its time. */
+static void print_time(const char *method, int count, const char *unit, double milliseconds) {
+    char text[64];
+    if (unit != NULL) {
+        (void)snprintf(text, sizeof text, "%s: %d %s", method, count, unit);
+        method = text;
+    }
+    printf("  %-50s %10.3f", method, milliseconds);
+}
+
+/* Compares what the region saves per solve with the time it took to create. */
+static void compare_region(param_command *cmd) {
+    double mesh_without = best_ms_without_region(cmd, solve_mesh);
+    double mesh_region = best_ms(cmd, solve_mesh);
+    double patch_without = best_ms_without_region(cmd, solve_patch);
+    double patch_region = best_ms(cmd, solve_patch);
+    double saved = mesh_without - mesh_region;
+    printf("in the region, and without it\n");
+    print_time("system of the mesh: one local solve", 0, NULL, mesh_region);
+    printf("  %.3f without\n", mesh_without);
+    print_time("system of the patch", cmd->solves, "local solves", patch_region);
+    printf("  %.3f without\n", patch_without);
     if (saved > 0) {
-        printf("  the region has paid after %.0f local solves\n",
-               ceil(1e3 * q->j.seconds_region / saved));
+        printf("  the region pays for itself after %.0f local solves\n",
+               ceil(1e3 * cmd->layout.seconds_region / saved));
     }
 }
 
-/* False: the local solve is not the full one, to the bit or, in a region, to rounding, or the ways to the patch's own
- * solution differ. */
-static bool compare(job *q) {
-    double local, by_mesh;
-    size_t bytes = 2 * (size_t)q->n * sizeof *q->X;
+/* Times all methods. False: the local solve differs from the full one (bitwise, or in a region by
+ * more than rounding), or the methods for the system of the patch disagree. */
+static bool compare(param_command *cmd) {
+    size_t bytes = 2 * (size_t)cmd->n * sizeof *cmd->X;
     double *kept = app_alloc(1, bytes), *reference = app_alloc(1, bytes);
-    memcpy(kept, q->X, bytes);
+    memcpy(kept, cmd->X, bytes);
     printf("\n%-52s %10s  %s\n", "best of 5, two right-hand sides", "ms", "difference");
-    printf("the mesh's problem, L x = b\n");
-    timed(q, solve_full);
-    memcpy(reference, q->X, bytes);
-    printf("%-52s %10.3f\n", "  full solve of the whole mesh", 1e3 * q->seconds);
-    timed(q, solve_mesh);
-    local = difference(q->X, reference, q->n);
-    printf("%-52s %10.3f  %.2g from the full solve\n", "  local solve (its plan is made)",
-           1e3 * q->seconds, local);
-    printf("the patch's own problem, N x = b\n");
-    timed(q, solve_refactor);
-    memcpy(reference, q->X, bytes);
-    printf("%-52s %10.3f\n", "  refactorize the patch and solve", 1e3 * q->seconds);
-    timed(q, solve_cg);
-    printf(
-        "  conjugate gradients, Jacobi: %6d iterations in all%*s %9.3f  %.2g from refactorizing\n",
-        q->solves, 7, "", 1e3 * q->seconds, difference(q->X, reference, q->n));
-    timed(q, solve_patch);
-    by_mesh = difference(q->X, reference, q->n);
-    printf("  the mesh's factor: %4d local solves%*s %10.3f  %.2g from refactorizing\n", q->solves,
-           16, "", 1e3 * q->seconds, by_mesh);
-    if (q->j.region) {
-        compare_region(q);
+    printf("system of the mesh, L x = b\n");
+    print_time("full solve of the whole mesh", 0, NULL, best_ms(cmd, solve_full));
+    memcpy(reference, cmd->X, bytes);
+    printf("\n");
+    print_time("local solve on an existing plan", 0, NULL, best_ms(cmd, solve_mesh));
+    double local = difference(cmd->X, reference, cmd->n);
+    printf("  %.2g from the full solve\n", local);
+    printf("system of the patch, N x = b\n");
+    print_time("refactorize the patch and solve", 0, NULL, best_ms(cmd, solve_refactor));
+    memcpy(reference, cmd->X, bytes);
+    printf("\n");
+    double milliseconds = best_ms(cmd, solve_cg);
+    print_time("conjugate gradients, Jacobi", cmd->solves, "iterations", milliseconds);
+    printf("  %.2g from refactorizing\n", difference(cmd->X, reference, cmd->n));
+    milliseconds = best_ms(cmd, solve_patch);
+    double by_mesh_factor = difference(cmd->X, reference, cmd->n);
+    print_time("factor of the mesh", cmd->solves, "local solves", milliseconds);
+    printf("  %.2g from refactorizing\n", by_mesh_factor);
+    if (cmd->layout.region) {
+        compare_region(cmd);
     }
-    printf("boundary kept\n");
-    timed(q, solve_dirichlet);
-    printf("%-52s %10.3f\n", "  refactorize the patch's inside and solve", 1e3 * q->seconds);
-    memcpy(q->X, kept, bytes);
+    printf("fixed boundary\n");
+    print_time("refactorize the interior and solve", 0, NULL, best_ms(cmd, solve_dirichlet));
+    printf("\n");
+    memcpy(cmd->X, kept, bytes);
     free(reference);
     free(kept);
-    return local <= (q->j.region ? 1e-8 : 0) && by_mesh <= 1e-5;
+    return local <= (cmd->layout.region ? 1e-8 : 0) && by_mesh_factor <= 1e-5;
 }
 
-/* Right-hand side, boundary and room for the patch that the job has now. */
-static void begin_patch(job *q) {
-    q->n = q->j.d.p.m.n_vertices;
-    q->boundary = layout_job_boundary(&q->j);
-    q->flux = layout_job_flux(&q->j, q->boundary);
-    q->X = app_alloc(2 * (size_t)q->n, sizeof *q->X);
+/* Computes the boundary layout and right-hand side of the current patch and allocates X. */
+static void begin_patch(param_command *cmd) {
+    cmd->n = cmd->layout.d.p.m.n_vertices;
+    cmd->boundary = layout_command_boundary(&cmd->layout);
+    cmd->flux = layout_command_flux(&cmd->layout, cmd->boundary);
+    cmd->X = app_alloc(2 * (size_t)cmd->n, sizeof *cmd->X);
 }
 
-static void end_patch(job *q) {
-    free(q->X);
-    free(q->flux);
-    free(q->boundary);
+static void end_patch(param_command *cmd) {
+    free(cmd->X);
+    free(cmd->flux);
+    free(cmd->boundary);
 }
 
-/* The times of the paper's Figures 4 and 5 on this mesh: patches of several sizes. */
-static void sweep(job *q, const char *text_of_sizes) {
+/* Times of patches of several sizes, as in Figures 4 and 5 of the paper. */
+static void sweep(param_command *cmd, const char *text_of_sizes) {
     sl_int count;
-    sl_int *sizes = app_vertices("sweep", text_of_sizes, q->j.m.n_vertices + 1, 1, &count);
+    sl_int *sizes = app_vertices("sweep", text_of_sizes, cmd->layout.m.n_vertices + 1, 1, &count);
     printf(
-        "\nmilliseconds, two right-hand sides. first: the plans, the patch's own Laplacian, and a "
-        "solve;\nthen the best of %d\n"
+        "\nmilliseconds, two right-hand sides, best of %d; first: plans, Laplacian of the patch, "
+        "and one solve\n"
         "%8s %8s %10s %10s %10s %12s %12s\n",
         REPETITIONS, "patch", "boundary", "first", "local", "full", "refactorize", "conj. grad.");
     for (sl_int k = 0; k < count; k++) {
         app_progress("patches", (double)k / (double)count);
-        layout_job_regrow(&q->j, sizes[k]);
-        begin_patch(q);
+        layout_command_regrow(&cmd->layout, sizes[k]);
+        begin_patch(cmd);
         double began = app_now();
-        solve_mesh(q);
-        double first = 1e3 * (q->j.seconds_plan + q->j.seconds_region + app_now() - began),
-               local = best(q, solve_mesh);
-        double full = best(q, solve_full), refactor = best(q, solve_refactor);
-        double gradients = best(q, solve_cg);
+        solve_mesh(cmd);
+        double first = 1e3 *
+                       (cmd->layout.seconds_plan + cmd->layout.seconds_region + app_now() - began),
+               local = best_ms(cmd, solve_mesh);
+        double full = best_ms(cmd, solve_full), refactor = best_ms(cmd, solve_refactor);
+        double gradients = best_ms(cmd, solve_cg);
         app_progress_end();
-        printf("%8d %8d %10.3f %10.3f %10.3f %12.3f %12.3f\n", (int)q->n, (int)q->j.d.n_boundary,
-               first, local, full, refactor, gradients);
-        end_patch(q);
+        printf("%8d %8d %10.3f %10.3f %10.3f %12.3f %12.3f\n", (int)cmd->n,
+               (int)cmd->layout.d.n_boundary, first, local, full, refactor, gradients);
+        end_patch(cmd);
     }
     free(sizes);
 }
 
 int command_param(int argc, char **argv) {
-    job q;
+    param_command cmd;
     bool with_compare = false, dirichlet = false;
     const char *system = "mesh", *sizes = NULL, *operand = NULL;
-    memset(&q, 0, sizeof q);
-    layout_job_defaults(&q.j);
+    memset(&cmd, 0, sizeof cmd);
+    layout_command_defaults(&cmd.layout);
     const option options[] = {
-        LAYOUT_JOB_OPTIONS(&q.j),
+        LAYOUT_OPTIONS(&cmd.layout),
         {OPTION_TEXT, "system", &system, "mesh|patch",
-         "whose problem is solved: the whole mesh's, as the paper does, or the patch's own (mesh)"},
+         "the system to solve: the Laplacian of the whole mesh, as in the paper, or of the patch "
+         "(mesh)"},
         {OPTION_FLAG, "dirichlet", &dirichlet, NULL,
-         "keep the boundary where it is laid: the classic harmonic map"},
+         "fix the boundary at its initial layout: the classical harmonic map"},
         {OPTION_FLAG, "compare", &with_compare, NULL,
-         "time it beside a full solve, refactorizing the patch, and conjugate gradients"},
+         "also time a full solve, refactorizing the patch, and conjugate gradients"},
         {OPTION_TEXT, "sweep", &sizes, "SIZES",
-         "then time patches of these sizes, 2000,10000,30000,50000 say, in all ways"},
+         "also time all methods on patches of these sizes, such as 2000,10000,30000"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    const options_usage usage = {"param", "MESH", 1, 1, text};
-    options_read(&usage, options, argc, argv, &operand);
+    options_read(&usage, &manual, options, argc, argv, &operand);
     if (strcmp(system, "mesh") != 0 && strcmp(system, "patch") != 0) {
-        app_die_usage("--system %s: not mesh or patch", system);
+        app_die_usage("--system %s: expected mesh or patch", system);
     }
-    layout_job_open(&q.j, operand);
-    begin_patch(&q);
+    layout_command_open(&cmd.layout, operand);
+    begin_patch(&cmd);
     double began = app_now();
     if (dirichlet) {
-        solve_dirichlet(&q);
-        printf("solve      inside of the patch factored and solved: %.3f ms\n",
+        solve_dirichlet(&cmd);
+        printf("solve      fixed boundary, interior factored and solved: %.3f ms\n",
                1e3 * (app_now() - began));
     } else if (strcmp(system, "mesh") == 0) {
-        solve_mesh(&q);
-        printf("solve      the mesh's problem, 1 local solve: %.3f ms\n",
+        solve_mesh(&cmd);
+        printf("solve      system of the mesh, 1 local solve: %.3f ms\n",
                1e3 * (app_now() - began));
     } else {
-        solve_patch(&q);
-        printf("solve      the patch's own problem, %d local solves: %.3f ms\n", q.solves,
+        solve_patch(&cmd);
+        printf("solve      system of the patch, %d local solves: %.3f ms\n", cmd.solves,
                1e3 * (app_now() - began));
     }
-    layout_job_report_head();
-    (void)layout_job_report(&q.j, dirichlet ? "Dirichlet" : "Neumann", q.X);
-    bool agree = !with_compare || compare(&q);
+    layout_command_report_head();
+    (void)layout_command_report(&cmd.layout, dirichlet ? "Dirichlet" : "Neumann", cmd.X);
+    bool agree = !with_compare || compare(&cmd);
     if (!agree) {
-        printf("the ways differ by more than rounding\n");
+        printf("the methods differ by more than rounding\n");
     }
-    layout_job_write(&q.j, q.X);
-    end_patch(&q);
+    layout_command_write(&cmd.layout, cmd.X);
+    end_patch(&cmd);
     if (sizes != NULL) {
-        sweep(&q, sizes);
+        sweep(&cmd, sizes);
     }
-    layout_job_close(&q.j);
+    layout_command_close(&cmd.layout);
     return agree ? 0 : 1;
 }

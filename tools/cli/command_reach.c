@@ -1,34 +1,41 @@
-/* command_reach.c: pictures of what a local solve touches: the patch, the paths to the root, the separators */
+/* command_reach.c: the columns of L that a local solve on a patch visits, as counts and pictures */
 #include <stdlib.h>
 #include <string.h>
 
 #include "app.h"
 #include "command.h"
-#include "dissection.h"
-#include "draw_graph.h"
-#include "draw_tree.h"
-#include "laplacian.h"
-#include "patch.h"
+#include "tools/draw/dissection.h"
+#include "tools/draw/draw_graph.h"
+#include "tools/draw/draw_tree.h"
+#include "tools/geometry/laplacian.h"
+#include "tools/mesh/adjacency.h"
 
-static const options_usage usage = {
-    "reach", "MESH", 1, 1,
-    "A local solve on a patch needs the columns of L on the paths from the patch to the root of "
-    "the elimination tree, and "
-    "no others: pictures 1 and 2 of the paper. The patch grows from a vertex by breadth-first "
-    "search. --png shows the "
-    "patch (orange) and the vertices visited beyond it (blue); --separators the separators of the "
-    "nested dissection, "
-    "level by level; --tree the elimination tree; --pattern the entries of P A P' and of L."};
+static const options_usage usage = {"reach", "MESH", 1, 1,
+                                    "Draws the columns of L that a local solve on a patch visits."};
 
-enum { IN_PATCH = 0, VISITED = 1 }; /* kinds: orange and blue */
+static const options_manual manual = {
+    "A local solve on a patch reads the columns of L on the paths from the patch to the root of "
+    "the "
+    "elimination tree, and no others (Figures 1 and 2 of the paper). The patch grows from a vertex "
+    "by breadth-first search. Supernodes are not relaxed, so columns and entries are those of L "
+    "itself.",
+    "Number of columns and entries of L visited, and the sizes of the separators of the nested "
+    "dissection by level. --png shows the patch (orange) and the other vertices visited (blue), "
+    "--separators one color per level, --tree the elimination tree, --pattern P A P' and L. --csv "
+    "has a row per vertex.",
+    "star:6 --patch 2000 --center 100 --png reach.png --tree tree.svg\n"
+    "grid:6x5 --center 7 --patch 3 --graph graph.svg --pattern pattern.png"};
 
-typedef struct reach_question {
+enum { IN_PATCH = 0, VISITED = 1 }; /* color_of_kind: orange and blue */
+
+typedef struct reach_options {
     const char *center, *separators, *tree, *pattern, *graph;
     sl_int size, levels;
-} reach_question;
+} reach_options;
 
-/* The analysis without relaxation: columns and entries are those of L itself, as in the paper. */
-static sl_symbolic *analyse(const sl_csc *A) {
+/* Analyzes without relaxation, so that columns and entries are those of L itself, as in the
+ * paper. */
+static sl_symbolic *analyze(const sl_csc *A) {
     sl_symbolic *S = NULL;
     sl_options opt;
     memset(&opt, 0, sizeof opt);
@@ -37,28 +44,28 @@ static sl_symbolic *analyse(const sl_csc *A) {
     return S;
 }
 
-static sl_int *grow_patch(const mesh *m, const reach_question *q, sl_int *count) {
+static sl_int *grow_patch(const mesh *m, const reach_options *o, sl_int *count) {
     adjacency graph;
     sl_int centers = 0;
-    sl_int *center = app_vertices("center", q->center, m->n_vertices, 1, &centers);
-    sl_int *patch = app_alloc((size_t)q->size, sizeof *patch);
+    sl_int *center = app_vertices("center", o->center, m->n_vertices, 1, &centers);
+    sl_int *patch = app_alloc((size_t)o->size, sizeof *patch);
     unsigned char *seen = app_alloc((size_t)m->n_vertices, 1);
     if (centers != 1) {
-        app_die_usage("--center %s: one vertex", q->center);
+        app_die_usage("--center %s: expected one vertex", o->center);
     }
     if (!adjacency_from_mesh(&graph, m)) {
-        app_die("no memory for the graph of %d vertices", (int)m->n_vertices);
+        app_die("out of memory for the graph of %d vertices", (int)m->n_vertices);
     }
-    *count = patch_bfs(patch, q->size, &graph, center[0], seen);
+    *count = adjacency_bfs(patch, o->size, &graph, center[0], seen);
     adjacency_free(&graph);
     free(seen);
     free(center);
     return patch;
 }
 
-/* kind[k] of pivot k: IN_PATCH, VISITED, or -1. Walks each path until it meets one that was walked before: the time is
- * that of the columns visited. */
-static sl_int walk_paths(int *kind, const sl_symbolic_view_t *view, const sl_int *patch,
+/* Sets kind[k] of pivot k to IN_PATCH, VISITED or -1; returns the number of columns visited. Each
+ * path is followed until it meets an earlier one, so the cost is the number of columns visited. */
+static sl_int walk_paths(int *kind, const sl_symbolic_arrays *view, const sl_int *patch,
                          sl_int count) {
     sl_int visited = 0;
     for (sl_int k = 0; k < view->n; k++) {
@@ -77,7 +84,7 @@ static sl_int walk_paths(int *kind, const sl_symbolic_view_t *view, const sl_int
 }
 
 static void draw_vertices(const char *path, const app_output *output, const mesh *m,
-                          const sl_symbolic_view_t *view, const int *kind) {
+                          const sl_symbolic_arrays *view, const int *kind) {
     const rgb plain = {0xe6, 0xe3, 0xde};
     rgb *color = app_alloc((size_t)m->n_vertices, sizeof *color);
     for (sl_int v = 0; v < m->n_vertices; v++) {
@@ -96,7 +103,7 @@ static void draw_vertices(const char *path, const app_output *output, const mesh
     free(color);
 }
 
-static void write_csv(const char *path, const mesh *m, const sl_symbolic_view_t *view,
+static void write_csv(const char *path, const mesh *m, const sl_symbolic_arrays *view,
                       const int *kind, const sl_int *level) {
     FILE *csv = app_create(path);
     fprintf(csv, "vertex,pivot,parent_vertex,entries_of_column,separator_level,in_patch,visited\n");
@@ -105,58 +112,59 @@ static void write_csv(const char *path, const mesh *m, const sl_symbolic_view_t 
         fprintf(csv, "%d,%d,%d,%d,%d,%d,%d\n", (int)v, (int)k, up >= 0 ? (int)view->perm[up] : -1,
                 (int)view->counts[k], (int)level[k], kind[k] == IN_PATCH, kind[k] >= 0);
     }
-    app_close(csv, path);
+    app_close(csv);
 }
 
-static void draw(const reach_question *q, const app_output *output, const mesh *m, const sl_csc *A,
-                 const sl_symbolic_view_t *view, const int *kind, const sl_int *level) {
+static void draw(const reach_options *o, const app_output *output, const mesh *m, const sl_csc *A,
+                 const sl_symbolic_arrays *view, const int *kind, const sl_int *level) {
     char message[512];
     if (output->png != NULL || output->out != NULL) {
         draw_vertices(output->png, output, m, view, kind);
     }
-    if (q->separators != NULL) {
+    if (o->separators != NULL) {
         int *by_level = app_alloc((size_t)view->n, sizeof *by_level);
         app_output only_png = *output;
         only_png.out = NULL;
         for (sl_int k = 0; k < view->n; k++) {
             by_level[k] = (int)level[k];
         }
-        draw_vertices(q->separators, &only_png, m, view, by_level);
+        draw_vertices(o->separators, &only_png, m, view, by_level);
         free(by_level);
     }
-    if (q->graph != NULL) {
+    if (o->graph != NULL) {
         int *by_vertex = app_alloc((size_t)view->n, sizeof *by_vertex);
         for (sl_int k = 0; k < view->n; k++) {
             by_vertex[view->perm[k]] = kind[k];
         }
-        if (!draw_graph(q->graph, m, by_vertex, message, sizeof message)) {
+        if (!draw_graph(o->graph, m, by_vertex, message, sizeof message)) {
             app_die("%s", message);
         }
         free(by_vertex);
     }
-    if (q->tree != NULL && !draw_tree(q->tree, view, kind, message, sizeof message)) {
+    if (o->tree != NULL && !draw_tree(o->tree, view, kind, message, sizeof message)) {
         app_die("%s", message);
     }
-    if (q->pattern != NULL) {
+    if (o->pattern != NULL) {
         picture p;
         if (!draw_pattern(&p, A, view, kind, 500)) {
-            app_die("%s: no memory for the picture", q->pattern);
+            app_die("%s: out of memory for the picture", o->pattern);
         }
-        app_write_png(&p, q->pattern);
+        app_write_png(&p, o->pattern);
         picture_free(&p);
     }
 }
 
-static void print_reach(const sl_symbolic_view_t *view, const int *kind, const sl_int *level,
+static void print_reach(const sl_symbolic_arrays *view, const int *kind, const sl_int *level,
                         sl_int count, sl_int visited, sl_int levels) {
     double entries = 0, all = 0;
     for (sl_int k = 0; k < view->n; k++) {
         entries += kind[k] >= 0 ? view->counts[k] : 0;
         all += view->counts[k];
     }
-    printf("patch %d of %d vertices; columns visited %d, %d of them beyond the patch\n", (int)count,
-           (int)view->n, (int)visited, (int)(visited - count));
-    printf("entries of L in them: %.0f of %.0f (%.2f %%)\n", entries, all, 100 * entries / all);
+    printf("patch %d of %d vertices; columns visited %d, %d of them outside the patch\n",
+           (int)count, (int)view->n, (int)visited, (int)(visited - count));
+    printf("entries of L in these columns: %.0f of %.0f (%.2f %%)\n", entries, all,
+           100 * entries / all);
     for (sl_int d = 0; d < levels; d++) {
         sl_int columns = 0;
         for (sl_int k = 0; k < view->n; k++) {
@@ -168,43 +176,44 @@ static void print_reach(const sl_symbolic_view_t *view, const int *kind, const s
 
 int command_reach(int argc, char **argv) {
     const char *operand = NULL;
-    reach_question q = {"0", NULL, NULL, NULL, NULL, 500, 6};
+    reach_options o = {"0", NULL, NULL, NULL, NULL, 500, 6};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
-        {OPTION_TEXT, "center", &q.center, "VERTEX", "where the patch begins (0)"},
-        {OPTION_COUNT, "patch", &q.size, "K", "its vertices (500)"},
-        {OPTION_COUNT, "levels", &q.levels, "K", "levels of separators (6)"},
-        {OPTION_TEXT, "separators", &q.separators, "FILE", "draw the separators: a .png"},
-        {OPTION_TEXT, "tree", &q.tree, "FILE", "draw the elimination tree: an .svg"},
-        {OPTION_TEXT, "pattern", &q.pattern, "FILE", "draw the entries of P A P' and L: a .png"},
-        {OPTION_TEXT, "graph", &q.graph, "FILE",
-         "draw a small mesh (up to 500 vertices) with its vertices numbered: an .svg"},
+        {OPTION_TEXT, "center", &o.center, "VERTEX", "vertex from which the patch grows (0)"},
+        {OPTION_COUNT, "patch", &o.size, "K", "number of vertices of the patch (500)"},
+        {OPTION_COUNT, "levels", &o.levels, "K", "number of levels of separators (6)"},
+        {OPTION_TEXT, "separators", &o.separators, "FILE", "draw the separators (.png)"},
+        {OPTION_TEXT, "tree", &o.tree, "FILE", "draw the elimination tree (.svg)"},
+        {OPTION_TEXT, "pattern", &o.pattern, "FILE", "draw the patterns of P A P' and L (.png)"},
+        {OPTION_TEXT, "graph", &o.graph, "FILE",
+         "draw the mesh, at most 500 vertices, with vertex numbers (.svg)"},
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    options_read(&usage, options, argc, argv, &operand);
-    if (q.size < 1 || q.levels < 1) {
-        app_die_usage("--patch and --levels: 1 or more");
+    options_read(&usage, &manual, options, argc, argv, &operand);
+    if (o.size < 1 || o.levels < 1) {
+        app_die_usage("--patch and --levels: expected 1 or more");
     }
     mesh m;
     sl_matrix *L = NULL;
     app_mesh(&m, operand, true);
-    if (q.graph != NULL && m.n_vertices > 500) {
-        app_die("--graph: %d vertices, no more than 500 can be told apart", (int)m.n_vertices);
+    if (o.graph != NULL && m.n_vertices > 500) {
+        app_die("--graph: the mesh has %d vertices, at most 500 fit into the picture",
+                (int)m.n_vertices);
     }
     if (!laplacian_cotangent(&L, &m)) {
-        app_die("no memory for the Laplacian of %d vertices", (int)m.n_vertices);
+        app_die("out of memory for the Laplacian of %d vertices", (int)m.n_vertices);
     }
     sl_csc A = sl_matrix_view(L);
-    sl_symbolic *S = analyse(&A);
-    sl_symbolic_view_t view = sl_symbolic_view(S);
+    sl_symbolic *S = analyze(&A);
+    sl_symbolic_arrays view = sl_symbolic_view(S);
     sl_int count = 0;
-    q.size = q.size < m.n_vertices ? q.size : m.n_vertices;
-    sl_int *patch = grow_patch(&m, &q, &count);
+    o.size = o.size < m.n_vertices ? o.size : m.n_vertices;
+    sl_int *patch = grow_patch(&m, &o, &count);
     int *kind = app_alloc((size_t)view.n, sizeof *kind);
     sl_int *level = app_alloc((size_t)view.n, sizeof *level);
     sl_int visited = walk_paths(kind, &view, patch, count);
-    sl_int found = dissection_levels(level, &view, q.levels);
+    sl_int found = dissection_levels(level, &view, o.levels);
     if (found < 0) {
         app_die("out of memory");
     }
@@ -212,8 +221,8 @@ int command_reach(int argc, char **argv) {
     if (output.csv != NULL) {
         write_csv(output.csv, &m, &view, kind, level);
     }
-    app_look_at(&output, &m, patch, count);
-    draw(&q, &output, &m, &A, &view, kind, level);
+    app_aim_camera(&output, &m, patch, count, false);
+    draw(&o, &output, &m, &A, &view, kind, level);
     free(level);
     free(kind);
     free(patch);

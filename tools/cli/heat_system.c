@@ -1,11 +1,11 @@
-/* heat_system.c: a mesh's diffusion operator M + t L, factored and ready to be asked */
+/* heat_system.c: the factored diffusion operator M + t L of a mesh, and the options for its time */
 #include "heat_system.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "laplacian.h"
+#include "tools/geometry/laplacian.h"
 
 static void check_time(double t) {
     if (!(t > 0 && t <= 1e200)) {
@@ -13,27 +13,27 @@ static void check_time(double t) {
     }
 }
 
-/* M as a diagonal matrix whose values are mass. */
-static void spread_mass(const heat_system *h, const double *mass) {
-    sl_int *places = app_alloc((size_t)h->n + 1, sizeof *places);
+/* Scatters the diagonal matrix M to h->terms[0]. */
+static void scatter_mass(const heat_system *h, const double *mass) {
+    sl_int *identity = app_alloc((size_t)h->n + 1, sizeof *identity);
     for (sl_int j = 0; j <= h->n; j++) {
-        places[j] = j;
+        identity[j] = j;
     }
-    const sl_csc M = {h->n, h->n, places, places, mass};
-    app_must(sl_symbolic_spread(h->S, h->terms[0], &M, NULL), "masses", NULL);
-    free(places);
+    const sl_csc M = {h->n, h->n, identity, identity, mass};
+    app_must(sl_symbolic_scatter(h->S, h->terms[0], &M, NULL), "masses", NULL);
+    free(identity);
 }
 
-void heat_system_analyse(heat_system *h, const mesh *m) {
+void heat_system_analyze(heat_system *h, const mesh *m) {
     sl_matrix *laplacian = NULL;
     memset(h, 0, sizeof *h);
     h->n = m->n_vertices;
-    h->stats.error_row = -1;
+    h->stats.error.row = -1;
     double begin = app_now();
-    app_stage("analysing");
+    app_stage("analyzing");
     double *mass = app_alloc((size_t)h->n, sizeof *mass);
     if (!laplacian_cotangent(&laplacian, m)) {
-        app_die("no memory for the Laplacian of %d vertices", (int)h->n);
+        app_die("out of memory for the Laplacian of %d vertices", (int)h->n);
     }
     laplacian_mass(mass, m);
     h->seconds_assemble = app_now() - begin;
@@ -43,8 +43,8 @@ void heat_system_analyse(heat_system *h, const mesh *m) {
     for (int k = 0; k < 2; k++) {
         h->terms[k] = app_alloc((size_t)sl_symbolic_entries(h->S), sizeof *h->terms[k]);
     }
-    spread_mass(h, mass);
-    app_must(sl_symbolic_spread(h->S, h->terms[1], &L, NULL), "Laplacian", NULL);
+    scatter_mass(h, mass);
+    app_must(sl_symbolic_scatter(h->S, h->terms[1], &L, NULL), "Laplacian", NULL);
     h->seconds_assemble += app_now() - begin;
     sl_matrix_free(laplacian);
     free(mass);
@@ -53,7 +53,7 @@ void heat_system_analyse(heat_system *h, const mesh *m) {
 
 void heat_system_create(heat_system *h, const mesh *m, double t) {
     check_time(t);
-    heat_system_analyse(h, m);
+    heat_system_analyze(h, m);
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
     app_stage("factoring");
@@ -78,7 +78,7 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
     bool again = count > 0 && factors[0] != NULL;
     app_must(
         again
-            ? sl_batch_refactor(factors, count, coefficients, terms, 2, threads, NULL, &h->stats)
+            ? sl_batch_refactor(factors, count, coefficients, terms, 2, &opt, NULL, &h->stats)
             : sl_batch_factor(factors, count, h->S, coefficients, terms, 2, &opt, NULL, &h->stats),
         "factorization", &h->stats);
     free(coefficients);
@@ -111,7 +111,7 @@ double heat_area(const mesh *m) {
 double heat_time_value(const heat_time *h, const mesh *m, double default_area) {
     int given = (h->time != 0) + (h->scaled != 0) + (h->area != 0);
     if (given > 1 || h->time < 0 || h->scaled < 0 || h->area < 0) {
-        app_die_usage("--time, --scaled-time, --area-time: one of them, and above 0");
+        app_die_usage("--time, --scaled-time, --area-time: give only one of them, above 0");
     }
     double edge = mesh_mean_edge_length(m);
     double t = h->time > 0                            ? h->time
@@ -120,8 +120,8 @@ double heat_time_value(const heat_time *h, const mesh *m, double default_area) {
                : default_area > 0 && heat_area(m) > 0 ? default_area * heat_area(m)
                                                       : edge * edge;
     if (!(t > 0) || !isfinite(t)) {
-        app_die("no time can be chosen: edges have the mean length %g, the area is %g; give --time",
-                edge, heat_area(m));
+        app_die("no default time: the mean edge length is %g and the area %g; give --time", edge,
+                heat_area(m));
     }
     return t;
 }

@@ -1,101 +1,114 @@
-/* layout_job.h: what the commands param, arap and scp share: the patch asked for, its first layout, what is written */
-#ifndef TOOLS_LAYOUT_JOB_H
-#define TOOLS_LAYOUT_JOB_H
+/* layout_command.h: shared by param, arap and scp: options, patch, factor, layouts, output */
+#ifndef TOOLS_LAYOUT_COMMAND_H
+#define TOOLS_LAYOUT_COMMAND_H
 
 #include "app.h"
-#include "disk.h"
-#include "distortion.h"
-#include "look.h"
-#include "patch_solver.h"
+#include "tools/mesh/disk_patch.h"
+#include "tools/geometry/distortion.h"
+#include "tools/geometry/patch_solver.h"
 
-/** A command's options and, once opened, the mesh, its factor, the patch and the solver on it. All zero before
- *  layout_job_defaults. */
-typedef struct layout_job {
+/** Options of a command and, once opened, the mesh, its factor, the patch and its solver. All zero
+ *  before layout_command_defaults. */
+typedef struct layout_command {
     /* options */
-    const char *list;      /* --list */
-    const char *list_file; /* --list-file */
-    sl_int vertex;         /* --center */
-    sl_int size;           /* --patch */
-    const char *boundary;  /* --boundary */
-    const char *out;       /* --out */
-    const char *layout;    /* --layout */
-    const char *close;     /* --close */
-    sl_int checks;         /* --checks */
-    bool region;           /* --region */
-    app_output picture;    /* --png and how */
-    char view[LOOK_TEXT];  /* where the patch is seen from the front */
-    /* what is made of them */
+    const char *list;       /* --list */
+    const char *list_file;  /* --list-file */
+    sl_int vertex;          /* --center */
+    sl_int size;            /* --patch */
+    const char *boundary;   /* --boundary */
+    const char *out;        /* --out */
+    const char *layout_png; /* --layout */
+    const char *patch_png;  /* --close */
+    sl_int checks;          /* --checks */
+    bool region;            /* --region */
+    app_output picture;     /* --png, --csv and the camera */
+    /* computed from them */
     mesh m;
-    incidence around;
+    incidence inc;
     sl_matrix *L;
     sl_symbolic *S;
     sl_factor *F;
-    disk d;
+    disk_patch d;
     patch_solver s;
-    double seconds_factor; /* analysis and factor of the whole mesh, once */
-    double seconds_plan;   /* the patch, once its vertices are known: plans, its own Laplacian */
-    double seconds_region; /* the region and the plans in it, where one was asked for */
-} layout_job;
+    double seconds_factor; /* analysis and factorization of the whole mesh, once */
+    double seconds_plan;   /* plans of the patch and its own Laplacian, once per patch */
+    double seconds_region; /* the region and the plans in it, with --region */
+} layout_command;
 
-/** How many vertices a patch has where --patch does not say. */
-enum { LAYOUT_JOB_SIZE = 2000 };
+/** Default number of vertices of a patch. */
+enum { LAYOUT_SIZE = 2000 };
 
-#define LAYOUT_JOB_REGION_HELP                                                                     \
-    "end the local solves at the boundary of a region made around the patch: a solve then costs "  \
-    "the same however large the mesh. Making it takes as long as 25 to 100 solves without, so it " \
-    "is not the default: a layout needs one solve, the patch's own problem or arap some 20"
+#define LAYOUT_OPTIONS(c)                                                                          \
+    {OPTION_COUNT, "center", &(c)->vertex, "V",                                                    \
+     "grow the patch from this vertex in breadth-first order as a disk (the first vertex that "    \
+     "has a face)"},                                                                               \
+        {OPTION_COUNT, "patch", &(c)->size, "N",                                                   \
+         "number of vertices of the grown patch (2000, at most a quarter of the mesh)"},           \
+        {OPTION_TEXT, "list", &(c)->list, "LIST",                                                  \
+         "the patch is these vertices, 3,17,100-200, instead of a grown one; an error if they "    \
+         "do not form a disk"},                                                                    \
+        {OPTION_TEXT, "list-file", &(c)->list_file, "FILE",                                        \
+         "read the list from a file: vertex numbers, # starts a comment"},                         \
+        {OPTION_FLAG, "region", &(c)->region, NULL,                                                \
+         "create a region around the patch and end the local solves at its boundary; the cost of " \
+         "a solve is then independent of the size of the mesh. Creating the region takes as long " \
+         "as 25 to 100 solves without it, so it is off by default: one layout takes 1 solve, "     \
+         "--system patch and arap some 20"},                                                       \
+        {OPTION_TEXT, "boundary", &(c)->boundary, "circle|unrolled",                               \
+         "initial layout of the boundary: on a circle by arc length, or unrolled with its own "    \
+         "edge lengths and angles as far as the Gaussian curvature inside permits (circle)"},      \
+        {OPTION_TEXT, "out", &(c)->out, "FILE",                                                    \
+         "write the patch with texture coordinates scaled to the unit square: .obj or .ply"},      \
+        {OPTION_TEXT, "csv", &(c)->picture.csv, "FILE",                                            \
+         "write a table vertex,u,v of the layout, scaled to the area of the patch"},               \
+        {OPTION_TEXT, "layout", &(c)->layout_png, "FILE", "draw the layout in the plane (.png)"},  \
+        {OPTION_TEXT, "close", &(c)->patch_png, "FILE",                                            \
+         "draw the patch alone with the checkerboard (.png)"},                                     \
+        {OPTION_COUNT, "checks", &(c)->checks, "N",                                                \
+         "squares of the checkerboard along the longer side of the layout (20)"},                  \
+        APP_PICTURE_OPTIONS(&(c)->picture)
 
-#define LAYOUT_JOB_OPTIONS(j)                                                                      \
-    {OPTION_COUNT, "center", &(j)->vertex, "V",                                                    \
-     "grow the patch from this vertex in breadth-first order, a disk at every step (the first "    \
-     "that has a face)"},                                                                          \
-        {OPTION_COUNT, "patch", &(j)->size, "N",                                                   \
-         "vertices of the grown patch (2000, or a fourth of the mesh where that is less)"},        \
-        {OPTION_TEXT, "list", &(j)->list, "LIST",                                                  \
-         "instead: the patch of these vertices, 3,17,100-200; refused with the reason if it is "   \
-         "no disk"},                                                                               \
-        {OPTION_TEXT, "list-file", &(j)->list_file, "FILE",                                        \
-         "the same from a file: numbers, # begins a comment"},                                     \
-        {OPTION_FLAG, "region", &(j)->region, NULL, LAYOUT_JOB_REGION_HELP},                       \
-        {OPTION_TEXT, "boundary", &(j)->boundary, "circle|unrolled",                               \
-         "where the boundary is laid first: on a circle by arc length, or unrolled with its own "  \
-         "lengths and angles as far as the curvature inside allows (circle)"},                     \
-        {OPTION_TEXT, "out", &(j)->out, "FILE",                                                    \
-         "write the patch with its texture coordinates, fitted to the unit square: .obj or .ply"}, \
-        {OPTION_TEXT, "csv", &(j)->picture.csv, "FILE",                                            \
-         "write vertex, u, v: the layout, with the area of the patch"},                            \
-        {OPTION_TEXT, "layout", &(j)->layout, "FILE", "draw the layout in the plane (PNG)"},       \
-        {OPTION_TEXT, "close", &(j)->close, "FILE", "draw the patch alone, checkered (PNG)"},      \
-        {OPTION_COUNT, "checks", &(j)->checks, "N",                                                \
-         "squares of the checkerboard along the larger side (20)"},                                \
-        APP_PICTURE_OPTIONS(&(j)->picture)
+/** Explains the lines and columns that all three commands print. */
+#define LAYOUT_OUTPUT                                                                              \
+    "mesh, patch, plan, reads: sizes, times, and what one local solve reads of the factor.\n"      \
+    "A table with a row per layout, each scaled to the area of the patch. conformal: conformal "   \
+    "energy over area (0 if angles are preserved); angles: mean ratio of the two singular values " \
+    "of a face (1 if angles are preserved); lengths: mean squared error (0 if lengths are "        \
+    "preserved); areas: spread of their logarithm (0 if areas are in proportion); flipped: "       \
+    "number of flipped faces."
 
-void layout_job_defaults(layout_job *j);
+void layout_command_defaults(layout_command *job);
 
-/** Reads the mesh, finds the patch, factors the mesh's Laplacian, plans the patch; prints what came out. Dies with the
- *  reason where that fails. */
-void layout_job_open(layout_job *j, const char *operand);
+/** Reads the mesh, finds the patch, factors the Laplacian of the mesh, plans the solves on the
+ *  patch and prints a summary. Dies with the reason on failure. */
+void layout_command_open(layout_command *job, const char *operand);
 
-/** Takes another patch of the same mesh: `size` vertices grown from the vertex that was asked for. Dies with the reason
- *  where that fails. */
-void layout_job_regrow(layout_job *j, sl_int size);
+/** Replaces the patch by one of `size` vertices, grown from the same vertex. Dies with the reason
+ *  on failure. */
+void layout_command_regrow(layout_command *job, sl_int size);
 
-/** The boundary in the plane (2 d.n_boundary), as --boundary says, and the Neumann data of it spread to the patch
- *  (n x 2, column-major). */
-double *layout_job_boundary(const layout_job *j);
-double *layout_job_flux(const layout_job *j, const double *boundary);
+/** The initial layout of the boundary according to --boundary: 2 x d.n_boundary, column-major.
+ *  Release with free. */
+double *layout_command_boundary(const layout_command *job);
 
-/** The harmonic layout by the mesh's system, one local solve: n x 2, column-major, with the area of the patch. The
- *  caller frees it. */
-double *layout_job_harmonic(layout_job *j);
+/** The Neumann data of a boundary layout as a right-hand side: n x 2, column-major, zero inside the
+ *  patch. Release with free. */
+double *layout_command_flux(const layout_command *job, const double *boundary);
 
-/** Prints a line on the layout X (n x 2, column-major), after its name. */
-distortion layout_job_report(const layout_job *j, const char *name, const double *X);
-void layout_job_report_head(void);
+/** The harmonic layout by one local solve with the factor of the mesh: n x 2, column-major, scaled
+ *  to the area of the patch. Release with free. */
+double *layout_command_harmonic(layout_command *job);
 
-/** Writes and draws what was asked for; X is n x 2, column-major. */
-void layout_job_write(const layout_job *j, const double *X);
+/** Prints the distortion of the layout X (n x 2, column-major) as a row that begins with its
+ *  name. */
+distortion layout_command_report(const layout_command *job, const char *name, const double *X);
 
-void layout_job_close(layout_job *j);
+/** Prints the column headings of layout_command_report. */
+void layout_command_report_head(void);
+
+/** Writes the files and pictures that the options request; X is n x 2, column-major. */
+void layout_command_write(const layout_command *job, const double *X);
+
+void layout_command_close(layout_command *job);
 
 #endif

@@ -1,9 +1,10 @@
-/* main.c: the program sparse-local: finds the command */
+/* main.c: entry point of sparse-local: finds the command and runs it */
 #include <stdio.h>
 #include <string.h>
 
 #include "app.h"
 #include "command.h"
+#include "tools/io/output_file.h"
 
 typedef struct command {
     const char *name;
@@ -12,30 +13,31 @@ typedef struct command {
 } command;
 
 static const command commands[] = {
-    {"info", "what a mesh is, and what its factorization costs", command_info},
-    {"heat", "heat that flows from some vertices, wanted at some others", command_heat},
-    {"adf", "auto-diffusion: the heat that stays, for some vertices or all", command_adf},
-    {"hks", "heat-kernel signatures: auto-diffusion over a range of times", command_hks},
-    {"pairs", "heat that pairs of vertices exchange; one tree against two", command_pairs},
-    {"reach", "pictures of what a local solve touches", command_reach},
-    {"param", "a patch laid out in the plane by harmonic coordinates", command_param},
-    {"arap", "a patch laid out with its lengths kept: as rigid as possible", command_arap},
-    {"scp", "a patch laid out with its angles kept: spectral conformal", command_scp},
-    {"geodesic", "distances along the surface by the heat method; nearest sites", command_geodesic},
+    {"info", "mesh statistics and the cost of factoring its Laplacian", command_info},
+    {"heat", "heat diffusion from source vertices, solved at selected vertices", command_heat},
+    {"adf", "auto-diffusion function at selected vertices or all", command_adf},
+    {"hks", "heat kernel signatures: the auto-diffusion function at several times", command_hks},
+    {"pairs", "heat exchanged by pairs of vertices, by three methods", command_pairs},
+    {"reach", "the columns of L that a local solve visits, as pictures", command_reach},
+    {"param", "planar layout of a patch by harmonic coordinates", command_param},
+    {"arap", "planar layout of a patch, as rigid as possible", command_arap},
+    {"scp", "planar layout of a patch, spectral conformal", command_scp},
+    {"geodesic", "distances on the surface by the heat method, Voronoi cells", command_geodesic},
 };
 
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 
 static void print_usage(FILE *out) {
-    (void)fprintf(out, "usage: sparse-local COMMAND [options] MESH\n\n"
-                       "Local solutions of sparse linear systems on triangle meshes.\n\n"
-                       "commands (each has --help):\n");
+    (void)fprintf(out, "Solves sparse linear systems locally on triangle meshes.\n\n"
+                       "usage: sparse-local COMMAND [options] MESH\n\n"
+                       "Commands:\n");
     for (int k = 0; k < N_COMMANDS; k++) {
         (void)fprintf(out, "  %-10s %s\n", commands[k].name, commands[k].summary);
     }
 }
 
 int main(int argc, char **argv) {
+    output_begin_program("sparse-local");
     if (argc < 2) {
         print_usage(stderr);
         return 2;
@@ -45,6 +47,8 @@ int main(int argc, char **argv) {
         print_usage(stdout);
         (void)printf("\nMESH is");
         options_print_wrapped(app_mesh_help, 0, 7);
+        (void)printf(
+            "\nRun sparse-local COMMAND --help for the options and output of a command.\n");
         return 0;
     }
     for (int k = 0; k < N_COMMANDS; k++) {
@@ -52,7 +56,7 @@ int main(int argc, char **argv) {
             return commands[k].run(argc - 1, argv + 1);
         }
     }
-    (void)fprintf(stderr, "sparse-local: there is no command %s\n", argv[1]);
+    (void)fprintf(stderr, "sparse-local: unknown command %s\n", argv[1]);
     print_usage(stderr);
     return 2;
 }

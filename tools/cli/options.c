@@ -1,4 +1,4 @@
-/* options.c: the options of a command: one table gives the parser and the --help */
+/* options.c: command-line options: one table drives both the parser and the --help text */
 #include "options.h"
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE_WIDTH = 78, HELP_COLUMN = 24 };
+enum { LINE_WIDTH = 90, HELP_COLUMN = 25 };
 
 static const option *option_named(const option *options, const char *name, size_t length) {
     for (const option *o = options; o->kind != OPTION_END; o++) {
@@ -42,7 +42,7 @@ static bool store(const option *o, const char *text) {
     return true;
 }
 
-/* Reads the option at argv[*at] and moves *at to its last word. */
+/* Parses the option at argv[*at] and advances *at to its last word. */
 static bool read_option(const option *options, int argc, char **argv, int *at, char *message,
                         size_t message_size) {
     const char *word = argv[*at];
@@ -51,7 +51,7 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
     size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
     const option *o = word[1] == '-' ? option_named(options, name, length) : NULL;
     if (o == NULL) {
-        (void)snprintf(message, message_size, "there is no option %s", word);
+        (void)snprintf(message, message_size, "unknown option %s", word);
         return false;
     }
     if (o->kind == OPTION_FLAG) {
@@ -69,7 +69,7 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
     }
     if (!store(o, text)) {
         (void)snprintf(message, message_size, "--%s %s: %s", o->name, text,
-                       o->kind == OPTION_COUNT ? "not a whole number from 0 to 2^31-1"
+                       o->kind == OPTION_COUNT ? "not an integer from 0 to 2^31-1"
                                                : "not a finite number");
         return false;
     }
@@ -81,7 +81,7 @@ options_result options_parse(const options_usage *usage, const option *options, 
                              size_t message_size) {
     int count = 0;
     bool only_operands = false;
-    for (int k = 0; k < usage->most; k++) {
+    for (int k = 0; k < usage->max_operands; k++) {
         operands[k] = NULL;
     }
     for (int a = 1; a < argc; a++) {
@@ -96,14 +96,14 @@ options_result options_parse(const options_usage *usage, const option *options, 
             if (!read_option(options, argc, argv, &a, message, message_size)) {
                 return OPTIONS_BAD;
             }
-        } else if (count == usage->most) {
-            (void)snprintf(message, message_size, "%s is one word too many", argv[a]);
+        } else if (count == usage->max_operands) {
+            (void)snprintf(message, message_size, "unexpected operand %s", argv[a]);
             return OPTIONS_BAD;
         } else {
             operands[count++] = argv[a];
         }
     }
-    if (count < usage->fewest) {
+    if (count < usage->min_operands) {
         (void)snprintf(message, message_size, "needs %s", usage->operands);
         return OPTIONS_BAD;
     }
@@ -133,10 +133,21 @@ void options_print_wrapped(const char *text, int indent, int at) {
     (void)printf("\n");
 }
 
-void options_help(const options_usage *usage, const option *options) {
-    (void)printf("usage: sparse-local %s [options] %s\n\n", usage->command, usage->operands);
-    options_print_wrapped(usage->text, 0, 0);
-    (void)printf("\noptions:\n");
+/* One line for each example, which are separated by '\n'. */
+static void print_examples(const char *command, const char *example) {
+    (void)printf("\nExample:\n");
+    while (*example != '\0') {
+        int length = (int)strcspn(example, "\n");
+        (void)printf("  sparse-local %s %.*s\n", command, length, example);
+        example += length + (example[length] == '\n');
+    }
+}
+
+void options_help(const options_usage *usage, const options_manual *manual, const option *options) {
+    (void)printf("%s\n\nusage: sparse-local %s [options] %s\n\n", usage->summary, usage->command,
+                 usage->operands);
+    options_print_wrapped(manual->details, 0, 0);
+    (void)printf("\nOptions (defaults in parentheses):\n");
     for (const option *o = options; o->kind != OPTION_END; o++) {
         int column = printf("  --%s%s%s", o->name, o->argument != NULL ? " " : "",
                             o->argument != NULL ? o->argument : "");
@@ -147,19 +158,23 @@ void options_help(const options_usage *usage, const option *options) {
         options_print_wrapped(o->help, HELP_COLUMN, column);
     }
     int column = printf("  --help");
-    options_print_wrapped("this text", HELP_COLUMN, column);
+    options_print_wrapped("print this text (sparse-local --help explains MESH)", HELP_COLUMN,
+                          column);
+    (void)printf("\nOutput:\n");
+    options_print_wrapped(manual->output, 2, 0);
+    print_examples(usage->command, manual->example);
 }
 
-void options_read(const options_usage *usage, const option *options, int argc, char **argv,
-                  const char **operands) {
+void options_read(const options_usage *usage, const options_manual *manual, const option *options,
+                  int argc, char **argv, const char **operands) {
     char message[512];
     switch (options_parse(usage, options, argc, argv, operands, message, sizeof message)) {
     case OPTIONS_HELP:
-        options_help(usage, options);
+        options_help(usage, manual, options);
         exit(0);
     case OPTIONS_BAD:
-        (void)fprintf(stderr, "sparse-local %s: %s\nsparse-local %s --help tells more\n",
-                      usage->command, message, usage->command);
+        (void)fprintf(stderr, "sparse-local %s: %s\nTry: sparse-local %s --help\n", usage->command,
+                      message, usage->command);
         exit(2);
     case OPTIONS_READ:
         break;

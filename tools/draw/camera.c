@@ -1,33 +1,43 @@
-/* look.c: from where to look at a mesh so that some of its faces are in front */
-#include "look.h"
+/* camera.c: the axes of a camera from its azimuth, its elevation and the upward axis of the mesh */
+#include "camera.h"
 
 #include <math.h>
+#include <string.h>
 
-void look_at_faces(char *text, app_output *o, const mesh *m, const sl_int *faces, sl_int count) {
-    /* upwards, to the right, to the front, at azimuth 0 (render.h); sign: the front of z upwards is backwards */
-    static const struct {
-        int up, right, front;
-        double sign;
-    } axes[3] = {{1, 0, 2, 1}, {0, 1, 2, 1}, {2, 0, 1, -1}};
-    double normal[3] = {0, 0, 0};
-    render_view view;
-    app_view(&view, o);
-    for (sl_int i = 0; i < (faces != NULL ? count : m->n_faces); i++) {
-        const sl_int *f = m->faces + 3 * (size_t)(faces != NULL ? faces[i] : i);
-        const double *a = m->xyz + 3 * (size_t)f[0], *b = m->xyz + 3 * (size_t)f[1];
-        const double *c = m->xyz + 3 * (size_t)f[2];
-        for (int k = 0; k < 3; k++) {
-            int p = (k + 1) % 3, q = (k + 2) % 3;
-            normal[k] += (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
-        }
-    }
-    double right = normal[axes[view.up].right], up = normal[axes[view.up].up];
-    double front = axes[view.up].sign * normal[axes[view.up].front];
-    double across = hypot(right, front);
-    if (o->view == NULL && isfinite(across) && isfinite(up) && (across > 0 || up != 0)) {
-        const double degrees = 180 / 3.14159265358979323846;
-        (void)snprintf(text, LOOK_TEXT, "%.4f,%.4f", degrees * atan2(right, front),
-                       degrees * atan2(up, across));
-        o->view = text;
+static const double degree = 3.14159265358979323846 / 180;
+
+/* The coordinate axes that, at azimuth and elevation 0, point up, right and (times sign) to the
+ * camera. right x up = sign * front, so that no view is mirrored. */
+typedef struct frame {
+    int up, right, front;
+    double sign;
+} frame;
+
+static frame frame_of(camera_up up) {
+    static const frame frames[3] = {{1, 0, 2, 1}, {0, 1, 2, -1}, {2, 0, 1, -1}}; /* y, x, z */
+    return frames[up];
+}
+
+void camera_axes(double axes[3][3], camera_up up, double azimuth, double elevation) {
+    frame f = frame_of(up);
+    double ca = cos(azimuth * degree), sa = sin(azimuth * degree);
+    double ce = cos(elevation * degree), se = sin(elevation * degree);
+    memset(axes, 0, 9 * sizeof(double));
+    axes[0][f.right] = ca;
+    axes[0][f.front] = -f.sign * sa;
+    axes[1][f.up] = ce;
+    axes[1][f.right] = -se * sa;
+    axes[1][f.front] = -f.sign * se * ca;
+    axes[2][f.up] = se;
+    axes[2][f.right] = ce * sa;
+    axes[2][f.front] = f.sign * ce * ca;
+}
+
+void camera_angles(double *azimuth, double *elevation, camera_up up, const double direction[3]) {
+    frame f = frame_of(up);
+    double length = hypot(hypot(direction[0], direction[1]), direction[2]);
+    if (length > 0 && isfinite(length)) {
+        *azimuth = atan2(direction[f.right], f.sign * direction[f.front]) / degree;
+        *elevation = asin(direction[f.up] / length) / degree;
     }
 }

@@ -1,4 +1,4 @@
-/* colors.c: colours: a perceptual map for numbers, a palette for kinds */
+/* colors.c: colors of pictures: a perceptually uniform map for numbers, a palette for categories */
 #include "colors.h"
 
 rgb color_mix(rgb a, rgb b, double t) {

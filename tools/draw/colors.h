@@ -1,25 +1,25 @@
-/* colors.h: colours: a perceptual map for numbers, a palette for kinds */
+/* colors.h: colors of pictures: a perceptually uniform map for numbers, a palette for categories */
 #ifndef TOOLS_COLORS_H
 #define TOOLS_COLORS_H
 
-typedef struct rgb {
-    unsigned char r, g, b;
-} rgb;
+#include "tools/mesh/rgb.h"
 
-/** The colour of t in 0..1, dark blue to yellow with even steps of lightness; outside it is the nearer end, NaN is grey.
+/** The color of t in 0..1, from dark blue to yellow with uniform steps of lightness. Values outside
+ *  0..1 get the color of the nearer end, NaN is gray.
  *
- *  Source  viridis of matplotlib, by Nathaniel Smith and Stefan van der Walt, given to the public domain (CC0):
- *          16 of its colours, straight lines between them.
+ *  Source  viridis of matplotlib, by Nathaniel Smith and Stefan van der Walt, public domain (CC0):
+ *          16 of its colors, linear interpolation between them.
  */
 rgb color_map(double t);
 
-/** A colour for kind k = 0, 1, ...: eight that remain apart for colour-blind eyes, then again.
+/** The color of category k = 0, 1, ...: eight colors that color-blind readers can distinguish, then
+ *  cyclically.
  *
  *  Source  Okabe and Ito, Color universal design, 2008 (without their black).
  */
 rgb color_of_kind(int k);
 
-/** a (t = 0) to b (t = 1), straight. */
+/** (1 - t) a + t b, for t in 0..1. */
 rgb color_mix(rgb a, rgb b, double t);
 
 #endif

@@ -1,23 +1,25 @@
-/* draw_graph.c: a small mesh as a graph in the plane, its vertices numbered, as SVG */
+/* draw_graph.c: draws the graph of a small mesh with numbered vertices, as SVG */
 #include "draw_graph.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #include "colors.h"
+#include "tools/io/output_file.h"
 
 static const double width = 480, height = 400, border = 24, radius = 10;
 
-/* Two axes of the mesh, the scale, and where its lower left corner goes. */
-typedef struct sheet {
-    int right, up;
-    double scale, low[3], left, bottom;
-} sheet;
+/* Orthogonal projection along a coordinate axis. */
+typedef struct projection {
+    int right, up;       /* the two axes of the picture */
+    double scale;        /* pixels per unit of the mesh */
+    double low[3];       /* smallest coordinates of the mesh */
+    double left, bottom; /* where `low` is in the picture */
+} projection;
 
-static sheet lay_out(const mesh *m) {
-    sheet s = {0, 1, 1, {HUGE_VAL, HUGE_VAL, HUGE_VAL}, 0, 0};
+static projection projection_of(const mesh *m) {
+    projection s = {0, 1, 1, {HUGE_VAL, HUGE_VAL, HUGE_VAL}, 0, 0};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, extent[3];
-    int thinnest = 2;
     for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
         for (int d = 0; d < 3; d++) {
             double x = m->xyz[3 * (size_t)m->faces[k] + (size_t)d];
@@ -27,8 +29,9 @@ static sheet lay_out(const mesh *m) {
     }
     for (int d = 0; d < 3; d++) {
         extent[d] = high[d] - s.low[d];
-        thinnest = extent[d] < extent[thinnest] ? d : thinnest;
     }
+    int thinnest = extent[0] < extent[2] ? 0 : 2; /* z where all are equal */
+    thinnest = extent[1] < extent[thinnest] ? 1 : thinnest;
     s.right = thinnest == 0 ? 1 : 0;
     s.up = thinnest == 2 ? 1 : 2;
     double w = extent[s.right], h = extent[s.up];
@@ -40,18 +43,18 @@ static sheet lay_out(const mesh *m) {
     return s;
 }
 
-static double across(const sheet *s, const mesh *m, sl_int v) {
+static double picture_x(const projection *s, const mesh *m, sl_int v) {
     return s->left + s->scale * (m->xyz[3 * v + s->right] - s->low[s->right]);
 }
 
-static double down(const sheet *s, const mesh *m, sl_int v) {
+static double picture_y(const projection *s, const mesh *m, sl_int v) {
     return s->bottom - s->scale * (m->xyz[3 * v + s->up] - s->low[s->up]);
 }
 
-static void print_vertex(FILE *f, const sheet *s, const mesh *m, sl_int v, int kind) {
+static void print_vertex(FILE *f, const projection *s, const mesh *m, sl_int v, int kind) {
     rgb c = {0xd0, 0xd0, 0xd0};
     c = kind >= 0 ? color_of_kind(kind) : c;
-    double x = across(s, m, v), y = down(s, m, v);
+    double x = picture_x(s, m, v), y = picture_y(s, m, v);
     fprintf(f,
             "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.0f\" stroke=\"#444\" fill=\"#%02x%02x%02x\"/>"
             "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%d</text>\n",
@@ -60,10 +63,9 @@ static void print_vertex(FILE *f, const sheet *s, const mesh *m, sl_int v, int k
 
 bool draw_graph(const char *path, const mesh *m, const int *kind, char *message,
                 size_t message_size) {
-    FILE *f = fopen(path, "w");
-    bool ok = f != NULL;
-    if (ok) {
-        sheet s = lay_out(m);
+    FILE *f = output_open(path, message, message_size);
+    if (f != NULL) {
+        projection s = projection_of(m);
         fprintf(f,
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
                 "width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" font-size=\"10\">\n"
@@ -73,18 +75,13 @@ bool draw_graph(const char *path, const mesh *m, const int *kind, char *message,
             const sl_int *v = m->faces + 3 * k;
             fprintf(f,
                     "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\" fill=\"none\" stroke=\"#888\"/>\n",
-                    across(&s, m, v[0]), down(&s, m, v[0]), across(&s, m, v[1]), down(&s, m, v[1]),
-                    across(&s, m, v[2]), down(&s, m, v[2]));
+                    picture_x(&s, m, v[0]), picture_y(&s, m, v[0]), picture_x(&s, m, v[1]),
+                    picture_y(&s, m, v[1]), picture_x(&s, m, v[2]), picture_y(&s, m, v[2]));
         }
-        for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) { /* again over itself does no harm */
+        for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) { /* repeats are harmless */
             print_vertex(f, &s, m, m->faces[k], kind != NULL ? kind[m->faces[k]] : -1);
         }
         fprintf(f, "</svg>\n");
-        ok = ferror(f) == 0;
-        ok = fclose(f) == 0 && ok;
     }
-    if (!ok && message != NULL && message_size > 0) {
-        (void)snprintf(message, message_size, "%s: cannot be written", path);
-    }
-    return ok;
+    return f != NULL && output_close(f, message, message_size);
 }

@@ -1,4 +1,4 @@
-/* draw_tree.c: pictures of an analysis: the elimination tree, the patterns of P A P' and L */
+/* draw_tree.c: draws the elimination tree as SVG and the patterns of P A P' and L as a picture */
 #include "draw_tree.h"
 
 #include <math.h>
@@ -6,22 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FEW = 80, SHARE = 500 };
+#include "tools/io/output_file.h"
+
+/* Trees of at most MAX_COLUMNS columns are drawn column by column. In larger trees a leaf supernode
+ * is drawn if its subtree has at least n / SUBTREE_SHARE columns. */
+enum { MAX_COLUMNS = 80, SUBTREE_SHARE = 500 };
 
 static const double width = 800, height = 460, border = 24;
 
-/* ---- the tree: nodes are columns where there are few, else supernodes ---- */
+/* ---- the tree: its nodes are columns if there are few, otherwise supernodes ---- */
 
 typedef struct nodes {
     sl_int count;
-    bool columns;
-    sl_int *parent;       /* -1: a root */
+    bool columns;         /* the nodes are columns */
+    sl_int *parent;       /* count; -1 at a root */
     sl_int *first_column; /* count + 1 */
-    double *x;            /* slot among the leaves; NaN: not drawn */
-    double *low, *high;   /* slots of the first and last child drawn */
-    sl_int *depth;        /* columns from the root to the node's first column */
-    sl_int *below;        /* columns of the subtree */
-    sl_int deepest;
+    double *x;            /* count: position in slots, one slot per leaf; NaN: not drawn */
+    double *low, *high;   /* count: positions of the first and last child drawn */
+    sl_int *depth;        /* count: columns from the node's first column to the root */
+    sl_int *below;        /* count: columns of the subtree */
+    sl_int deepest;       /* largest depth drawn */
     double slots;
 } nodes;
 
@@ -35,18 +39,18 @@ static void nodes_free(nodes *t) {
     free(t->parent);
 }
 
-static bool nodes_make(nodes *t, const sl_symbolic_view_t *view) {
+static bool nodes_make(nodes *t, const sl_symbolic_arrays *view) {
     memset(t, 0, sizeof *t);
-    t->columns = view->n <= FEW;
+    t->columns = view->n <= MAX_COLUMNS;
     t->count = t->columns ? view->n : view->n_supers;
-    size_t room = (size_t)t->count + 1;
-    t->parent = (sl_int *)malloc(room * sizeof *t->parent);
-    t->first_column = (sl_int *)malloc(room * sizeof *t->first_column);
-    t->x = (double *)malloc(room * sizeof *t->x);
-    t->low = (double *)malloc(room * sizeof *t->low);
-    t->high = (double *)malloc(room * sizeof *t->high);
-    t->depth = (sl_int *)malloc(room * sizeof *t->depth);
-    t->below = (sl_int *)calloc(room, sizeof *t->below);
+    size_t size = (size_t)t->count + 1;
+    t->parent = (sl_int *)malloc(size * sizeof *t->parent);
+    t->first_column = (sl_int *)malloc(size * sizeof *t->first_column);
+    t->x = (double *)malloc(size * sizeof *t->x);
+    t->low = (double *)malloc(size * sizeof *t->low);
+    t->high = (double *)malloc(size * sizeof *t->high);
+    t->depth = (sl_int *)malloc(size * sizeof *t->depth);
+    t->below = (sl_int *)calloc(size, sizeof *t->below);
     if (!t->parent || !t->first_column || !t->x || !t->low || !t->high || !t->depth || !t->below) {
         return false;
     }
@@ -67,13 +71,14 @@ static bool nodes_make(nodes *t, const sl_symbolic_view_t *view) {
     return true;
 }
 
-/* Leaves get the next slot, others stand in the middle of their children; nodes come in postorder. */
+/* A leaf takes the next slot, an inner node the middle of its children. Children precede their
+ * parents. */
 static void place_nodes(nodes *t, const int *kind) {
     sl_int n = t->first_column[t->count];
     for (sl_int k = 0; k < t->count; k++) {
         bool has_children = t->low[k] <= t->high[k];
         bool colored = kind != NULL && kind[t->first_column[k + 1] - 1] >= 0;
-        if (!has_children && !t->columns && !colored && (t->below[k] < n / SHARE) &&
+        if (!has_children && !t->columns && !colored && (t->below[k] < n / SUBTREE_SHARE) &&
             t->parent[k] >= 0) {
             continue;
         }
@@ -93,11 +98,11 @@ static void place_nodes(nodes *t, const int *kind) {
     }
 }
 
-static double across(const nodes *t, double slot) {
+static double picture_x(const nodes *t, double slot) {
     return border + (width - 2 * border) * (slot + 0.5) / (t->slots > 0 ? t->slots : 1);
 }
 
-static double down(const nodes *t, sl_int depth) {
+static double picture_y(const nodes *t, sl_int depth) {
     return border + (height - 2 * border) * depth / (t->deepest > 0 ? t->deepest : 1);
 }
 
@@ -107,8 +112,9 @@ static void print_color(FILE *f, const char *what, int kind) {
     fprintf(f, " %s=\"#%02x%02x%02x\"", what, c.r, c.g, c.b);
 }
 
-/* A node of several columns is a line downwards; from its upper end a line leads to the parent's lower end. */
-static void print_nodes(FILE *f, const nodes *t, const sl_symbolic_view_t *view, const int *kind,
+/* A node is a vertical line whose length is its number of columns. Another line joins its upper end
+ * to the lower end of its parent. */
+static void print_nodes(FILE *f, const nodes *t, const sl_symbolic_arrays *view, const int *kind,
                         bool colored) {
     for (sl_int k = t->count - 1; k >= 0; k--) {
         int own = kind != NULL ? kind[t->first_column[k + 1] - 1] : -1;
@@ -117,20 +123,20 @@ static void print_nodes(FILE *f, const nodes *t, const sl_symbolic_view_t *view,
         }
         sl_int up = t->parent[k];
         sl_int last = t->depth[k] - (t->first_column[k + 1] - t->first_column[k] - 1);
-        double x = across(t, t->x[k]);
+        double x = picture_x(t, t->x[k]);
         fprintf(f, "<path fill=\"none\" stroke-width=\"%s\"", own >= 0 ? "2" : "1");
         print_color(f, "stroke", own);
         if (up >= 0) {
-            fprintf(f, " d=\"M%.1f %.1fL", across(t, t->x[up]), down(t, t->depth[up]));
+            fprintf(f, " d=\"M%.1f %.1fL", picture_x(t, t->x[up]), picture_y(t, t->depth[up]));
         } else {
             fprintf(f, " d=\"M");
         }
-        fprintf(f, "%.1f %.1fV%.1f\"/>\n", x, down(t, last), down(t, t->depth[k]) + 0.01);
+        fprintf(f, "%.1f %.1fV%.1f\"/>\n", x, picture_y(t, last), picture_y(t, t->depth[k]) + 0.01);
     }
     for (sl_int k = 0; t->columns && k < t->count; k++) {
         int own = kind != NULL ? kind[k] : -1;
         if ((own >= 0) == colored) {
-            double x = across(t, t->x[k]), y = down(t, t->depth[k]);
+            double x = picture_x(t, t->x[k]), y = picture_y(t, t->depth[k]);
             fprintf(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"9\" stroke=\"#444\"", x, y);
             print_color(f, "fill", own);
             fprintf(f, "/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%d</text>\n", x,
@@ -139,12 +145,15 @@ static void print_nodes(FILE *f, const nodes *t, const sl_symbolic_view_t *view,
     }
 }
 
-bool draw_tree(const char *path, const sl_symbolic_view_t *view, const int *kind, char *message,
+bool draw_tree(const char *path, const sl_symbolic_arrays *view, const int *kind, char *message,
                size_t message_size) {
     nodes t;
     FILE *f = NULL;
-    bool ok = nodes_make(&t, view) && (f = fopen(path, "w")) != NULL;
-    if (ok) {
+    if (!nodes_make(&t, view)) {
+        if (message != NULL && message_size > 0) {
+            (void)snprintf(message, message_size, "%s: out of memory", path);
+        }
+    } else if ((f = output_open(path, message, message_size)) != NULL) {
         place_nodes(&t, kind);
         fprintf(f,
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
@@ -154,25 +163,21 @@ bool draw_tree(const char *path, const sl_symbolic_view_t *view, const int *kind
         print_nodes(f, &t, view, kind, false);
         print_nodes(f, &t, view, kind, true);
         fprintf(f, "</svg>\n");
-        ok = ferror(f) == 0;
-        ok = fclose(f) == 0 && ok;
     }
     nodes_free(&t);
-    if (!ok && message != NULL && message_size > 0) {
-        (void)snprintf(message, message_size, "%s: cannot be written", path);
-    }
-    return ok;
+    return f != NULL && output_close(f, message, message_size);
 }
 
 /* ---- the patterns ---- */
 
-/* Entry (i, j) as a box of at least one pixel, the frame's corner at (x, 0). */
+/* Draws entry (i, j) as a box of at least one pixel; (x, 0) is the upper left corner of the
+ * matrix. */
 static void put_entry(picture *p, double x, double cell, sl_int i, sl_int j, rgb color) {
     double gap = cell >= 5 ? 0.1 * cell : 0, size = fmax(1, cell - gap);
     picture_box(p, x + j * cell, i * cell, x + j * cell + size, i * cell + size, color);
 }
 
-bool draw_pattern(picture *out, const sl_csc *A, const sl_symbolic_view_t *view, const int *kind,
+bool draw_pattern(picture *out, const sl_csc *A, const sl_symbolic_arrays *view, const int *kind,
                   int side) {
     static const rgb white = {255, 255, 255}, dark = {0x1f, 0x3a, 0x5f}, fill = {0xf0, 0x9a, 0x4a},
                      frame = {0x80, 0x80, 0x80};

@@ -1,4 +1,4 @@
-/* picture.c: pictures in memory, lines and disks in them */
+/* picture.c: raster pictures in memory: lines, disks, boxes, scaling */
 #include "picture.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ void picture_free(picture *p) {
     }
 }
 
-/* The first pixel whose middle is at x or right of it, kept in 0..size. */
+/* The first pixel whose center is at or right of x, clamped to 0..size. */
 static int first_pixel(double x, int size) {
     double k = ceil(x - 0.5);
     return !(k > 0) ? 0 : k >= size ? size : (int)k;
@@ -90,7 +90,7 @@ void picture_shrink(picture *p, int factor) {
             }
             rgb mean = {(unsigned char)(r / area), (unsigned char)(g / area),
                         (unsigned char)(b / area)};
-            /* in place: what is written lies before what is still to be read */
+            /* In place: a pixel is written only after all of its sources were read. */
             p->at[(size_t)y * (size_t)width + (size_t)x] = mean;
         }
     }

@@ -1,4 +1,4 @@
-/* picture.h: pictures in memory, lines and disks in them, and PNG files of them */
+/* picture.h: raster pictures in memory: lines, disks, boxes, scaling, PNG output */
 #ifndef TOOLS_PICTURE_H
 #define TOOLS_PICTURE_H
 
@@ -7,36 +7,40 @@
 
 #include "colors.h"
 
-/** Pixels in rows from the top, each from the left; the middle of the first is (0.5, 0.5). */
+/** Pixels in rows from top to bottom, each row from left to right. The center of the first pixel is
+ *  (0.5, 0.5). */
 typedef struct picture {
     int width;
     int height;
     rgb *at; /* width x height */
 } picture;
 
-/** A picture of one colour; false: a side below 1 or above 16384, out of memory (then all zero). */
+/** Creates a picture of one color; release with picture_free. False: a side outside 1..16384 or out
+ *  of memory, and *p is all zero. */
 bool picture_create(picture *p, int width, int height, rgb background);
 
 void picture_free(picture *p);
 
-/** A filled disk, cut off at the edges. Not smoothed: draw twice as large and use picture_shrink. */
+/** Draws a filled disk, clipped to the picture. No antialiasing: draw at twice the size and use
+ *  picture_shrink. */
 void picture_disk(picture *p, double x, double y, double radius, rgb color);
 
-/** A line with round ends. */
+/** Draws a line with round ends. */
 void picture_line(picture *p, double x0, double y0, double x1, double y1, double width, rgb color);
 
-/** A filled rectangle from (x0, y0) to (x1, y1). */
+/** Fills the rectangle from (x0, y0) to (x1, y1). */
 void picture_box(picture *p, double x0, double y0, double x1, double y1, rgb color);
 
-/** Makes it `factor` times smaller, each pixel the mean of factor x factor; what does not fill one is cut off. */
+/** Divides width and height by `factor`; a pixel becomes the mean of a block of factor x factor
+ *  pixels. Incomplete blocks at the right and the bottom are dropped. */
 void picture_shrink(picture *p, int factor);
 
-/** Copies `from` into p with its upper left corner at (x, y), cut off at the edges. */
+/** Copies `from` into p with its upper left corner at (x, y), clipped to p. */
 void picture_paste(picture *p, const picture *from, int x, int y);
 
-/** Writes a PNG file (png_write.c, which alone needs libpng).
+/** Writes a PNG file (png_write.c, the only file that needs libpng).
  *
- *  message  [out]  on error what is wrong; may be NULL.
+ *  message  [out]  the reason on error; may be NULL.
  *  Returns  true; false: the file cannot be written.
  */
 bool picture_write_png(const picture *p, const char *path, char *message, size_t message_size);

@@ -1,4 +1,4 @@
-/* plot.c: curves, points and bars with axes, as SVG */
+/* plot.c: line, point and bar charts as SVG */
 #include "plot.h"
 
 #include <math.h>
@@ -7,16 +7,17 @@
 #include <string.h>
 
 #include "colors.h"
+#include "tools/io/output_file.h"
 
-enum { NAME_SIZE = 80, MOST_SERIES = 32 };
+enum { NAME_SIZE = 80, MAX_SERIES = 32 };
 
 static const double width = 640, height = 420, left = 78, right = 20, top = 40, bottom = 56;
 
 typedef struct series {
     char name[NAME_SIZE];
     plot_style style;
-    int kind; /* its colour */
-    size_t count, room;
+    int kind; /* of color_of_kind */
+    size_t count, capacity;
     double *xy; /* 2 count */
 } series;
 
@@ -24,7 +25,7 @@ struct plot {
     char title[2 * NAME_SIZE], name[2][NAME_SIZE];
     bool is_log[2];
     int n_series;
-    series all[MOST_SERIES];
+    series all[MAX_SERIES];
 };
 
 plot *plot_create(const char *title, const char *x_name, const char *y_name, bool log_x,
@@ -47,13 +48,13 @@ void plot_free(plot *p) {
     free(p);
 }
 
-/* The series of that name, or one behind the last. */
+/* The series of that name, or the next unused one; NULL: there is none. */
 static series *series_named(plot *p, const char *name) {
     int k = 0;
     while (k < p->n_series && strncmp(p->all[k].name, name, NAME_SIZE - 1) != 0) {
         k++;
     }
-    return k < MOST_SERIES ? &p->all[k] : NULL;
+    return k < MAX_SERIES ? &p->all[k] : NULL;
 }
 
 void plot_color(plot *p, const char *name, int kind) {
@@ -77,14 +78,14 @@ bool plot_add(plot *p, const char *name, plot_style style, double x, double y) {
         s->style = style;
         s->kind = kinds[p->n_series++ % 8];
     }
-    if (s->count == s->room) {
-        size_t room = s->room > 0 ? 2 * s->room : 16;
-        double *larger = (double *)realloc(s->xy, 2 * room * sizeof *larger);
+    if (s->count == s->capacity) {
+        size_t capacity = s->capacity > 0 ? 2 * s->capacity : 16;
+        double *larger = (double *)realloc(s->xy, 2 * capacity * sizeof *larger);
         if (larger == NULL) {
             return false;
         }
         s->xy = larger;
-        s->room = room;
+        s->capacity = capacity;
     }
     s->xy[2 * s->count] = x;
     s->xy[2 * s->count++ + 1] = y;
@@ -94,9 +95,9 @@ bool plot_add(plot *p, const char *name, plot_style style, double x, double y) {
 /* ---- axes ---- */
 
 typedef struct axis {
-    double low, high; /* logarithms on a logarithmic axis */
+    double low, high; /* range of values; of their logarithms on a logarithmic axis */
     bool is_log;
-    double begin, end; /* on the paper */
+    double begin, end; /* positions of low and high in the picture */
 } axis;
 
 static double on_axis(const axis *a, double x) {
@@ -104,7 +105,7 @@ static double on_axis(const axis *a, double x) {
     return a->begin + t * (a->end - a->begin);
 }
 
-/* Half the smallest distance between two bars of a series. */
+/* Half of the smallest distance between two bars of a series. */
 static double bar_half(const series *s) {
     double least = HUGE_VAL;
     for (size_t k = 0; k < s->count; k++) {
@@ -135,13 +136,13 @@ static axis find_axis(const plot *p, int d) {
         a.low = 0;
         a.high = 1;
     }
-    double room = a.high > a.low ? 0.04 * (a.high - a.low) : 0.5;
-    a.low -= a.low == 0 ? 0 : room;
-    a.high += room;
+    double padding = a.high > a.low ? 0.04 * (a.high - a.low) : 0.5;
+    a.low -= a.low == 0 ? 0 : padding;
+    a.high += padding;
     return a;
 }
 
-/* 1, 2 or 5 times a power of ten, so that there are four to nine of them. */
+/* Distance between ticks: 1, 2 or 5 times a power of ten, chosen to give four to nine ticks. */
 static double tick_step(double range) {
     double step = pow(10, floor(log10(range / 4)));
     return range / step >= 20 ? 5 * step : range / step >= 10 ? 2 * step : step;
@@ -164,28 +165,29 @@ static void print_text(FILE *f, double x, double y, const char *where, const cha
     fprintf(f, "</text>\n");
 }
 
-static void print_tick(FILE *f, const axis *a, int d, double value, bool named) {
+static void print_tick(FILE *f, const axis *a, int d, double value, bool labeled) {
     char text[32];
     double at = on_axis(a, value);
     (void)snprintf(text, sizeof text, "%g", fabs(value) < 1e-12 * (a->high - a->low) ? 0 : value);
     if (d == 0) {
         fprintf(f, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#ddd\"/>\n", at, top, height - bottom);
-        print_text(f, at, height - bottom + 16, "middle", named ? text : "");
+        print_text(f, at, height - bottom + 16, "middle", labeled ? text : "");
     } else {
         fprintf(f, "<path d=\"M%.1f %.1fH%.1f\" stroke=\"#ddd\"/>\n", left, at, width - right);
-        print_text(f, left - 6, at + 4, "end", named ? text : "");
+        print_text(f, left - 6, at + 4, "end", labeled ? text : "");
     }
 }
 
 static void print_axis(FILE *f, const plot *p, const axis *a, int d) {
     if (a->is_log) {
-        bool many = a->high - a->low < 2; /* then 2 and 5 are named too */
+        bool few_decades = a->high - a->low < 2; /* label 2 and 5 as well */
         for (double k = floor(a->low); k <= a->high; k++) {
             for (int digit = 1; digit < 10; digit++) {
                 double value = digit * pow(10, k);
                 if (log10(value) >= a->low && log10(value) <= a->high &&
                     (digit == 1 || a->high - a->low < 4)) {
-                    print_tick(f, a, d, value, digit == 1 || (many && (digit == 2 || digit == 5)));
+                    print_tick(f, a, d, value,
+                               digit == 1 || (few_decades && (digit == 2 || digit == 5)));
                 }
             }
         }
@@ -236,7 +238,7 @@ static void print_series(FILE *f, const series *s, const axis *x, const axis *y)
     fprintf(f, "</g>\n");
 }
 
-/* To the right of the frame, in the order of the series. */
+/* The legend is to the right of the frame. */
 static void print_legend(FILE *f, const plot *p) {
     for (int k = 0; p->n_series > 1 && k < p->n_series; k++) {
         const series *s = &p->all[k];
@@ -248,7 +250,7 @@ static void print_legend(FILE *f, const plot *p) {
     }
 }
 
-/* How much room the legend needs: letters of 12 pixels are about 6.6 wide. */
+/* Width of the legend: a letter of a 12 pixel font is about 6.6 pixels wide. */
 static double legend_width(const plot *p) {
     size_t longest = 0;
     for (int k = 0; p->n_series > 1 && k < p->n_series; k++) {
@@ -259,9 +261,8 @@ static double legend_width(const plot *p) {
 }
 
 bool plot_write(const plot *p, const char *path, char *message, size_t message_size) {
-    FILE *f = fopen(path, "w");
-    bool ok = f != NULL;
-    if (ok) {
+    FILE *f = output_open(path, message, message_size);
+    if (f != NULL) {
         axis x = find_axis(p, 0), y = find_axis(p, 1);
         double whole = width + legend_width(p);
         fprintf(f,
@@ -284,11 +285,6 @@ bool plot_write(const plot *p, const char *path, char *message, size_t message_s
         fprintf(f, "<g font-size=\"14\">");
         print_text(f, 0.5 * width, 24, "middle", p->title);
         fprintf(f, "</g>\n</svg>\n");
-        ok = ferror(f) == 0;
-        ok = fclose(f) == 0 && ok;
     }
-    if (!ok && message != NULL && message_size > 0) {
-        (void)snprintf(message, message_size, "%s: cannot be written", path);
-    }
-    return ok;
+    return f != NULL && output_close(f, message, message_size);
 }

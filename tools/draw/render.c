@@ -1,4 +1,4 @@
-/* render.c: draws a mesh: projects the vertices, fills the triangles by depth, then marks and lines over them */
+/* render.c: renders a mesh to a picture: projection, depth buffer, marks and lines */
 #include "render.h"
 
 #include <math.h>
@@ -9,27 +9,25 @@
 
 enum { SUPERSAMPLE = 2 };
 
-static const double margin = 0.04; /* of the picture, on each side */
+static const double margin = 0.04; /* fraction of the picture, on each side */
 static const double largest_coordinate = 1e150;
-
-static const double pi = 3.14159265358979323846;
 
 static const rgb background = {255, 255, 255};
 
 render_view render_view_default(void) {
-    render_view view = {800, 600, 30, 20, 0, 1, RENDER_UP_Y, true};
+    render_view view = {800, 600, 30, 20, 0, 1, CAMERA_UP_Y, true};
     return view;
 }
 
-/* What drawing needs; at twice the size of the picture that comes out. */
+/* State of one rendering; pixels has SUPERSAMPLE times the width and height of the result. */
 typedef struct scene {
     const mesh *m;
     const render_style *style;
     render_shade shade;
     picture pixels;
-    double *depth;  /* width x height: the larger is the nearer */
-    double *screen; /* 3 n_vertices: x, y in pixels, depth; NaN: cannot be drawn */
-    double *eye;    /* 3 n_vertices: to the right, upwards, towards the camera */
+    double *depth;  /* width x height; larger is nearer */
+    double *screen; /* 3 n_vertices: x and y in pixels, depth; NaN: not drawable */
+    double *eye;    /* 3 n_vertices: camera coordinates (right, up, toward the camera) */
 } scene;
 
 static bool is_drawn(const scene *s, sl_int face) {
@@ -44,23 +42,12 @@ static bool is_drawn(const scene *s, sl_int face) {
     return true;
 }
 
-/* Which coordinate points upwards, to the right at azimuth 0, and (times sign) to the camera then. */
-typedef struct frame {
-    int up, side, front;
-    double sign;
-} frame;
-
-static frame frame_of(render_up up) {
-    static const frame frames[3] = {{1, 0, 2, 1}, {0, 1, 2, -1}, {2, 0, 1, -1}}; /* y, x, z */
-    return frames[up];
-}
-
 static bool is_drawable(const double *x) {
     return fabs(x[0]) < largest_coordinate && fabs(x[1]) < largest_coordinate &&
            fabs(x[2]) < largest_coordinate;
 }
 
-/* The axis along which the mesh has no extent, or -1. */
+/* The coordinate axis along which the mesh has no extent, or -1. */
 static int flat_axis(const mesh *m) {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
@@ -79,49 +66,36 @@ static int flat_axis(const mesh *m) {
     return -1;
 }
 
-/* The three directions of the eye: to the right, upwards, towards the camera. */
+/* The camera's axes: right, up, toward the camera. */
 static void eye_axes(double axes[3][3], const render_view *view, const mesh *m) {
     int flat = view->automatic ? flat_axis(m) : -1;
-    memset(axes, 0, 9 * sizeof(double));
-    if (flat >= 0) {
-        axes[0][flat == 0 ? 1 : 0] = 1;
-        axes[1][flat == 2 ? 1 : 2] = flat == 1 ? -1 : 1;
-        axes[2][flat] = 1;
-        return;
+    if (flat == 0) { /* seen from +x: y to the right, z up */
+        camera_axes(axes, CAMERA_UP_Z, 90, 0);
+    } else if (flat == 1) { /* seen from +y: x to the right, -z up */
+        camera_axes(axes, CAMERA_UP_Y, 0, 90);
+    } else if (flat == 2) { /* seen from +z: x to the right, y up */
+        camera_axes(axes, CAMERA_UP_Y, 0, 0);
+    } else {
+        camera_axes(axes, view->up, view->azimuth, view->elevation);
     }
-    frame f = frame_of(view->up);
-    double azimuth = view->azimuth * pi / 180, elevation = view->elevation * pi / 180;
-    axes[0][f.side] = cos(azimuth);
-    axes[0][f.front] = -f.sign * sin(azimuth);
-    axes[1][f.up] = cos(elevation);
-    axes[1][f.side] = -sin(elevation) * sin(azimuth);
-    axes[1][f.front] = -f.sign * sin(elevation) * cos(azimuth);
-    axes[2][f.up] = sin(elevation);
-    axes[2][f.side] = cos(elevation) * sin(azimuth);
-    axes[2][f.front] = f.sign * cos(elevation) * cos(azimuth);
 }
 
 void render_look_from(render_view *view, const double direction[3]) {
-    frame f = frame_of(view->up);
-    double length = hypot(hypot(direction[0], direction[1]), direction[2]);
-    if (length > 0 && isfinite(length)) {
-        view->azimuth = atan2(direction[f.side], f.sign * direction[f.front]) * 180 / pi;
-        view->elevation = asin(direction[f.up] / length) * 180 / pi;
-    }
+    camera_angles(&view->azimuth, &view->elevation, view->up, direction);
 }
 
-/* Middle and radius of what is drawn, in eye directions. */
-static double centre_eye(scene *s, double axes[3][3]) {
+/* Computes camera coordinates centered on what is drawn; returns its radius. */
+static double center_eye(scene *s, double axes[3][3]) {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     size_t n = (size_t)s->m->n_vertices;
     for (size_t v = 0; v < n; v++) {
         const double *x = s->m->xyz + 3 * v;
-        bool fine = is_drawable(x);
+        bool drawable = is_drawable(x);
         for (int d = 0; d < 3; d++) {
             s->eye[3 * v + (size_t)d] =
-                fine ? axes[d][0] * x[0] + axes[d][1] * x[1] + axes[d][2] * x[2] : NAN;
+                drawable ? axes[d][0] * x[0] + axes[d][1] * x[1] + axes[d][2] * x[2] : NAN;
         }
-        s->screen[3 * v] = s->eye[3 * v]; /* is_drawn looks at it */
+        s->screen[3 * v] = s->eye[3 * v]; /* is_drawn reads it */
     }
     for (sl_int f = 0; f < s->m->n_faces; f++) {
         for (size_t c = 0; c < 3 && is_drawn(s, f); c++) {
@@ -144,11 +118,12 @@ static double centre_eye(scene *s, double axes[3][3]) {
     return sqrt(radius2);
 }
 
-/* Fills in the screen positions: parallel, or from a distance of perspective radii; then fits them to the picture. */
+/* Computes the screen positions, by parallel or perspective projection, and scales them to the
+ * picture. */
 static void project(scene *s, const render_view *view) {
     double axes[3][3];
     eye_axes(axes, view, s->m);
-    double radius = centre_eye(s, axes);
+    double radius = center_eye(s, axes);
     double distance = view->perspective > 1 ? view->perspective * radius : 0;
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (sl_int v = 0; v < s->m->n_vertices; v++) {
@@ -156,7 +131,7 @@ static void project(scene *s, const render_view *view) {
         double shrink = distance > 0 && distance > e[2] ? distance / (distance - e[2]) : 1;
         p[0] = e[0] * shrink;
         p[1] = -e[1] * shrink;
-        p[2] = distance > 0 ? shrink : e[2]; /* 1 / distance: linear on the screen */
+        p[2] = distance > 0 ? shrink : e[2]; /* as 1 / distance, it is linear on the screen */
     }
     for (sl_int f = 0; f < s->m->n_faces; f++) {
         for (size_t c = 0; c < 3 && is_drawn(s, f); c++) {
@@ -183,7 +158,7 @@ static int clamp_pixel(double x, int size) {
     return !(x > 0) ? 0 : x >= size ? size : (int)x;
 }
 
-/* Pixels whose middles lie in the triangle, nearer than what was there. */
+/* Colors the pixels whose centers lie in the triangle, unless a nearer face covers them. */
 static void fill_face(scene *s, sl_int face) {
     const sl_int *f = s->m->faces + 3 * (size_t)face;
     const double *a = s->screen + 3 * (size_t)f[0], *b = s->screen + 3 * (size_t)f[1],
@@ -192,8 +167,8 @@ static void fill_face(scene *s, sl_int face) {
     if (!(fabs(area) > 1e-12)) {
         return;
     }
-    render_corner corner;
-    render_shade_face(&corner, &s->shade, face, a, b, c);
+    render_triangle tri;
+    render_shade_face(&tri, &s->shade, face, a, b, c);
     int left = clamp_pixel(fmin(fmin(a[0], b[0]), c[0]) - 0.5, s->pixels.width);
     int right = clamp_pixel(fmax(fmax(a[0], b[0]), c[0]) + 1.5, s->pixels.width);
     int top = clamp_pixel(fmin(fmin(a[1], b[1]), c[1]) - 0.5, s->pixels.height);
@@ -212,17 +187,17 @@ static void fill_face(scene *s, sl_int face) {
             size_t at = (size_t)y * (size_t)s->pixels.width + (size_t)x;
             if (z > s->depth[at]) {
                 s->depth[at] = z;
-                s->pixels.at[at] = render_shade_point(&s->shade, &corner, w);
+                s->pixels.at[at] = render_shade_point(&s->shade, &tri, w);
             }
         }
     }
 }
 
-/* A disk where the surface does not hide the point: nearer than what was drawn, but for a hair. */
-static void draw_dot(scene *s, const double at[3], double radius, double hair, rgb color) {
+/* Draws a disk at a point that the surface does not hide by more than `tolerance` in depth. */
+static void draw_dot(scene *s, const double at[3], double radius, double tolerance, rgb color) {
     int x = clamp_pixel(at[0], s->pixels.width - 1), y = clamp_pixel(at[1], s->pixels.height - 1);
     if (isfinite(at[0]) &&
-        at[2] + hair >= s->depth[(size_t)y * (size_t)s->pixels.width + (size_t)x]) {
+        at[2] + tolerance >= s->depth[(size_t)y * (size_t)s->pixels.width + (size_t)x]) {
         picture_disk(&s->pixels, at[0], at[1], radius, color);
     }
 }
@@ -233,7 +208,7 @@ static void draw_overlay(scene *s) {
         low = fmin(low, s->screen[3 * (size_t)v + 2]);
         high = fmax(high, s->screen[3 * (size_t)v + 2]);
     }
-    double hair = high > low ? 0.01 * (high - low) : 1e-9;
+    double tolerance = high > low ? 0.01 * (high - low) : 1e-9;
     for (int k = 0; k < s->style->n_segments; k++) {
         const render_segment *line = &s->style->segments[k];
         const double *a = s->screen + 3 * (size_t)line->from, *b = s->screen + 3 * (size_t)line->to;
@@ -244,12 +219,12 @@ static void draw_overlay(scene *s) {
             for (int d = 0; d < 3; d++) {
                 point[d] = a[d] + t * (b[d] - a[d]);
             }
-            draw_dot(s, point, 0.5 * SUPERSAMPLE * line->width, hair, line->color);
+            draw_dot(s, point, 0.5 * SUPERSAMPLE * line->width, tolerance, line->color);
         }
     }
     for (int k = 0; k < s->style->n_marks; k++) {
         const render_mark *mark = &s->style->marks[k];
-        draw_dot(s, s->screen + 3 * (size_t)mark->vertex, SUPERSAMPLE * mark->radius, hair,
+        draw_dot(s, s->screen + 3 * (size_t)mark->vertex, SUPERSAMPLE * mark->radius, tolerance,
                  mark->color);
     }
 }
@@ -312,7 +287,7 @@ bool render_layout(picture *out, const mesh *m, const double *uv, const render_v
         flat.xyz[3 * v + 1] = uv[2 * v + 1];
     }
     above.automatic = false;
-    above.up = RENDER_UP_Y;
+    above.up = CAMERA_UP_Y;
     above.azimuth = above.elevation = above.perspective = 0;
     unlit.unlit = true;
     bool ok = render_mesh(out, &flat, &above, &unlit);

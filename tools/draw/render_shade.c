@@ -1,4 +1,4 @@
-/* render_shade.c: the colour of a point of a surface: map or palette, checks, isolines, edges, light */
+/* render_shade.c: the color of a surface point: color map, checkerboard, isolines, light */
 #include "render_shade.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static void normalize(double x[3]) {
     }
 }
 
-/* Means of the faces around, each counted by its area. */
+/* Area-weighted means of the normals of the incident faces. */
 static bool vertex_normals(render_shade *s) {
     size_t n = (size_t)s->m->n_vertices;
     s->normal = (double *)calloc(3 * n + 1, sizeof *s->normal);
@@ -66,7 +66,7 @@ static void find_range(render_shade *s) {
     }
 }
 
-/* Corner c of a face: its u and v, or false. */
+/* The texture coordinates of corner c of a face; false: it has none. */
 static bool corner_uv(double out[2], const render_shade *s, size_t face, size_t c) {
     const render_style *style = s->style;
     size_t v = (size_t)s->m->faces[3 * face + c];
@@ -118,44 +118,45 @@ void render_shade_end(render_shade *s) {
     s->normal = NULL;
 }
 
-void render_shade_face(render_corner *corner, const render_shade *s, sl_int face, const double *a,
+void render_shade_face(render_triangle *tri, const render_shade *s, sl_int face, const double *a,
                        const double *b, const double *c) {
     const sl_int *f = s->m->faces + 3 * (size_t)face;
     double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    memset(corner, 0, sizeof *corner);
-    corner->face = face;
-    corner->height[0] = fabs(area) / hypot(c[0] - b[0], c[1] - b[1]);
-    corner->height[1] = fabs(area) / hypot(a[0] - c[0], a[1] - c[1]);
-    corner->height[2] = fabs(area) / hypot(b[0] - a[0], b[1] - a[1]);
-    face_normal(corner->normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
+    memset(tri, 0, sizeof *tri);
+    tri->face = face;
+    tri->height[0] = fabs(area) / hypot(c[0] - b[0], c[1] - b[1]);
+    tri->height[1] = fabs(area) / hypot(a[0] - c[0], a[1] - c[1]);
+    tri->height[2] = fabs(area) / hypot(b[0] - a[0], b[1] - a[1]);
+    face_normal(tri->normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
                 s->eye + 3 * (size_t)f[2]);
-    normalize(corner->normal);
+    normalize(tri->normal);
     if (s->style->scalar != NULL) {
         const double *x = s->style->scalar;
         double du = x[f[1]] - x[f[0]], dv = x[f[2]] - x[f[0]];
-        corner->slope = hypot(du * (c[1] - a[1]) - dv * (b[1] - a[1]),
-                              dv * (b[0] - a[0]) - du * (c[0] - a[0])) /
-                        fabs(area);
+        tri->slope = hypot(du * (c[1] - a[1]) - dv * (b[1] - a[1]),
+                           dv * (b[0] - a[0]) - du * (c[0] - a[0])) /
+                     fabs(area);
     }
-    corner->has_uv = true;
+    tri->has_uv = true;
     for (size_t k = 0; k < 3; k++) {
-        corner->has_uv = corner_uv(corner->uv[k], s, (size_t)face, k) && corner->has_uv;
+        tri->has_uv = corner_uv(tri->uv[k], s, (size_t)face, k) && tri->has_uv;
     }
 }
 
-static rgb checked(const render_shade *s, const render_corner *corner, const double w[3]) {
+static rgb checked(const render_shade *s, const render_triangle *tri, const double w[3]) {
     static const rgb light = {0xf4, 0xee, 0xe0}, dark = {0x3d, 0x6f, 0x9e};
     double u = 0, v = 0;
     for (int k = 0; k < 3; k++) {
-        u += w[k] * corner->uv[k][0];
-        v += w[k] * corner->uv[k][1];
+        u += w[k] * tri->uv[k][0];
+        v += w[k] * tri->uv[k][1];
     }
     double odd = fmod(floor(u * s->checks) + floor(v * s->checks), 2);
     return odd != 0 ? dark : light;
 }
 
-/* Is the value on one of the levels low + k (high - low) / (isolines + 1)? */
-static bool on_isoline(const render_shade *s, const render_corner *corner, double value) {
+/* Whether the value is within half a line width of an isoline. Their levels are
+ * low + k (high - low) / (isolines + 1) for k = 1..isolines. */
+static bool on_isoline(const render_shade *s, const render_triangle *tri, double value) {
     int count = s->style->isolines;
     double step = (s->high - s->low) / (count + 1);
     if (count < 1 || !(step > 0)) {
@@ -163,21 +164,21 @@ static bool on_isoline(const render_shade *s, const render_corner *corner, doubl
     }
     double level = floor((value - s->low) / step + 0.5);
     return level >= 1 && level <= count &&
-           fabs(value - s->low - level * step) <= 0.5 * isoline_width * s->pixel * corner->slope;
+           fabs(value - s->low - level * step) <= 0.5 * isoline_width * s->pixel * tri->slope;
 }
 
-static rgb base_color(const render_shade *s, const render_corner *corner, const double w[3]) {
+static rgb base_color(const render_shade *s, const render_triangle *tri, const double w[3]) {
     static const rgb plain = {0xd9, 0xd4, 0xcc}, line = {0x20, 0x20, 0x20};
     const render_style *style = s->style;
-    const sl_int *f = s->m->faces + 3 * (size_t)corner->face;
-    int most = w[0] >= w[1] && w[0] >= w[2] ? 0 : w[1] >= w[2] ? 1 : 2;
-    if (corner->has_uv) {
-        return checked(s, corner, w);
+    const sl_int *f = s->m->faces + 3 * (size_t)tri->face;
+    int nearest = w[0] >= w[1] && w[0] >= w[2] ? 0 : w[1] >= w[2] ? 1 : 2;
+    if (tri->has_uv) {
+        return checked(s, tri, w);
     }
     if (style->scalar != NULL) {
         double x =
             w[0] * style->scalar[f[0]] + w[1] * style->scalar[f[1]] + w[2] * style->scalar[f[2]];
-        if (on_isoline(s, corner, x)) {
+        if (on_isoline(s, tri, x)) {
             return line;
         }
         return color_map(!isfinite(x)       ? NAN
@@ -186,22 +187,22 @@ static rgb base_color(const render_shade *s, const render_corner *corner, const 
     }
     if (style->vertex_color != NULL) {
         if (style->nearest) {
-            return style->vertex_color[f[most]];
+            return style->vertex_color[f[nearest]];
         }
         double sum = w[0] + w[1];
         rgb pair = color_mix(style->vertex_color[f[0]], style->vertex_color[f[1]],
                              sum > 0 ? fmin(1, fmax(0, w[1] / sum)) : 0);
         return color_mix(pair, style->vertex_color[f[2]], fmin(1, fmax(0, w[2])));
     }
-    return style->face_color != NULL ? style->face_color[corner->face] : plain;
+    return style->face_color != NULL ? style->face_color[tri->face] : plain;
 }
 
-/* Light from the upper left behind the camera; both sides of the surface are lit. */
-static rgb lit(const render_shade *s, const render_corner *corner, const double w[3], rgb color) {
+/* Diffuse light from the upper left behind the camera; both sides of the surface are lit. */
+static rgb lit(const render_shade *s, const render_triangle *tri, const double w[3], rgb color) {
     static const double light[3] = {-0.36, 0.48, 0.8};
-    double normal[3] = {corner->normal[0], corner->normal[1], corner->normal[2]};
+    double normal[3] = {tri->normal[0], tri->normal[1], tri->normal[2]};
     if (s->normal != NULL) {
-        const sl_int *f = s->m->faces + 3 * (size_t)corner->face;
+        const sl_int *f = s->m->faces + 3 * (size_t)tri->face;
         for (int d = 0; d < 3; d++) {
             normal[d] = 0;
             for (int c = 0; c < 3; c++) {
@@ -210,21 +211,21 @@ static rgb lit(const render_shade *s, const render_corner *corner, const double 
         }
         normalize(normal);
     }
-    double towards = normal[2] < 0 ? -1 : 1;
-    double cosine = towards * (normal[0] * light[0] + normal[1] * light[1] + normal[2] * light[2]);
-    double glow = 0.45 + 0.55 * fmax(0, cosine);
+    double side = normal[2] < 0 ? -1 : 1;
+    double cosine = side * (normal[0] * light[0] + normal[1] * light[1] + normal[2] * light[2]);
+    double intensity = 0.45 + 0.55 * fmax(0, cosine);
     rgb black = {0, 0, 0};
-    return color_mix(black, color, glow);
+    return color_mix(black, color, intensity);
 }
 
-rgb render_shade_point(const render_shade *s, const render_corner *corner, const double w[3]) {
-    rgb color = base_color(s, corner, w);
+rgb render_shade_point(const render_shade *s, const render_triangle *tri, const double w[3]) {
+    rgb color = base_color(s, tri, w);
     if (!s->style->unlit) {
-        color = lit(s, corner, w, color);
+        color = lit(s, tri, w, color);
     }
-    double near = 0.5 * s->style->edges * s->pixel;
-    for (int c = 0; near > 0 && c < 3; c++) {
-        if (w[c] * corner->height[c] <= near) {
+    double half_width = 0.5 * s->style->edges * s->pixel;
+    for (int c = 0; half_width > 0 && c < 3; c++) {
+        if (w[c] * tri->height[c] <= half_width) {
             return s->style->edge_color;
         }
     }

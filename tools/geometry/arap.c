@@ -1,49 +1,50 @@
-/* arap.c: as-rigid-as-possible layouts of a disk: turns of the faces, then one Poisson problem, in turn */
+/* arap.c: as-rigid-as-possible layouts of a disk: alternating face rotations and Poisson solves */
 #include "arap.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flat_face.h"
+#include "planar_triangle.h"
 #include "laplacian.h"
 
 void arap_free(arap *a) {
     free(a->corners);
     free(a->weights);
-    free(a->turns);
+    free(a->rotations);
     free(a->rhs);
-    free(a->change);
+    free(a->correction);
     memset(a, 0, sizeof *a);
 }
 
-bool arap_create(arap *out, const part *p) {
+bool arap_create(arap *out, const submesh *p) {
     size_t n = (size_t)p->m.n_vertices, nf = (size_t)p->m.n_faces;
     memset(out, 0, sizeof *out);
     out->p = p;
     out->corners = (double *)malloc((6 * nf + 1) * sizeof(double));
     out->weights = (double *)malloc((3 * nf + 1) * sizeof(double));
-    out->turns = (double *)malloc((2 * nf + 1) * sizeof(double));
+    out->rotations = (double *)malloc((2 * nf + 1) * sizeof(double));
     out->rhs = (double *)malloc((2 * n + 1) * sizeof(double));
-    out->change = (double *)malloc((2 * n + 1) * sizeof(double));
-    if (out->corners == NULL || out->weights == NULL || out->turns == NULL || out->rhs == NULL ||
-        out->change == NULL) {
+    out->correction = (double *)malloc((2 * n + 1) * sizeof(double));
+    if (out->corners == NULL || out->weights == NULL || out->rotations == NULL ||
+        out->rhs == NULL || out->correction == NULL) {
         arap_free(out);
         return false;
     }
     for (size_t f = 0; f < nf; f++) {
         const sl_int *face = p->m.faces + 3 * f;
-        flat_face flat = flat_face_of(&p->m, face);
+        planar_triangle flat = planar_triangle_of(&p->m, face);
         laplacian_face measure = laplacian_of_face(&p->m, face);
         memcpy(out->corners + 6 * f, flat.x, sizeof flat.x);
         memcpy(out->weights + 3 * f, measure.weight, sizeof measure.weight);
-        out->turns[2 * f] = 1;
-        out->turns[2 * f + 1] = 0;
+        out->rotations[2 * f] = 1;
+        out->rotations[2 * f + 1] = 0;
     }
     return true;
 }
 
-/* The edge opposite to corner k of face f: its ends, and its vector laid flat. */
+/* The edge opposite to corner k of face f: its two vertices, and its vector in the plane of the
+ * face. */
 typedef struct flat_edge {
     size_t from, to;
     double x, y;
@@ -58,7 +59,7 @@ static flat_edge edge_of(const arap *a, size_t f, size_t k) {
     return e;
 }
 
-double arap_turn(arap *a, const double *X) {
+double arap_local_step(arap *a, const double *X) {
     size_t n = (size_t)a->p->m.n_vertices, nf = (size_t)a->p->m.n_faces;
     double energy = 0, area = 0;
     for (size_t f = 0; f < nf; f++) {
@@ -72,8 +73,8 @@ double arap_turn(arap *a, const double *X) {
             size += w * (u * u + v * v + e.x * e.x + e.y * e.y);
         }
         double length = hypot(along, across);
-        a->turns[2 * f] = length > 0 ? along / length : 1;
-        a->turns[2 * f + 1] = length > 0 ? across / length : 0;
+        a->rotations[2 * f] = length > 0 ? along / length : 1;
+        a->rotations[2 * f + 1] = length > 0 ? across / length : 0;
         energy += size - 2 * length;
         area += 0.5 * a->corners[6 * f + 2] * a->corners[6 * f + 5];
     }
@@ -85,7 +86,7 @@ static void gather(arap *a) {
     size_t n = (size_t)a->p->m.n_vertices, nf = (size_t)a->p->m.n_faces;
     memset(a->rhs, 0, 2 * n * sizeof *a->rhs);
     for (size_t f = 0; f < nf; f++) {
-        double c = a->turns[2 * f], s = a->turns[2 * f + 1];
+        double c = a->rotations[2 * f], s = a->rotations[2 * f + 1];
         for (size_t k = 0; k < 3; k++) {
             flat_edge e = edge_of(a, f, k);
             double w = a->weights[3 * f + k];
@@ -98,23 +99,23 @@ static void gather(arap *a) {
     }
 }
 
-sl_status arap_move(arap *a, double *X, patch_solver *s, int solves) {
+sl_status arap_global_step(arap *a, double *X, patch_solver *s, int solves) {
     size_t n = (size_t)a->p->m.n_vertices;
     gather(a);
-    sl_status status = patch_solver_apply(s, a->change, X, 2);
+    sl_status status = patch_solver_apply(s, a->correction, X, 2);
     for (size_t k = 0; k < 2 * n; k++) {
-        a->rhs[k] -= a->change[k];
+        a->rhs[k] -= a->correction[k];
     }
     if (status == SL_OK) {
-        status = patch_solver_part(s, a->change, a->rhs, 2, 1e-12, &solves);
+        status = patch_solver_solve_patch(s, a->correction, a->rhs, 2, 1e-12, &solves);
     }
     for (size_t k = 0; k < 2 * n && status == SL_OK; k++) {
-        X[k] += a->change[k];
+        X[k] += a->correction[k];
     }
     return status;
 }
 
-sl_status arap_move_own(arap *a, double *X, const sl_factor *F, sl_work *W) {
+sl_status arap_global_step_exact(arap *a, double *X, const sl_factor *F, sl_work *W) {
     size_t n = (size_t)a->p->m.n_vertices;
     gather(a);
     return sl_factor_solve(F, X, n, a->rhs, n, 2, W);

@@ -1,21 +1,21 @@
-/* conformal.c: spectral-conformal layouts of a disk: an eigenvector of its conformal energy, by inverse iteration */
+/* conformal.c: conformal layouts of a disk: spectral by inverse iteration, or by local descent */
 #include "conformal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "triplets.h"
+#include "tools/matrix/triplets.h"
 
-/* Of the entries of N: small enough to leave the eigenvectors apart (those behind the first have some h^2), large
- * enough that the last pivots, which are what is left of C on constants, do not drown in rounding. */
+/* Relative to the largest entry of N. Small enough to keep the eigenvalues apart (those after the
+ * first are of the order of h^2). Large enough to keep the last pivots above rounding errors: C
+ * vanishes on constants, so these pivots come only from the shift. */
 #define SHIFT 1e-10
 
-sl_status conformal_apply(const patch_solver *s, const disk *d, double *Y, const double *X) {
+sl_status conformal_apply(const patch_solver *s, const disk_patch *d, double *Y, const double *X) {
     size_t n = (size_t)d->p.m.n_vertices;
     sl_status status = patch_solver_apply(s, Y, X, 2);
-    for (sl_int k = 0; k < d->n_boundary;
-         k++) { /* less the flux of the boundary as it lies, eq. (3) */
+    for (sl_int k = 0; k < d->n_boundary; k++) { /* minus the flux of the boundary, eq. (3) */
         size_t v = (size_t)d->boundary[k];
         size_t before = (size_t)d->boundary[k > 0 ? k - 1 : d->n_boundary - 1];
         size_t after = (size_t)d->boundary[k + 1 < d->n_boundary ? k + 1 : 0];
@@ -33,12 +33,12 @@ static double dot(const double *a, const double *b, size_t n) {
     return sum;
 }
 
-sl_status conformal_descend(patch_solver *s, const disk *d, double *X, double *work) {
+sl_status conformal_descent_step(patch_solver *s, const disk_patch *d, double *X, double *work) {
     size_t n = (size_t)d->p.m.n_vertices;
     double *slope = work, *along = work + 2 * n, *bent = work + 4 * n;
     sl_status status = conformal_apply(s, d, slope, X);
     if (status == SL_OK) {
-        status = patch_solver_mesh(s, along, slope, 2);
+        status = patch_solver_solve_mesh(s, along, slope, 2);
     }
     if (status == SL_OK) {
         status = conformal_apply(s, d, bent, along);
@@ -60,8 +60,8 @@ void conformal_free(conformal *c) {
     memset(c, 0, sizeof *c);
 }
 
-/* Lower triangle of C + shift B: rows 2v and 2v+1 are the two coordinates of vertex v. */
-static bool add_entries(triplets *list, const disk *d, const sl_csc *N, double *shift) {
+/* Adds the lower triangle of C + shift B. Rows 2v and 2v+1 are the two coordinates of vertex v. */
+static bool add_entries(triplets *list, const disk_patch *d, const sl_csc *N, double *shift) {
     double largest = 0;
     bool ok = triplets_reserve(list, 2 * (size_t)N->p[N->n_cols] + 6 * (size_t)d->n_boundary);
     for (sl_int j = 0; j < N->n_cols && ok; j++) {
@@ -74,7 +74,7 @@ static bool add_entries(triplets *list, const disk *d, const sl_csc *N, double *
     *shift = SHIFT * largest;
     for (sl_int k = 0; k < d->n_boundary && ok; k++) {
         sl_int v = d->boundary[k], after = d->boundary[k + 1 < d->n_boundary ? k + 1 : 0];
-        /* first of v with second of its successor: -1/2; second of v with first of its successor: 1/2 */
+        /* first coordinate of v with second of its successor: -1/2; second with first: 1/2 */
         sl_int low = 2 * (v < after ? v : after) + (v < after ? 0 : 1);
         sl_int high = 2 * (v < after ? after : v) + (v < after ? 1 : 0);
         ok = triplets_add(list, high, low, -0.5);
@@ -87,14 +87,14 @@ static bool add_entries(triplets *list, const disk *d, const sl_csc *N, double *
     return ok;
 }
 
-sl_status conformal_create(conformal *out, const disk *d, const sl_matrix *N) {
+sl_status conformal_create(conformal *out, const disk_patch *d, const sl_matrix *N) {
     const sl_csc view = sl_matrix_view(N);
     triplets list = {0, 0, NULL, NULL, NULL};
     sl_matrix *C = NULL;
     sl_options opt;
     memset(out, 0, sizeof *out);
     memset(&opt, 0, sizeof opt);
-    opt.null_tolerance = -1; /* the constants' pivots are as small as the shift, and wanted */
+    opt.null_tolerance = -1; /* the pivots of the constants are as small as the shift: keep them */
     out->d = d;
     if (view.n_cols > INT32_MAX / 2) {
         return SL_ERR_TOO_LARGE;
@@ -122,9 +122,9 @@ sl_status conformal_create(conformal *out, const disk *d, const sl_matrix *N) {
     return status;
 }
 
-/* y = B x without its mean: the part of x that the iteration keeps. False: there is nothing but rounding in it, or a
- * NaN. */
-static bool boundary_of(double *y, const disk *d, const double *X) {
+/* y = B x minus its mean: the part of x that the iteration keeps. False: only rounding errors are
+ * left, or a NaN. */
+static bool boundary_of(double *y, const disk_patch *d, const double *X) {
     size_t n = (size_t)d->p.m.n_vertices;
     double mean[2] = {0, 0}, sum = 0, size = 0;
     for (sl_int k = 0; k < d->n_boundary; k++) {
@@ -143,7 +143,7 @@ static bool boundary_of(double *y, const disk *d, const double *X) {
 }
 
 sl_status conformal_iterate(conformal *c, double *X, double *lambda) {
-    const disk *d = c->d;
+    const disk_patch *d = c->d;
     size_t n = (size_t)d->p.m.n_vertices;
     double mean[2] = {0, 0}, after = 0, cross = 0;
     if (!boundary_of(c->y, d, X)) {

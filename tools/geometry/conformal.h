@@ -1,63 +1,81 @@
-/* conformal.h: spectral-conformal layouts of a disk: an eigenvector of its conformal energy, by inverse iteration */
+/* conformal.h: conformal layouts of a disk: spectral by inverse iteration, or by local descent */
 #ifndef TOOLS_CONFORMAL_H
 #define TOOLS_CONFORMAL_H
 
-#include "disk.h"
+#include "tools/mesh/disk_patch.h"
 #include "patch_solver.h"
 
-/* The conformal energy of a layout is its Dirichlet energy less its area: 1/2 u' C u, C = N - (what eq. (3) of [HDA17]
- * says of u's own boundary), 0 where all angles are kept, else positive. C is 2n x 2n: the area ties the first
- * coordinate of a boundary vertex to the second of its neighbours.
+/* The conformal energy of a layout is its Dirichlet energy minus its area: 1/2 u' C u, where C is N
+ * (the Laplacian of the patch's own faces, once for each coordinate) minus the boundary terms of
+ * eq. (3) in [HDA17]. It is 0 if all angles are preserved and positive otherwise. C is 2n x 2n,
+ * because the area couples the first coordinate of a boundary vertex to the second one of its
+ * neighbors.
  *
- * Spectral [MTAD08]: of all layouts with sum over the boundary of |u|^2 = 1 and sum of u = 0 the one of least energy:
- * the eigenvector of C u = lambda B u, B = 1 at the boundary's entries, behind the constants. Inverse iteration with
- * a small shift needs C's own factor. The factor of the mesh's L cannot take its place: C is nearly 0 on everything
- * that keeps angles (all analytic functions), where L is not, and the corrections that serve for N in patch_solver.h
- * would take as many steps as the boundary has vertices. So the disk is factored itself, once.
+ * The spectral layout [MTAD08] has the least energy among all layouts with sum of |u|^2 = 1 and sum
+ * of u = 0 over the boundary: it is the eigenvector of C u = lambda B u with the smallest
+ * eigenvalue after those of the constants; B is 1 on the boundary, 0 elsewhere. Inverse iteration
+ * with a small shift needs a factor of C itself. The factor of the mesh's L cannot replace it: C
+ * almost vanishes on everything that preserves angles (all analytic functions), where L does not,
+ * so that the corrections of patch_solver.h would need as many steps as the boundary has vertices.
+ * The patch is therefore factored once.
  *
- * On the mesh's factor goes another thing: u := u - L^-1 C u, a descent of the energy, takes away what u has of the
- * other kind (what reverses orientation) by the factor of about (part - rest)/2 each time, and leaves analytic
- * functions nearly as they are: from the harmonic map to a conformal layout near it in a few local solves.
+ * What the mesh's factor can do is a descent of the energy: u := u - L^-1 C u. On functions that
+ * reverse orientation C is 2 N, so each step multiplies that part of u by about (R - N)/(R + N),
+ * where N and R are the stiffnesses of the patch and of the rest of the mesh at the interface,
+ * which are similar. Analytic functions are almost preserved. A few local solves thus turn the
+ * harmonic map into a nearby conformal layout.
  *
+ *  [HDA17]  Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry
+ *           processing, 2017.
  *  [MTAD08]  Mullen, Tong, Alliez, Desbrun: Spectral conformal parameterization, 2008.
  */
 
-/** Y = C X; X and Y n x 2, column-major. */
-sl_status conformal_apply(const patch_solver *s, const disk *d, double *Y, const double *X);
-
-/** One step of the descent, on the factor of the mesh: X -= t L^-1 C X, with the t along it that is best.
+/** Y = C X.
  *
- *  X      [in,out]  n x 2, column-major.
- *  work   [out]     8 n doubles.
+ *  s     [in]   solver of the patch d->p.
+ *  Y, X  n x 2, column-major, not the same array; n = d->p.m.n_vertices.
+ *  Returns  as patch_solver_apply.
  */
-sl_status conformal_descend(patch_solver *s, const disk *d, double *X, double *work);
+sl_status conformal_apply(const patch_solver *s, const disk_patch *d, double *Y, const double *X);
 
-/** The inverse iteration: C + shift B, factored. */
+/** One step of the descent, by one local solve on the factor of the mesh: X -= t L^-1 C X with the
+ *  t that minimizes the energy along this direction.
+ *
+ *  X     [in,out]  n x 2, column-major.
+ *  work  [out]     scratch, 8 n doubles.
+ *  Returns  as patch_solver_solve_mesh.
+ */
+sl_status conformal_descent_step(patch_solver *s, const disk_patch *d, double *X, double *work);
+
+/** Inverse iteration: the factor of C + shift B. */
 typedef struct conformal {
-    const disk *d; /* borrowed */
+    const disk_patch *d; /* borrowed */
     sl_symbolic *S;
     sl_factor *F;
     sl_work *work;
-    double *y; /* 2 n */
+    double *y; /* 2 n, interleaved: rows 2v and 2v+1 are the coordinates of vertex v */
     double shift;
 } conformal;
 
-/** Factors.
+/** Assembles and factors C + shift B.
  *
  *  out  [out]  release with conformal_free; all zero on error.
+ *  d    [in]   borrowed, must outlive out.
  *  N    [in]   lower triangle of the Laplacian of d's faces.
- *  Returns  SL_OK; SL_ERR_MEMORY, SL_ERR_TOO_LARGE; SL_ERR_PIVOT: a vertex that no weight holds.
+ *  Returns  SL_OK; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; SL_ERR_PIVOT: a vertex has no weights.
  */
-sl_status conformal_create(conformal *out, const disk *d, const sl_matrix *N);
+sl_status conformal_create(conformal *out, const disk_patch *d, const sl_matrix *N);
 
+/** Releases everything and sets c to all zero. */
 void conformal_free(conformal *c);
 
-/** One inverse iteration: X := (C + shift B)^-1 B X, without its mean over the boundary, scaled to a sum of |u|^2 of 1
- *  over the boundary.
+/** One inverse iteration: X := (C + shift B)^-1 B X, then subtracts the mean over the boundary and
+ *  scales to a sum of |u|^2 of 1 over the boundary.
  *
  *  X       [in,out]  n x 2, column-major; not constant on the boundary.
- *  lambda  [out]     the estimate of the eigenvalue that the step gives.
- *  Returns  SL_OK; SL_ERR_NOT_FINITE: X was constant on the boundary; as sl_factor_solve.
+ *  lambda  [out]     the estimate of the eigenvalue.
+ *  Returns  SL_OK; SL_ERR_NOT_FINITE: X was constant on the boundary, or the result is not finite;
+ *           as sl_factor_solve.
  */
 sl_status conformal_iterate(conformal *c, double *X, double *lambda);
 

@@ -1,5 +1,5 @@
-/* distance_checks.c: what is known of distances: closed forms on planes and spheres, bounds on any surface */
-#include "distance_checks.h"
+/* distance_accuracy.c: compares computed distances with closed forms and with general bounds */
+#include "distance_accuracy.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,24 +8,25 @@ static double straight(const double *a, const double *b) {
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* The sphere through the mesh: around the mean of its vertices, which is its centre on a sphere that is meshed evenly. */
-static double sphere_of(double centre[3], const mesh *m) {
+/* The sphere of a mesh: its center is the mean of the vertices, exact for an evenly meshed sphere.
+ * Returns the radius, the mean distance from the center. */
+static double sphere_of(double center[3], const mesh *m) {
     double radius = 0;
     for (int c = 0; c < 3; c++) {
-        centre[c] = 0;
+        center[c] = 0;
         for (sl_int v = 0; v < m->n_vertices; v++) {
-            centre[c] += m->xyz[3 * (size_t)v + (size_t)c] / m->n_vertices;
+            center[c] += m->xyz[3 * (size_t)v + (size_t)c] / m->n_vertices;
         }
     }
     for (sl_int v = 0; v < m->n_vertices; v++) {
-        radius += straight(m->xyz + 3 * (size_t)v, centre) / m->n_vertices;
+        radius += straight(m->xyz + 3 * (size_t)v, center) / m->n_vertices;
     }
     return radius;
 }
 
-void distance_print_errors(const mesh *m, const sl_int *sources, sl_int count, const heat_field *f,
-                           bool sphere) {
-    double centre[3], radius = sphere_of(centre, m), sum = 0, worst = 0, farthest = 0;
+void distance_print_accuracy(const mesh *m, const sl_int *sources, sl_int count,
+                             const heat_field *f, bool sphere) {
+    double center[3], radius = sphere_of(center, m), sum = 0, worst = 0, farthest = 0;
     for (sl_int k = 0; k < f->n; k++) {
         double nearest = INFINITY;
         for (sl_int i = 0; i < count; i++) {

@@ -1,18 +1,23 @@
-/* distance_checks.h: what is known of distances: closed forms on planes and spheres, bounds on any surface */
-#ifndef TOOLS_DISTANCE_CHECKS_H
-#define TOOLS_DISTANCE_CHECKS_H
+/* distance_accuracy.h: compares computed distances with closed forms and with general bounds */
+#ifndef TOOLS_DISTANCE_ACCURACY_H
+#define TOOLS_DISTANCE_ACCURACY_H
 
 #include <stdbool.h>
 
-#include "heat_distance.h"
+#include "heat_patch.h"
 
-/** Prints a line on the errors against the closed form, from the nearest of count sources: straight lines, or arcs on
- *  the sphere that the mesh is. */
-void distance_print_errors(const mesh *m, const sl_int *sources, sl_int count, const heat_field *f,
-                           bool sphere);
+/** Prints one line to stdout: mean and largest error of distances to the nearest source.
+ *
+ *  sources  [in]  count vertices of m.
+ *  f        [in]  the computed distances.
+ *  sphere   [in]  true: the mesh is a sphere, distances are arcs; false: it is flat, distances are
+ *                 straight lines.
+ */
+void distance_print_accuracy(const mesh *m, const sl_int *sources, sl_int count,
+                             const heat_field *f, bool sphere);
 
-/** Prints a line on what holds on any surface: no distance is shorter than the straight line nor longer than a path of
- *  edges. */
+/** Prints one line to stdout: the largest violation of two bounds that hold on any surface. A
+ *  distance is at least the straight line and at most the shortest edge path. */
 void distance_print_bounds(const mesh *m, const sl_int *sources, sl_int count, const heat_field *f);
 
 #endif

@@ -1,43 +1,45 @@
-/* distortion.c: what a layout of a patch in the plane does to angles and areas */
+/* distortion.c: measures how a planar layout of a patch distorts angles, areas and lengths */
 #include "distortion.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "flat_face.h"
+#include "planar_triangle.h"
 
-/* The map of face f, and its area in space; false: there is none. */
-static bool map_of(flat_map *map, double *area, const mesh *part, const double *uv, sl_int f) {
-    const sl_int *face = part->faces + 3 * (size_t)f;
+/* The map of face f, and its area in space. False: the face is degenerate. */
+static bool map_of(planar_map *map, double *area, const mesh *patch, const double *uv, sl_int f) {
+    const sl_int *face = patch->faces + 3 * (size_t)f;
     const double *const to[3] = {uv + 2 * (size_t)face[0], uv + 2 * (size_t)face[1],
                                  uv + 2 * (size_t)face[2]};
-    flat_face flat = flat_face_of(part, face);
+    planar_triangle flat = planar_triangle_of(patch, face);
     *area = 0.5 * flat.x[1][0] * flat.x[2][1];
-    return *area > 0 && flat_face_map(map, &flat, to);
+    return *area > 0 && planar_map_of(map, &flat, to);
 }
 
-distortion distortion_of(const mesh *part, const double *uv) {
+distortion distortion_of(const mesh *patch, const double *uv) {
     distortion d;
     memset(&d, 0, sizeof d);
     double logs = 0, squares = 0, kept = 0, bent = 0, area;
-    flat_map map;
-    for (sl_int f = 0; f < part->n_faces; f++) {
-        if (!map_of(&map, &area, part, uv, f)) {
-            d.no_shape++;
+    planar_map map;
+    for (sl_int f = 0; f < patch->n_faces; f++) {
+        if (!map_of(&map, &area, patch, uv, f)) {
+            d.degenerate++;
             continue;
         }
         d.area += area;
-        d.area_flat += area * map.large * map.small;
-        bent += 0.5 * area * (map.large - map.small) * (map.large - map.small);
-        d.rigid += area * ((map.large - 1) * (map.large - 1) + (map.small - 1) * (map.small - 1));
-        if (map.small < 0) {
+        d.area_flat += area * map.sigma_max * map.sigma_min;
+        bent += 0.5 * area * (map.sigma_max - map.sigma_min) * (map.sigma_max - map.sigma_min);
+        d.isometric += area * ((map.sigma_max - 1) * (map.sigma_max - 1) +
+                               (map.sigma_min - 1) * (map.sigma_min - 1));
+        if (map.sigma_min < 0) {
             d.flipped++;
-        } else if (map.small == 0) {
-            d.no_shape++;
+        } else if (map.sigma_min == 0) {
+            d.degenerate++;
         } else {
-            double scale = log(map.large * map.small), ratio = map.large / map.small;
+            double scale = log(map.sigma_max * map.sigma_min),
+                   ratio = map.sigma_max / map.sigma_min;
             d.angle += area * ratio;
-            d.angle_most = fmax(d.angle_most, ratio);
+            d.angle_ratio_max = fmax(d.angle_ratio_max, ratio);
             logs += area * scale;
             squares += area * scale * scale;
             kept += area;
@@ -45,21 +47,21 @@ distortion distortion_of(const mesh *part, const double *uv) {
     }
     d.conformal = bent / d.area_flat;
     d.angle /= kept;
-    d.rigid /= d.area;
-    d.stretch = sqrt(fmax(0, squares / kept - logs / kept * (logs / kept)));
+    d.isometric /= d.area;
+    d.area_spread = sqrt(fmax(0, squares / kept - logs / kept * (logs / kept)));
     return d;
 }
 
-void distortion_normalize(const mesh *part, double *uv) {
+void distortion_normalize(const mesh *patch, double *uv) {
     double area = 0, flat = 0, one, mean[2] = {0, 0};
-    flat_map map;
-    for (sl_int f = 0; f < part->n_faces; f++) {
-        if (map_of(&map, &one, part, uv, f)) {
+    planar_map map;
+    for (sl_int f = 0; f < patch->n_faces; f++) {
+        if (map_of(&map, &one, patch, uv, f)) {
             area += one;
-            flat += one * map.large * map.small;
+            flat += one * map.sigma_max * map.sigma_min;
         }
     }
-    size_t n = (size_t)part->n_vertices;
+    size_t n = (size_t)patch->n_vertices;
     for (size_t k = 0; k < 2 * n; k++) {
         mean[k % 2] += uv[k] / (double)n;
     }

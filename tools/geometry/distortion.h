@@ -1,33 +1,39 @@
-/* distortion.h: what a layout of a patch in the plane does to angles and areas */
+/* distortion.h: measures how a planar layout of a patch distorts angles, areas and lengths */
 #ifndef TOOLS_DISTORTION_H
 #define TOOLS_DISTORTION_H
 
-#include "mesh.h"
+#include "tools/mesh/mesh.h"
 
-/** Figures of a layout; with a, b (a >= |b|) the singular values of a face's map, b negative where it is turned over,
- *  and all sums over faces weighted by the areas of the faces in space. Faces without an area are left out. */
+/** Distortion of a layout.
+ *
+ *  a >= |b| are the singular values of the linear map of a face to the plane; b is negative if the
+ *  face is flipped. All sums and means over faces are weighted by their areas in space. Degenerate
+ *  faces are left out.
+ */
 typedef struct distortion {
-    double area;      /* in space */
-    double area_flat; /* in the plane, faces turned over count negative: sum of a b */
-    double conformal; /* sum of (a - b)^2 / 2, over area_flat: 0 where all angles are kept */
-    double angle;     /* mean of a/b over the faces not turned over: 1 where all angles are kept */
-    double angle_most;
-    double rigid; /* mean of (a - 1)^2 + (b - 1)^2: 0 where all lengths are kept */
-    double
-        stretch; /* root of the mean of log(a b / mean a b)^2 over the faces not turned over: 0 where all areas are
-                        scaled alike */
-    sl_int flipped;  /* faces turned over */
-    sl_int no_shape; /* faces without an area, in space or in the plane */
+    double area;            /* in space */
+    double area_flat;       /* in the plane, flipped faces negative: sum of a b */
+    double conformal;       /* sum of (a - b)^2 / 2, divided by area_flat; 0: conformal */
+    double angle;           /* mean of a/b over faces not flipped; 1: conformal */
+    double angle_ratio_max; /* largest a/b */
+    double isometric;       /* mean of (a - 1)^2 + (b - 1)^2; 0: isometric */
+    double area_spread; /* standard deviation of log(a b) over faces not flipped; 0: equal scale */
+    sl_int flipped;     /* flipped faces */
+    sl_int degenerate;  /* faces without area, in space or in the plane */
 } distortion;
 
-/** Measures.
+/** Computes all of them.
  *
- *  uv  [in]  2 n_vertices: the layout, u v of each vertex of the part.
+ *  patch  [in]  the mesh that is laid out.
+ *  uv     [in]  2 n_vertices: u v of each vertex.
  */
-distortion distortion_of(const mesh *part, const double *uv);
+distortion distortion_of(const mesh *patch, const double *uv);
 
-/** Moves and scales uv so that its area is the one in space and its vertices' mean is the origin; a layout without a
- *  positive area is only moved. */
-void distortion_normalize(const mesh *part, double *uv);
+/** Translates uv so that the mean of the vertices is the origin, and scales it so that its area
+ *  equals the area in space. A layout whose area is not positive is only translated.
+ *
+ *  uv  [in,out]  2 n_vertices.
+ */
+void distortion_normalize(const mesh *patch, double *uv);
 
 #endif

@@ -1,4 +1,4 @@
-/* harmonic_map.c: a disk laid out in the plane by harmonic coordinates: its boundary first, then one Poisson problem */
+/* harmonic_map.c: harmonic layouts of a disk in the plane: its boundary, then a Poisson problem */
 #include "harmonic_map.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "laplacian.h"
-#include "triplets.h"
+#include "tools/matrix/triplets.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -14,14 +14,14 @@ static double distance(const double *a, const double *b) {
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* Length of the boundary's edge from its k-th vertex to the next. */
-static double edge_length(const disk *d, sl_int k) {
+/* The length of the boundary edge from its k-th vertex to the next. */
+static double edge_length(const disk_patch *d, sl_int k) {
     const double *xyz = d->p.m.xyz;
     sl_int next = d->boundary[k + 1 < d->n_boundary ? k + 1 : 0];
     return distance(xyz + 3 * (size_t)d->boundary[k], xyz + 3 * (size_t)next);
 }
 
-void boundary_on_circle(double *uv, const disk *d) {
+void boundary_to_circle(double *uv, const disk_patch *d) {
     double total = 0, so_far = 0;
     for (sl_int k = 0; k < d->n_boundary; k++) {
         total += edge_length(d, k);
@@ -35,7 +35,7 @@ void boundary_on_circle(double *uv, const disk *d) {
     }
 }
 
-/* The angle of a face at its corner c; 0 where it has none. */
+/* The angle of a face at its corner c; 0 for a degenerate corner. */
 static double corner_angle(const mesh *m, const sl_int *face, int c) {
     const double *o = m->xyz + 3 * (size_t)face[c];
     double e[3], f[3], across[3];
@@ -50,12 +50,13 @@ static double corner_angle(const mesh *m, const sl_int *face, int c) {
                  e[0] * f[0] + e[1] * f[1] + e[2] * f[2]);
 }
 
-void boundary_unrolled(double *uv, const disk *d) {
+void boundary_unroll(double *uv, const disk_patch *d) {
     const mesh *m = &d->p.m;
-    double *turn = (double *)calloc((size_t)m->n_vertices + 1, sizeof *turn); /* angle inside */
+    /* turn[v]: the sum of the face angles at v */
+    double *turn = (double *)calloc((size_t)m->n_vertices + 1, sizeof *turn);
     double total = 0, missing = 2 * pi, heading = 0, at[2] = {0, 0};
-    if (turn == NULL) { /* a layout that needs no memory */
-        boundary_on_circle(uv, d);
+    if (turn == NULL) { /* needs no memory */
+        boundary_to_circle(uv, d);
         return;
     }
     for (size_t c = 0; c < 3 * (size_t)m->n_faces; c++) {
@@ -86,9 +87,10 @@ void boundary_unrolled(double *uv, const disk *d) {
     free(turn);
 }
 
-/* The opposite edges of the faces around a boundary vertex, counter-clockwise, run from its successor on the boundary
- * to its predecessor: their sum is what lies between these two. Turned by +90 degrees: (x, y) -> (-y, x). */
-void boundary_neumann(double *b, const double *uv, sl_int n_boundary) {
+/* The edges opposite to a boundary vertex, counterclockwise, form a path from its successor on the
+ * boundary to its predecessor, so their sum is the difference of these two. It is rotated by +90
+ * degrees: (x, y) -> (-y, x). */
+void boundary_neumann_rhs(double *b, const double *uv, sl_int n_boundary) {
     for (sl_int k = 0; k < n_boundary; k++) {
         const double *before = uv + 2 * (k > 0 ? k - 1 : n_boundary - 1);
         const double *after = uv + 2 * (k + 1 < n_boundary ? k + 1 : 0);
@@ -97,7 +99,7 @@ void boundary_neumann(double *b, const double *uv, sl_int n_boundary) {
     }
 }
 
-void boundary_spread(double *X, const double *b, const disk *d) {
+void boundary_scatter(double *X, const double *b, const disk_patch *d) {
     size_t n = (size_t)d->p.m.n_vertices, nb = (size_t)d->n_boundary;
     memset(X, 0, 2 * n * sizeof *X);
     for (size_t k = 0; k < nb; k++) {
@@ -106,13 +108,13 @@ void boundary_spread(double *X, const double *b, const disk *d) {
     }
 }
 
-sl_status refactor_solve(double *X, const sl_csc *N, const double *B, sl_int nrhs) {
+sl_status factor_and_solve(double *X, const sl_csc *N, const double *B, sl_int nrhs) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     sl_options opt;
     size_t n = (size_t)N->n_cols;
     memset(&opt, 0, sizeof opt);
-    opt.definiteness = SL_SEMIDEFINITE;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
     sl_status status = sl_symbolic_create(&S, N, NULL, NULL);
     if (status == SL_OK) {
         status = sl_factor_create(&F, S, N, &opt, NULL);
@@ -125,10 +127,10 @@ sl_status refactor_solve(double *X, const sl_csc *N, const double *B, sl_int nrh
     return status;
 }
 
-/* Cuts N into its inside (lower triangle in list, numbered by inside[]) and what couples it to the boundary: B, the
- * right-hand side n_inside x 2, gets the boundary's values across. */
-static bool couple(triplets *list, double *B, sl_int n_inside, const sl_csc *N,
-                   const sl_int *inside, const double *X) {
+/* Splits N into its interior block (lower triangle to list, numbered by inside[]) and the coupling
+ * to the boundary, which is multiplied by the fixed values and subtracted from B (n_inside x 2). */
+static bool eliminate_boundary(triplets *list, double *B, sl_int n_inside, const sl_csc *N,
+                               const sl_int *inside, const double *X) {
     size_t n = (size_t)N->n_cols, rows = (size_t)n_inside;
     for (sl_int j = 0; j < N->n_cols; j++) {
         for (sl_int p = N->p[j]; p < N->p[j + 1]; p++) {
@@ -147,7 +149,7 @@ static bool couple(triplets *list, double *B, sl_int n_inside, const sl_csc *N,
     return true;
 }
 
-sl_status harmonic_dirichlet(double *X, const disk *d, const double *uv) {
+sl_status harmonic_dirichlet(double *X, const disk_patch *d, const double *uv) {
     size_t n = (size_t)d->p.m.n_vertices;
     sl_int *inside = (sl_int *)calloc(n + 1, sizeof *inside), n_inside = 0;
     double *B = (double *)calloc(2 * n + 1, sizeof *B);
@@ -165,7 +167,7 @@ sl_status harmonic_dirichlet(double *X, const disk *d, const double *uv) {
         for (size_t v = 0; v < n; v++) {
             inside[v] = inside[v] < 0 ? -1 : n_inside++;
         }
-        if (couple(&list, B, n_inside, &view, inside, X)) {
+        if (eliminate_boundary(&list, B, n_inside, &view, inside, X)) {
             status = triplets_finish(&A, n_inside, n_inside, &list, true);
         } else {
             triplets_free(&list);
@@ -173,7 +175,7 @@ sl_status harmonic_dirichlet(double *X, const disk *d, const double *uv) {
     }
     if (status == SL_OK) {
         const sl_csc view = sl_matrix_view(A);
-        status = refactor_solve(B, &view, B, 2);
+        status = factor_and_solve(B, &view, B, 2);
     }
     for (size_t v = 0; v < n && status == SL_OK; v++) {
         if (inside[v] >= 0) {

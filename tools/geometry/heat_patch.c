@@ -1,25 +1,33 @@
-/* heat_place.c: the surroundings of some vertices, made ready for distances by the heat method again and again */
-#include "heat_place.h"
+/* heat_patch.c: a patch around some vertices, prepared for repeated heat-method distance queries */
+#include "heat_patch.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flat_face.h"
+#include "planar_triangle.h"
 #include "laplacian.h"
 
-void heat_place_free(heat_place *h) {
+void heat_field_free(heat_field *f) {
+    free(f->vertices);
+    free(f->distance);
+    free(f->heat);
+    free(f->path);
+    memset(f, 0, sizeof *f);
+}
+
+void heat_patch_free(heat_patch *h) {
     sl_region_free(h->heat_region);
     patch_solver_free(&h->poisson);
-    part_free(&h->p);
-    ball_free(&h->b);
+    submesh_free(&h->p);
+    graph_ball_free(&h->b);
     free(h->sources);
     memset(h, 0, sizeof *h);
 }
 
-/* Regions of both factors around the ball. */
-static sl_status confine(heat_place *h) {
-    sl_status status = patch_solver_confine(&h->poisson, h->s->S);
+/* Creates the regions of both factors around the patch. */
+static sl_status create_regions(heat_patch *h) {
+    sl_status status = patch_solver_use_region(&h->poisson, h->s->S);
     if (status == SL_OK) {
         status =
             sl_region_create(&h->heat_region, h->s->heat, h->b.vertices, h->b.n, NULL, NULL, NULL);
@@ -27,44 +35,45 @@ static sl_status confine(heat_place *h) {
     return status;
 }
 
-sl_status heat_place_create(heat_place *out, heat_solver *s, const sl_int *sources, sl_int count,
+sl_status heat_patch_create(heat_patch *out, heat_solver *s, const sl_int *sources, sl_int count,
                             double radius, bool in_region) {
     memset(out, 0, sizeof *out);
-    if (count < 1 || !(radius >= 0) || !incidence_are_distinct(&s->around, sources, count)) {
+    if (count < 1 || !(radius >= 0) || !incidence_vertices_are_distinct(&s->inc, sources, count)) {
         return SL_ERR_ARGUMENT;
     }
     out->s = s;
     out->n_sources = count;
     out->sources = (sl_int *)malloc(((size_t)count + 1) * sizeof *out->sources);
     sl_status status = SL_ERR_MEMORY;
-    if (out->sources != NULL && ball_find(&out->b, &s->around, sources, count, radius) &&
-        part_span(&out->p, &s->around, out->b.vertices, out->b.n, NULL, 0)) {
+    if (out->sources != NULL && graph_ball_create(&out->b, &s->inc, sources, count, radius) &&
+        submesh_from_vertices(&out->p, &s->inc, out->b.vertices, out->b.n, NULL, 0)) {
         memcpy(out->sources, sources, (size_t)count * sizeof *sources);
         status = patch_solver_create(&out->poisson, s->S, s->poisson, &out->p);
     }
     if (status == SL_OK && in_region) {
-        status = confine(out);
+        status = create_regions(out);
     }
     if (status != SL_OK) {
-        heat_place_free(out);
+        heat_patch_free(out);
     }
     return status;
 }
 
-/* B = div X: at vertex i of a face with X, weights w and corners x_j, x_k: w_k (x_i - x_j) X + w_j (x_i - x_k) X.
- * Returns the faces without X. */
+/* B = div X. A face with corners x_i, x_j, x_k and weights w adds at its vertex i:
+ *     w_k (x_i - x_j) X + w_j (x_i - x_k) X.
+ * Returns the number of faces without X. */
 static sl_int divergence(double *B, const mesh *m, const double *u) {
-    sl_int cold = 0;
+    sl_int faces_without_gradient = 0;
     memset(B, 0, (size_t)m->n_vertices * sizeof *B);
     for (sl_int f = 0; f < m->n_faces; f++) {
         const sl_int *face = m->faces + 3 * (size_t)f;
-        flat_face flat = flat_face_of(m, face);
-        laplacian_face measure = laplacian_of_face(m, face);
+        planar_triangle flat = planar_triangle_of(m, face);
+        laplacian_face face_values = laplacian_of_face(m, face);
         double largest = 0, X[2] = {0, 0};
         for (int k = 0; k < 3; k++) {
             largest = fmax(largest, fabs(u[face[k]]));
         }
-        if (largest > HEAT_COLD && flat.x[1][0] > 0 && flat.x[2][1] > 0) {
+        if (largest > HEAT_MIN && flat.x[1][0] > 0 && flat.x[2][1] > 0) {
             double along = (u[face[1]] - u[face[0]]) / largest / flat.x[1][0];
             double up = (u[face[2]] - u[face[0]]) / largest - along * flat.x[2][0];
             up /= flat.x[2][1];
@@ -74,18 +83,19 @@ static sl_int divergence(double *B, const mesh *m, const double *u) {
                 X[1] = -up / length;
             }
         }
-        cold += X[0] == 0 && X[1] == 0;
+        faces_without_gradient += X[0] == 0 && X[1] == 0;
         for (int k = 0; k < 3; k++) { /* the edge opposite to corner k, from i to j */
             int i = (k + 1) % 3, j = (k + 2) % 3;
-            double flow = measure.weight[k] * ((flat.x[i][0] - flat.x[j][0]) * X[0] +
-                                               (flat.x[i][1] - flat.x[j][1]) * X[1]);
+            double flow = face_values.weight[k] * ((flat.x[i][0] - flat.x[j][0]) * X[0] +
+                                                   (flat.x[i][1] - flat.x[j][1]) * X[1]);
             B[face[i]] += flow;
             B[face[j]] -= flow;
         }
     }
-    return cold;
+    return faces_without_gradient;
 }
 
+/* Union-find with path halving. */
 static sl_int root_of(sl_int *up, sl_int v) {
     while (up[v] != v) {
         up[v] = up[up[v]];
@@ -94,8 +104,9 @@ static sl_int root_of(sl_int *up, sl_int v) {
     return v;
 }
 
-/* Shifts the distances of each connected piece so that the smallest of its sources is 0, and marks what no face joins
- * to a source by NaN. sources: by their numbers in the part. up, low: scratch of n. */
+/* Shifts the distances of each connected piece so that the smallest one at its sources is 0.
+ * Vertices that no face connects to a source get NaN. sources: local numbers. up, low: scratch of
+ * n. */
 static void shift_pieces(double *d, const mesh *m, const sl_int *sources, sl_int n_sources,
                          sl_int *up, double *low) {
     for (sl_int v = 0; v < m->n_vertices; v++) {
@@ -117,28 +128,29 @@ static void shift_pieces(double *d, const mesh *m, const sl_int *sources, sl_int
     }
 }
 
-/* Numbers in the part of some vertices; false: one is not there, or twice. */
-static bool find_places(sl_int *places, const heat_place *h, const sl_int *sources, sl_int count) {
-    sl_int *place = h->s->around.place;
+/* Finds the local numbers of the sources. False: one is not in the patch, or is given twice. */
+static bool find_local_sources(sl_int *local_sources, const heat_patch *h, const sl_int *sources,
+                               sl_int count) {
+    sl_int *local_index = h->s->inc.local_index;
     bool found = true;
     for (sl_int k = 0; k < h->b.n; k++) {
-        place[h->b.vertices[k]] = k;
+        local_index[h->b.vertices[k]] = k;
     }
     for (sl_int k = 0; k < count && found; k++) {
-        found = sources[k] >= 0 && sources[k] < h->s->m->n_vertices && place[sources[k]] >= 0;
+        found = sources[k] >= 0 && sources[k] < h->s->m->n_vertices && local_index[sources[k]] >= 0;
         if (found) {
-            places[k] = place[sources[k]];
-            place[sources[k]] = -1;
+            local_sources[k] = local_index[sources[k]];
+            local_index[sources[k]] = -1;
         }
     }
     for (sl_int k = 0; k < h->b.n; k++) {
-        place[h->b.vertices[k]] = -1;
+        local_index[h->b.vertices[k]] = -1;
     }
     return found;
 }
 
-/* u on the ball from 1 at each source. */
-static sl_status solve_heat(heat_field *out, const heat_place *h, const sl_int *sources,
+/* Heat u on the patch, from 1 at each source. ones: scratch of count. */
+static sl_status solve_heat(heat_field *out, const heat_patch *h, const sl_int *sources,
                             sl_int count, double *u, double *ones) {
     sl_plan *plan = NULL;
     sl_options opt;
@@ -157,31 +169,31 @@ static sl_status solve_heat(heat_field *out, const heat_place *h, const sl_int *
     return status;
 }
 
-/* Heat and distances on all of the ball. */
-static sl_status solve(heat_field *out, heat_place *h, const sl_int *sources, sl_int count,
+/* Heat and distances on the whole patch. */
+static sl_status solve(heat_field *out, heat_patch *h, const sl_int *sources, sl_int count,
                        int solves) {
     size_t n = (size_t)h->b.n;
     sl_int *up = (sl_int *)malloc((n + 1) * sizeof *up);
-    sl_int *places = (sl_int *)malloc(((size_t)count + 1) * sizeof *places);
+    sl_int *local_sources = (sl_int *)malloc(((size_t)count + 1) * sizeof *local_sources);
     double *B = (double *)malloc((n + (size_t)count + 1) * sizeof *B);
-    sl_status status = up != NULL && places != NULL && B != NULL ? SL_OK : SL_ERR_MEMORY;
-    if (status == SL_OK && !find_places(places, h, sources, count)) {
+    sl_status status = up != NULL && local_sources != NULL && B != NULL ? SL_OK : SL_ERR_MEMORY;
+    if (status == SL_OK && !find_local_sources(local_sources, h, sources, count)) {
         status = SL_ERR_ARGUMENT;
     }
     if (status == SL_OK) {
         status = solve_heat(out, h, sources, count, out->heat, B);
     }
     if (status == SL_OK) {
-        out->cold = divergence(B, &h->p.m, out->heat);
+        out->faces_without_gradient = divergence(B, &h->p.m, out->heat);
         out->solves = solves;
         out->poisson_stats = h->poisson.stats;
-        status = patch_solver_part(&h->poisson, out->distance, B, 1, 1e-10, &out->solves);
+        status = patch_solver_solve_patch(&h->poisson, out->distance, B, 1, 1e-10, &out->solves);
     }
     if (status == SL_OK) {
-        shift_pieces(out->distance, &h->p.m, places, count, up, B);
+        shift_pieces(out->distance, &h->p.m, local_sources, count, up, B);
     }
     free(B);
-    free(places);
+    free(local_sources);
     free(up);
     return status;
 }
@@ -196,21 +208,21 @@ static sl_status allocate(heat_field *out, size_t n) {
                : SL_ERR_MEMORY;
 }
 
-/* Leaves what has a distance within the radius. */
-static void keep_near(heat_field *out, const heat_place *h, double radius, bool with_paths) {
+/* Keeps the vertices whose distance is at most the radius. */
+static void keep_near(heat_field *out, const heat_patch *h, double radius, bool with_paths) {
     for (sl_int k = 0; k < h->b.n; k++) {
         double d = out->distance[k];
         out->negative += out->heat[k] < 0;
         if (!isnan(d) && (radius == 0 || d <= radius)) {
             out->vertices[out->n] = h->b.vertices[k];
             out->heat[out->n] = out->heat[k];
-            out->path[out->n] = with_paths ? h->b.along_edges[k] : INFINITY;
+            out->path[out->n] = with_paths ? h->b.path_length[k] : INFINITY;
             out->distance[out->n++] = d;
         }
     }
 }
 
-sl_status heat_place_distance(heat_field *out, heat_place *h, const sl_int *sources, sl_int count,
+sl_status heat_patch_distance(heat_field *out, heat_patch *h, const sl_int *sources, sl_int count,
                               double radius, int solves) {
     memset(out, 0, sizeof *out);
     if (count < 1 || count > h->b.n || !(radius >= 0) || solves < 1) {
@@ -224,7 +236,7 @@ sl_status heat_place_distance(heat_field *out, heat_place *h, const sl_int *sour
         heat_field_free(out);
         return status;
     }
-    out->n_ball = h->b.n;
+    out->n_patch = h->b.n;
     keep_near(out, h, radius,
               count == h->n_sources &&
                   memcmp(sources, h->sources, (size_t)count * sizeof *sources) == 0);

@@ -1,28 +1,28 @@
-/* laplacian.c: Laplacians and masses of a triangle mesh, and the systems M + t L made of them */
+/* laplacian.c: Laplacians and lumped masses of a triangle mesh, and the systems M + t L */
 #include "laplacian.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "patch.h"
-#include "triplets.h"
+#include "tools/mesh/adjacency.h"
+#include "tools/matrix/triplets.h"
 
-#define FLATTEST 1.5e-8    /* square root of the double epsilon */
-#define LARGEST_AREA 1e290 /* 2^31 of them still sum to a finite mass */
-#define LARGEST_STEP 1e200 /* times a weight, plus a mass: finite */
+#define FLATNESS_MIN 1.5e-8 /* twice the area / longest edge squared: sqrt(DBL_EPSILON) */
+#define AREA_MAX 1e290      /* the sum of 2^31 such areas is still finite */
+#define TIME_MAX 1e200      /* times a weight, plus a mass, is still finite */
 
 static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Cotangents do not depend on the scale, so all is computed on edges scaled to at most 1: no square of a coordinate
- * can overflow or vanish. */
+/* Cotangents do not depend on the scale, so edges are scaled to components of at most 1. Their
+ * squares then neither overflow nor underflow. */
 laplacian_face laplacian_of_face(const mesh *m, const sl_int *face) {
     laplacian_face result = {0, {0, 0, 0}};
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
         return result;
     }
-    double edge[3][3]; /* edge k runs from corner k+1 to corner k+2: opposite to corner k */
+    double edge[3][3]; /* edge k, opposite to corner k, runs from corner k+1 to k+2 */
     double scale = 0;
     for (int k = 0; k < 3; k++) {
         const double *from = m->xyz + 3 * (size_t)face[(k + 1) % 3];
@@ -50,13 +50,13 @@ laplacian_face laplacian_of_face(const mesh *m, const sl_int *face) {
                         edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]};
     double twice_area = sqrt(dot(normal, normal));
     double area = 0.5 * twice_area * scale * scale;
-    if (!(area <= LARGEST_AREA)) {
+    if (!(area <= AREA_MAX)) {
         return result;
     }
     result.area = area;
-    if (twice_area > FLATTEST * longest) {
+    if (twice_area > FLATNESS_MIN * longest) {
         for (int k = 0; k < 3; k++) {
-            /* the edges at corner k are edge k+1, that runs to it, and edge k+2, that runs from it */
+            /* edge k+1 ends at corner k, edge k+2 starts there */
             result.weight[k] = -0.5 * dot(edge[(k + 1) % 3], edge[(k + 2) % 3]) / twice_area;
         }
     }
@@ -88,7 +88,7 @@ void laplacian_mass(double *mass, const mesh *m) {
     }
 }
 
-/* diagonal + t L; diagonal (n_vertices) is overwritten on the way. */
+/* Assembles diagonal + t L. diagonal (n_vertices) is overwritten. */
 static bool assemble(sl_matrix **out, const mesh *m, double *diagonal, double t) {
     triplets list = {0, 0, NULL, NULL, NULL};
     bool ok = triplets_reserve(&list, (size_t)m->n_vertices + 3 * (size_t)m->n_faces);
@@ -98,7 +98,7 @@ static bool assemble(sl_matrix **out, const mesh *m, double *diagonal, double t)
         for (int k = 0; k < 3 && ok; k++) {
             sl_int u = face[(k + 1) % 3];
             sl_int v = face[(k + 2) % 3];
-            /* u = v only in faces with a repeated vertex, whose weights are 0: the diagonal stays */
+            /* u = v only in faces with a repeated vertex: their weights are 0 */
             double weight = t * measure.weight[k];
             diagonal[u] += weight;
             diagonal[v] += weight;
@@ -137,7 +137,7 @@ bool laplacian_cotangent(sl_matrix **out, const mesh *m) {
 }
 
 bool laplacian_system(sl_matrix **out, const mesh *m, double t) {
-    if (!(t >= 0 && t <= LARGEST_STEP)) {
+    if (!(t >= 0 && t <= TIME_MAX)) {
         *out = NULL;
         return false;
     }
@@ -155,7 +155,7 @@ bool laplacian_uniform(sl_matrix **out, const mesh *m, double shift) {
     for (sl_int v = 0; v < a.n && ok; v++) {
         ok = triplets_add(&list, v, v, (double)(a.begin[v + 1] - a.begin[v]) + shift);
         for (sl_off p = a.begin[v]; p < a.begin[v + 1] && ok; p++) {
-            ok = a.neighbour[p] < v || triplets_add(&list, a.neighbour[p], v, -1.0);
+            ok = a.neighbor[p] < v || triplets_add(&list, a.neighbor[p], v, -1.0);
         }
     }
     sl_int n = a.n;
@@ -176,7 +176,7 @@ double mesh_mean_edge_length(const mesh *m) {
     for (sl_int v = 0; v < a.n; v++) {
         for (sl_off p = a.begin[v]; p < a.begin[v + 1]; p++) {
             const double *x = m->xyz + 3 * (size_t)v;
-            const double *y = m->xyz + 3 * (size_t)a.neighbour[p];
+            const double *y = m->xyz + 3 * (size_t)a.neighbor[p];
             sum += hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]);
         }
     }

@@ -1,4 +1,4 @@
-/* patch_solver.c: Poisson problems on a part of a mesh, solved by local solves on the factor of the whole mesh */
+/* patch_solver.c: Poisson problems on a patch by local solves with the factor of the whole mesh */
 #include "patch_solver.h"
 
 #include <math.h>
@@ -9,55 +9,80 @@
 
 void patch_solver_free(patch_solver *s) {
     sl_matrix_free(s->N);
-    sl_plan_free(s->whole);
-    sl_plan_free(s->from_rim);
+    sl_plan_free(s->patch_plan);
+    sl_plan_free(s->interface_plan);
     sl_region_free(s->region);
     sl_work_free(s->work);
     free(s->scratch);
     memset(s, 0, sizeof *s);
 }
 
-/* Both plans, in a region or, without one, to the roots; on error *whole and *from_rim are NULL. */
-static sl_status make_plans(sl_plan **whole, sl_plan **from_rim, const part *p,
+static int by_number(const void *a, const void *b) {
+    const sl_int x = *(const sl_int *)a, y = *(const sl_int *)b;
+    return (x > y) - (x < y);
+}
+
+/* SL_OK if no vertex of the patch is given twice. A plan would accept it and add up the values. */
+static sl_status check_vertices(const submesh *p) {
+    const size_t n = (size_t)p->m.n_vertices;
+    sl_int *sorted = (sl_int *)malloc((n + 1) * sizeof *sorted);
+    sl_status status = sorted != NULL ? SL_OK : SL_ERR_MEMORY;
+    if (sorted != NULL) {
+        memcpy(sorted, p->vertices, n * sizeof *sorted);
+        qsort(sorted, n, sizeof *sorted, by_number);
+        for (size_t k = 1; k < n; k++) {
+            status = sorted[k] == sorted[k - 1] ? SL_ERR_ARGUMENT : status;
+        }
+    }
+    free(sorted);
+    return status;
+}
+
+/* Creates both plans, confined to a region if it is not NULL. On error *patch_plan and
+ * *interface_plan are NULL. */
+static sl_status make_plans(sl_plan **patch_plan, sl_plan **interface_plan, const submesh *p,
                             const sl_symbolic *S, const sl_region *region, sl_stats *stats) {
     sl_options opt;
     memset(&opt, 0, sizeof opt);
     opt.region = region;
-    *whole = *from_rim = NULL;
-    sl_int *rim = (sl_int *)malloc(((size_t)p->n_rim + 1) * sizeof *rim);
-    sl_status status = rim != NULL ? SL_OK : SL_ERR_MEMORY;
-    for (sl_int k = 0; k < p->n_rim && rim != NULL; k++) {
-        rim[k] = p->vertices[p->rim[k]];
+    *patch_plan = *interface_plan = NULL;
+    sl_int *interface = (sl_int *)malloc(((size_t)p->n_interface + 1) * sizeof *interface);
+    sl_status status = interface != NULL ? SL_OK : SL_ERR_MEMORY;
+    for (sl_int k = 0; k < p->n_interface && interface != NULL; k++) {
+        interface[k] = p->vertices[p->interface[k]];
     }
     if (status == SL_OK) {
-        status = sl_plan_create(whole, S, p->vertices, p->m.n_vertices, p->vertices,
+        status = sl_plan_create(patch_plan, S, p->vertices, p->m.n_vertices, p->vertices,
                                 p->m.n_vertices, &opt, stats);
     }
-    if (status == SL_OK && p->n_rim > 0) {
-        status =
-            sl_plan_create(from_rim, S, rim, p->n_rim, p->vertices, p->m.n_vertices, &opt, NULL);
+    if (status == SL_OK && p->n_interface > 0) {
+        status = sl_plan_create(interface_plan, S, interface, p->n_interface, p->vertices,
+                                p->m.n_vertices, &opt, NULL);
     }
     if (status != SL_OK) {
-        sl_plan_free(*whole);
-        *whole = NULL;
+        sl_plan_free(*patch_plan);
+        *patch_plan = NULL;
     }
-    free(rim);
+    free(interface);
     return status;
 }
 
 sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_factor *F,
-                              const part *p) {
+                              const submesh *p) {
     memset(out, 0, sizeof *out);
     out->F = F;
     out->p = p;
     size_t n = (size_t)p->m.n_vertices;
-    out->scratch = (double *)malloc((4 * n * PATCH_SOLVER_MOST + 1) * sizeof *out->scratch);
+    out->scratch = (double *)malloc((4 * n * PATCH_SOLVER_MAX_RHS + 1) * sizeof *out->scratch);
     sl_status status = SL_ERR_MEMORY;
     if (out->scratch != NULL && laplacian_cotangent(&out->N, &p->m)) {
         status = sl_work_create(&out->work, NULL);
     }
     if (status == SL_OK) {
-        status = make_plans(&out->whole, &out->from_rim, p, S, NULL, &out->stats);
+        status = check_vertices(p);
+    }
+    if (status == SL_OK) {
+        status = make_plans(&out->patch_plan, &out->interface_plan, p, S, NULL, &out->stats);
     }
     if (status != SL_OK) {
         patch_solver_free(out);
@@ -65,9 +90,9 @@ sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_
     return status;
 }
 
-sl_status patch_solver_confine(patch_solver *s, const sl_symbolic *S) {
+sl_status patch_solver_use_region(patch_solver *s, const sl_symbolic *S) {
     sl_region *region = NULL;
-    sl_plan *whole = NULL, *from_rim = NULL;
+    sl_plan *patch_plan = NULL, *interface_plan = NULL;
     sl_stats stats = s->stats;
     if (s->region != NULL) {
         return SL_OK;
@@ -75,24 +100,24 @@ sl_status patch_solver_confine(patch_solver *s, const sl_symbolic *S) {
     sl_status status =
         sl_region_create(&region, s->F, s->p->vertices, s->p->m.n_vertices, NULL, NULL, &stats);
     if (status == SL_OK) {
-        status = make_plans(&whole, &from_rim, s->p, S, region, &stats);
+        status = make_plans(&patch_plan, &interface_plan, s->p, S, region, &stats);
     }
     if (status != SL_OK) {
         sl_region_free(region);
         return status;
     }
-    sl_plan_free(s->whole);
-    sl_plan_free(s->from_rim);
-    s->whole = whole;
-    s->from_rim = from_rim;
+    sl_plan_free(s->patch_plan);
+    sl_plan_free(s->interface_plan);
+    s->patch_plan = patch_plan;
+    s->interface_plan = interface_plan;
     s->region = region;
     s->stats = stats;
     return SL_OK;
 }
 
-sl_status patch_solver_mesh(patch_solver *s, double *X, const double *B, sl_int nrhs) {
+sl_status patch_solver_solve_mesh(patch_solver *s, double *X, const double *B, sl_int nrhs) {
     size_t n = (size_t)s->p->m.n_vertices;
-    return sl_plan_solve(s->whole, s->F, X, n, B, n, nrhs, s->work);
+    return sl_plan_solve(s->patch_plan, s->F, X, n, B, n, nrhs, s->work);
 }
 
 sl_status patch_solver_apply(const patch_solver *s, double *Y, const double *X, sl_int nrhs) {
@@ -109,26 +134,27 @@ static double dot(const double *a, const double *b, size_t n) {
     return sum;
 }
 
-/* Z = L^-1 R for an R that is 0 off the rim: one local solve from there. R on the rim is gathered into Z's place. */
+/* Z = L^-1 R for an R that is 0 off the interface, by one local solve. */
 static sl_status precondition(patch_solver *s, double *Z, const double *R, sl_int nrhs) {
-    const part *p = s->p;
-    size_t n = (size_t)p->m.n_vertices, rows = (size_t)p->n_rim;
-    double *on_rim = s->scratch + 3 * n * PATCH_SOLVER_MOST;
+    const submesh *p = s->p;
+    size_t n = (size_t)p->m.n_vertices, rows = (size_t)p->n_interface;
+    double *on_interface = s->scratch + 3 * n * PATCH_SOLVER_MAX_RHS;
     for (size_t c = 0; c < (size_t)nrhs; c++) {
         for (size_t k = 0; k < rows; k++) {
-            on_rim[c * rows + k] = R[c * n + (size_t)p->rim[k]];
+            on_interface[c * rows + k] = R[c * n + (size_t)p->interface[k]];
         }
     }
-    return sl_plan_solve(s->from_rim, s->F, Z, n, on_rim, rows, nrhs, s->work);
+    return sl_plan_solve(s->interface_plan, s->F, Z, n, on_interface, rows, nrhs, s->work);
 }
 
-/* The state of one right-hand side: r'z of the last step, and where to stop. */
+/* The state of one right-hand side. */
 typedef struct column {
-    double rho, stop;
+    double rho;  /* r'z of the last step */
+    double stop; /* stop when ||r|| is at most this */
     bool done;
 } column;
 
-/* R = B - N X; what is left of it off the rim is rounding. Returns whether every column is done. */
+/* R = B - N X; off the interface it is rounding error. Returns whether every column is done. */
 static bool residual(const patch_solver *s, double *R, const double *X, const double *B,
                      sl_int nrhs, column *columns, double tolerance) {
     const sl_csc N = sl_matrix_view(s->N);
@@ -146,7 +172,8 @@ static bool residual(const patch_solver *s, double *R, const double *X, const do
     return all;
 }
 
-/* One step of conjugate gradients of each column that is not done: D the directions, Z = L^-1 R, Q scratch. */
+/* One step of conjugate gradients for each column that is not done. D: search directions; Z: L^-1
+ * R, overwritten by N D. Returns whether every column is done. */
 static bool step(const patch_solver *s, double *X, double *R, double *D, double *Z, sl_int nrhs,
                  column *columns) {
     size_t n = (size_t)s->p->m.n_vertices;
@@ -178,19 +205,19 @@ static bool step(const patch_solver *s, double *X, double *R, double *D, double 
     return all;
 }
 
-sl_status patch_solver_part(patch_solver *s, double *X, const double *B, sl_int nrhs,
-                            double tolerance, int *solves) {
+sl_status patch_solver_solve_patch(patch_solver *s, double *X, const double *B, sl_int nrhs,
+                                   double tolerance, int *solves) {
     size_t n = (size_t)s->p->m.n_vertices;
-    double *R = s->scratch, *D = R + n * PATCH_SOLVER_MOST, *Z = D + n * PATCH_SOLVER_MOST;
-    column columns[PATCH_SOLVER_MOST];
+    double *R = s->scratch, *D = R + n * PATCH_SOLVER_MAX_RHS, *Z = D + n * PATCH_SOLVER_MAX_RHS;
+    column columns[PATCH_SOLVER_MAX_RHS];
     int most = *solves;
     *solves = 0;
-    if (nrhs < 0 || nrhs > PATCH_SOLVER_MOST) {
+    if (nrhs < 0 || nrhs > PATCH_SOLVER_MAX_RHS) {
         return SL_ERR_ARGUMENT;
     }
     *solves = 1;
-    sl_status status = patch_solver_mesh(s, X, B, nrhs);
-    if (status != SL_OK || s->p->n_rim == 0) {
+    sl_status status = patch_solver_solve_mesh(s, X, B, nrhs);
+    if (status != SL_OK || s->p->n_interface == 0) {
         return status;
     }
     bool done = residual(s, R, X, B, nrhs, columns, tolerance);

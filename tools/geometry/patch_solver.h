@@ -1,89 +1,104 @@
-/* patch_solver.h: Poisson problems on a part of a mesh, solved by local solves on the factor of the whole mesh */
+/* patch_solver.h: Poisson problems on a patch by local solves with the factor of the whole mesh */
 #ifndef TOOLS_PATCH_SOLVER_H
 #define TOOLS_PATCH_SOLVER_H
 
-#include "part.h"
+#include "tools/mesh/submesh.h"
 
-/* Two problems that a part can mean, L the cotangent Laplacian of the whole mesh, N that of the part's faces alone:
+/* Two Poisson problems can be posed on a patch. L is the cotangent Laplacian of the whole mesh, N
+ * that of the patch's own faces.
  *
- *  mesh    L x = b, b given on the part and 0 beyond it, x wanted on the part: one local solve, exact. Beyond the
- *          part x goes on, harmonic; so the flux that b puts on the rim leaves to both sides of it [HDA17] 4.
- *  part    N x = b: the rim is a free boundary, through which nothing flows but what b says. N is not a submatrix of
- *          L, and L's factor is not its factor. But the rows of N and L differ on the rim alone, and L is N plus
- *          what the rest of the mesh adds there, which acts on the rim much as N does: x := x + L^-1 (b - N x) leaves
- *          a residual on the rim alone, about half of it each time. Conjugate gradients do the rest: some ten local
- *          solves, b on the rim and x on the part, give N's solution to 10 digits.
+ *  mesh   L x = b, with b given on the patch and 0 elsewhere, x wanted on the patch: one local
+ *         solve, exact. Outside the patch x is harmonic, so that the flux that b prescribes on the
+ *         interface leaves to both sides of it ([HDA17] section 4).
+ *  patch  N x = b: the interface is a free boundary, and only the flux in b crosses it. N is not a
+ *         submatrix of L, and a factor of L is not a factor of N. But the rows of N and L differ on
+ *         the interface only: L is N plus the contribution of the rest of the mesh, which acts on
+ *         the interface much as N does. The iteration x := x + L^-1 (b - N x) leaves a residual on
+ *         the interface only and halves it, approximately. Conjugate gradients with this
+ *         preconditioner solve the problem to 10 digits in about ten local solves, with b on the
+ *         interface and x on the patch.
  *
- * The path of the elimination tree from a part to the root grows with the mesh, and each solve reads it. A region of the
- * factor (patch_solver_confine) cuts it off: what a solve then costs depends on the part alone. Making it takes forward
- * sweeps to the root, one for every 8 rows of the region's boundary, so that it pays for parts that are asked often.
+ * A local solve reads the paths of the elimination tree from the patch to the root, which grow with
+ * the mesh. A region of the factor (patch_solver_use_region) cuts them off: the cost of a solve
+ * then depends only on the patch. Creating the region takes forward sweeps to the root, one per 8
+ * rows of its boundary, so it pays off for patches with many solves.
  *
- * Both are singular, by a constant for each connected component (for N: of the part); x is right up to such constants.
- * Columns of b must sum to 0 over each component.
+ * Both problems are singular, by a constant for each connected component (of the patch, for N). x
+ * is determined up to these constants. Columns of b must sum to 0 over each component.
+ *
+ *  [HDA17]  Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry
+ *           processing, 2017.
  */
 
-/** Plans of the part, its own Laplacian, and scratch. */
+/** Plans for a patch, its own Laplacian, and scratch. */
 typedef struct patch_solver {
-    const sl_factor *F; /* of L, SL_SEMIDEFINITE; borrowed */
-    const part *p;      /* borrowed */
-    sl_matrix *N;       /* lower triangle */
-    sl_plan *whole;     /* b and x on the part */
-    sl_plan *from_rim;  /* b on the rim, x on the part; NULL where there is no rim */
-    sl_region *region;  /* where the plans' sweeps end; NULL: at the roots */
+    const sl_factor *F;      /* of L, made with SL_NULL_PIVOT_SKIP; borrowed */
+    const submesh *p;        /* the patch; borrowed */
+    sl_matrix *N;            /* lower triangle */
+    sl_plan *patch_plan;     /* b and x on the patch */
+    sl_plan *interface_plan; /* b on the interface, x on the patch; NULL without an interface */
+    sl_region *region;       /* where the sweeps of the plans end; NULL: at the roots */
     sl_work *work;
-    sl_stats
-        stats; /* the plan group: what a solve by `whole` reads; once confined, the region group */
-    double *scratch;
+    sl_stats stats;  /* plan group: what a solve by patch_plan reads; region group: the region */
+    double *scratch; /* 4 n PATCH_SOLVER_MAX_RHS */
 } patch_solver;
 
-enum { PATCH_SOLVER_MOST = 4 }; /* right-hand sides at once */
+enum { PATCH_SOLVER_MAX_RHS = 4 }; /* right-hand sides per call */
 
-/* options.consistency_tolerance of the mesh's factor: nothing is refused. Near their end the corrections of a part's own
- * problem have right-hand sides that are rounding, as large in their sum as in themselves. */
+/* Value of options.consistency_tolerance for the factor of the mesh: accept every right-hand side.
+ * Close to convergence the residuals are rounding errors, whose sum is as large as their
+ * entries. */
 #define PATCH_SOLVER_CONSISTENCY (-1.0)
 
-/** Makes it.
+/** Prepares the solver.
  *
  *  out  [out]  release with patch_solver_free; all zero on error.
- *  S    [in]   analysis of the mesh's Laplacian; borrowed.
- *  F    [in]   its factor, made with SL_SEMIDEFINITE and PATCH_SOLVER_CONSISTENCY; borrowed.
- *  p    [in]   borrowed.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: the part has vertices that S has not, or one twice; SL_ERR_MEMORY.
- *  Cost     nothing that depends on the size of the mesh, but for the depth of its elimination tree.
+ *  S    [in]   analysis of the whole mesh's Laplacian; borrowed.
+ *  F    [in]   its factor, made with SL_NULL_PIVOT_SKIP and PATCH_SOLVER_CONSISTENCY; borrowed.
+ *  p    [in]   the patch; borrowed.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a vertex of the patch is not in S, or is given twice;
+ *           SL_ERR_MEMORY.
+ *  Cost     independent of the size of the mesh, except for the height of its elimination tree.
  */
 sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_factor *F,
-                              const part *p);
+                              const submesh *p);
 
+/** Releases what the solver owns and sets s to all zero. */
 void patch_solver_free(patch_solver *s);
 
-/** Has all further solves end at the boundary of a region around the part: the same answers to rounding, not to the bit,
- *  at a cost that does not grow with the mesh around it.
+/** Creates a region of the factor around the patch and confines all further solves to it. Solutions
+ *  agree up to rounding, not bit for bit; the cost no longer grows with the mesh around the patch.
  *
- *  s  [in,out]  on error as before; a second time, nothing is made.
- *  S  [in]      the analysis that s was made for.
- *  Returns  SL_OK; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     sl_region_create for the part's vertices, and both plans again.
- *  Example  tests/test_tools_regions.c
+ *  s  [in,out]  unchanged on error; if it already has a region, nothing is done.
+ *  S  [in]      the analysis that s was created with.
+ *  Returns  SL_OK; SL_ERR_STATE: the factor has failed; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     sl_region_create for the vertices of the patch, and both plans again.
+ *  Example  tests/tools/test_patch_regions.c
  */
-sl_status patch_solver_confine(patch_solver *s, const sl_symbolic *S);
+sl_status patch_solver_use_region(patch_solver *s, const sl_symbolic *S);
 
-/** Solves the mesh's problem, by one local solve.
+/** Solves the mesh problem L x = b, by one local solve.
  *
- *  X, B  n x nrhs, column-major without gaps, n = p->m.n_vertices; may be the same.
- *  nrhs  [in]   0..PATCH_SOLVER_MOST.
+ *  X, B  n x nrhs, column-major without gaps, n = p->m.n_vertices; may be the same array.
+ *  nrhs  [in]  0..PATCH_SOLVER_MAX_RHS.
+ *  Returns  as sl_plan_solve.
  */
-sl_status patch_solver_mesh(patch_solver *s, double *X, const double *B, sl_int nrhs);
+sl_status patch_solver_solve_mesh(patch_solver *s, double *X, const double *B, sl_int nrhs);
 
-/** Solves the part's own problem, until ||b - N x|| <= tolerance ||b|| in each column.
+/** Solves the patch problem N x = b until ||b - N x|| <= tolerance ||b|| in each column.
  *
- *  X, B    as above, but not the same.
- *  solves  [in,out]  in: how many local solves at most, 1 or more; out: how many were made.
- *  Returns  SL_OK, also where the tolerance was not met within `solves`; errors as sl_plan_solve.
+ *  X, B    as above, but different arrays.
+ *  solves  [in,out]  in: the largest number of local solves, 1 or more; out: the number made.
+ *  Returns  SL_OK, also if the tolerance was not reached; SL_ERR_ARGUMENT: nrhs is out of range; as
+ *           sl_plan_solve.
  */
-sl_status patch_solver_part(patch_solver *s, double *X, const double *B, sl_int nrhs,
-                            double tolerance, int *solves);
+sl_status patch_solver_solve_patch(patch_solver *s, double *X, const double *B, sl_int nrhs,
+                                   double tolerance, int *solves);
 
-/** Y = N X. */
+/** Y = N X, both n x nrhs, column-major without gaps.
+ *
+ *  Returns  as sl_csc_multiply.
+ */
 sl_status patch_solver_apply(const patch_solver *s, double *Y, const double *X, sl_int nrhs);
 
 #endif

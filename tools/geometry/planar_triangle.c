@@ -1,9 +1,9 @@
-/* flat_face.c: a triangle laid flat in its own plane, and the linear map from there to a layout */
-#include "flat_face.h"
+/* planar_triangle.c: a face in coordinates of its own plane, and its linear map to a layout */
+#include "planar_triangle.h"
 
 #include <math.h>
 
-flat_face flat_face_of(const mesh *m, const sl_int *face) {
+planar_triangle planar_triangle_of(const mesh *m, const sl_int *face) {
     const double *o = m->xyz + 3 * (size_t)face[0];
     double e[3], d[3], length = 0, along = 0, rest = 0;
     for (int c = 0; c < 3; c++) {
@@ -17,11 +17,11 @@ flat_face flat_face_of(const mesh *m, const sl_int *face) {
     for (int c = 0; c < 3; c++) {
         rest = hypot(rest, length > 0 ? d[c] - along * (e[c] / length) : d[c]);
     }
-    flat_face f = {{{0, 0}, {length, 0}, {along, rest}}};
+    planar_triangle f = {{{0, 0}, {length, 0}, {along, rest}}};
     return f;
 }
 
-bool flat_face_map(flat_map *out, const flat_face *f, const double *const to[3]) {
+bool planar_map_of(planar_map *out, const planar_triangle *f, const double *const to[3]) {
     double base = f->x[1][0], height = f->x[2][1];
     if (!(base > 0 && height > 0)) {
         return false;
@@ -31,10 +31,10 @@ bool flat_face_map(flat_map *out, const flat_face *f, const double *const to[3])
         out->a[c][0] = along;
         out->a[c][1] = (to[2][c] - to[0][c] - along * f->x[2][0]) / height;
     }
-    /* the halves of a that turn and scale: one keeps the orientation, the other reverses it */
+    /* a is the sum of two similarities: one preserves orientation, the other reverses it */
     double keeps = 0.5 * hypot(out->a[0][0] + out->a[1][1], out->a[1][0] - out->a[0][1]);
     double turns = 0.5 * hypot(out->a[0][0] - out->a[1][1], out->a[1][0] + out->a[0][1]);
-    out->large = keeps + turns;
-    out->small = keeps - turns;
-    return isfinite(out->large);
+    out->sigma_max = keeps + turns;
+    out->sigma_min = keeps - turns;
+    return isfinite(out->sigma_max);
 }

@@ -1,26 +1,31 @@
-/* flat_face.h: a triangle laid flat in its own plane, and the linear map from there to a layout */
-#ifndef TOOLS_FLAT_FACE_H
-#define TOOLS_FLAT_FACE_H
+/* planar_triangle.h: a face in coordinates of its own plane, and its linear map to a layout */
+#ifndef TOOLS_PLANAR_TRIANGLE_H
+#define TOOLS_PLANAR_TRIANGLE_H
 
 #include <stdbool.h>
 
-#include "mesh.h"
+#include "tools/mesh/mesh.h"
 
-/** The corners of a face in its plane: the first at the origin, the second on the positive x axis, the third above. */
-typedef struct flat_face {
+/** The corners of a face in its plane: the first at the origin, the second on the positive x axis,
+ *  the third in the upper half plane. */
+typedef struct planar_triangle {
     double x[3][2];
-} flat_face;
+} planar_triangle;
 
-flat_face flat_face_of(const mesh *m, const sl_int *face);
+/** Computes it for the face with corners face[0..2]. */
+planar_triangle planar_triangle_of(const mesh *m, const sl_int *face);
 
-/** The linear map of a flat triangle onto three points of the plane, by what it does to lengths. */
-typedef struct flat_map {
-    double a[2][2]; /* a x + constant */
-    double large;   /* singular values: the larger one, and .. */
-    double small;   /* .. the smaller one, negative where the triangle is turned over */
-} flat_map;
+/** The linear map of a planar triangle to three points of the plane, and its singular values. */
+typedef struct planar_map {
+    double a[2][2];   /* the map is a x + constant */
+    double sigma_max; /* the larger singular value */
+    double sigma_min; /* the smaller one, negative if the triangle is flipped */
+} planar_map;
 
-/** The map that takes the corners to uv, 2 numbers at each of to[0..2]; false: the triangle has no area. */
-bool flat_face_map(flat_map *out, const flat_face *f, const double *const to[3]);
+/** Computes the map that takes corner k of f to the point (to[k][0], to[k][1]).
+ *
+ *  Returns  true; false: the triangle has no area, or the map is not finite.
+ */
+bool planar_map_of(planar_map *out, const planar_triangle *f, const double *const to[3]);
 
 #endif

@@ -1,14 +1,14 @@
-/* harmonic.c: harmonic, biharmonic and triharmonic systems M + t (L M^-1)^(k-1) L of a triangle mesh */
-#include "harmonic.h"
+/* polyharmonic.c: harmonic, biharmonic and triharmonic systems M + t (L M^-1)^(k-1) L of a mesh */
+#include "polyharmonic.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "laplacian.h"
-#include "product.h"
-#include "triplets.h"
+#include "tools/matrix/sparse_product.h"
+#include "tools/matrix/triplets.h"
 
-/* Takes the matrix over and gives it back with its rows divided by mass; NULL on error. */
+/* Returns M^-1 L, with the rows of L divided by mass; NULL on error. Frees L. */
 static sl_matrix *rows_divided(sl_matrix *L, const double *mass) {
     triplets list = {0, 0, NULL, NULL, NULL};
     sl_matrix *N = NULL;
@@ -28,13 +28,13 @@ static sl_matrix *rows_divided(sl_matrix *L, const double *mass) {
     return ok ? N : NULL;
 }
 
-/* Lower triangle of (L M^-1)^(k-1) L, k at least 2. */
+/* Lower triangle of (L M^-1)^(k-1) L, k >= 2. */
 static bool power(sl_matrix **out, const mesh *m, int k, const double *mass) {
     sl_matrix *L = NULL, *all = NULL, *N = NULL;
     *out = NULL;
     bool ok = laplacian_cotangent(&L, m);
     sl_csc A = sl_matrix_view(L);
-    ok = ok && csc_both_triangles(&all, &A) && csc_both_triangles(&N, &A);
+    ok = ok && csc_expand_symmetric(&all, &A) && csc_expand_symmetric(&N, &A);
     sl_matrix_free(L);
     if (ok) {
         N = rows_divided(N, mass);
@@ -49,16 +49,16 @@ static bool power(sl_matrix **out, const mesh *m, int k, const double *mass) {
     }
     if (ok) {
         A = sl_matrix_view(all);
-        ok = csc_symmetrized(out, &A);
+        ok = csc_symmetric_part(out, &A);
     }
     sl_matrix_free(N);
     sl_matrix_free(all);
     return ok;
 }
 
-bool harmonic_system(sl_matrix **out, const mesh *m, int k, double t) {
+bool polyharmonic_system(sl_matrix **out, const mesh *m, int k, double t) {
     *out = NULL;
-    if (k < 1 || k > HARMONIC_MOST || !(t >= 0 && t <= 1e200)) {
+    if (k < 1 || k > POLYHARMONIC_MAX_ORDER || !(t >= 0 && t <= 1e200)) {
         return false;
     }
     if (k == 1) {

@@ -1,4 +1,4 @@
-/* dataset.c: lists the files of a folder, for programs that run over real meshes and matrices where there are any */
+/* dataset.c: lists the files of a folder of optional test data (meshes, matrices) */
 #define _POSIX_C_SOURCE 200809L
 #include "dataset.h"
 
@@ -22,7 +22,7 @@ static bool is_file(const char *path) {
     return stat(path, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-/* Takes path over, whatever happens. */
+/* Takes ownership of path, also on error. Skips what is not a regular file. */
 static bool append(dataset *d, char *path) {
     if (path != NULL && !is_file(path)) {
         free(path);

@@ -1,4 +1,4 @@
-/* input.c: a whole file in memory, plain or gzipped, a place in it to read words and numbers, and what went wrong */
+/* input.c: reads a whole file, plain or gzipped, and scans it for lines, words and numbers */
 #include "input.h"
 
 #include <stdarg.h>
@@ -8,10 +8,10 @@
 
 #include <zlib.h>
 
-/* Far above every mesh in use; it bounds what a small malicious .gz can unfold to. */
+/* Far above any mesh in use. It bounds the memory that a small malicious .gz can expand to. */
 #define INPUT_LIMIT ((size_t)1 << 31)
 
-bool input_refuse(input *in, const char *format, ...) {
+bool input_error(input *in, const char *format, ...) {
     if (in->message == NULL || in->message_size == 0) {
         return false;
     }
@@ -27,33 +27,33 @@ bool input_refuse(input *in, const char *format, ...) {
     return false;
 }
 
-static bool slurp(input *in, gzFile file) {
+static bool read_content(input *in, gzFile file) {
     size_t length = 0;
-    size_t room = 0;
+    size_t capacity = 0;
     for (;;) {
-        if (length + 1 >= room) {
-            room = room == 0 ? 65536 : 2 * room;
-            char *larger = (char *)realloc(in->data, room);
+        if (length + 1 >= capacity) {
+            capacity = capacity == 0 ? 65536 : 2 * capacity;
+            char *larger = (char *)realloc(in->data, capacity);
             if (larger == NULL) {
-                return input_refuse(in, "out of memory");
+                return input_error(in, "out of memory");
             }
             in->data = larger;
         }
-        size_t want = room - length - 1;
+        size_t want = capacity - length - 1;
         int got =
             gzread(file, in->data + length, (unsigned)(want < (1u << 30) ? want : (1u << 30)));
         if (got < 0) {
             int code = Z_OK;
             const char *words = gzerror(file, &code);
-            return input_refuse(in, "cannot be read: %s",
-                                code == Z_ERRNO ? "not a readable file" : words);
+            return input_error(in, "cannot be read: %s",
+                               code == Z_ERRNO ? "not a readable file" : words);
         }
         if (got == 0) {
             break;
         }
         length += (size_t)got;
         if (length > INPUT_LIMIT) {
-            return input_refuse(in, "more than 2 GiB of content");
+            return input_error(in, "more than 2 GiB of content");
         }
     }
     in->data[length] = '\0';
@@ -72,13 +72,14 @@ bool input_open(input *in, const char *path, char *message, size_t message_size)
     }
     gzFile file = path != NULL ? gzopen(path, "rb") : NULL;
     if (file == NULL) {
-        return input_refuse(in, "cannot be opened");
+        return input_error(in, "cannot be opened");
     }
     (void)gzbuffer(file, 1u << 17);
-    bool ok = slurp(in, file);
-    /* a gzip stream that stops early gives its bytes and tells of it only here */
+    bool ok = read_content(in, file);
+    /* for a truncated gzip stream, gzread returns the bytes it has and only gzclose_r reports the
+     * error */
     if (gzclose_r(file) != Z_OK && ok) {
-        ok = input_refuse(in, "gzip stream is truncated");
+        ok = input_error(in, "the gzip stream is truncated");
     }
     in->line = 1;
     if (!ok) {
@@ -94,7 +95,8 @@ void input_close(input *in) {
     in->end = NULL;
 }
 
-/* Length of the line end at s: 0 (none), 1 or 2. The content is followed by a zero, so s[1] may be read. */
+/* The length of the line end at s: 0 (none), 1 or 2. A zero byte follows the content, so s[1]
+ * exists. */
 static size_t line_end_length(const char *s) {
     return *s == '\n' ? 1 : *s != '\r' ? 0 : s[1] == '\n' ? 2 : 1;
 }
@@ -103,19 +105,20 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-/* Length of a backslash and the line end behind it, where these count as blank; else 0. */
-static size_t joint_length(const input *in) {
-    size_t behind = in->continuation && *in->at == '\\' ? line_end_length(in->at + 1) : 0;
-    return behind > 0 ? 1 + behind : 0;
+/* The length of a backslash and the line end after it if the format treats them as blank; else
+ * 0. */
+static size_t continuation_length(const input *in) {
+    size_t line_end = in->continuation && *in->at == '\\' ? line_end_length(in->at + 1) : 0;
+    return line_end > 0 ? 1 + line_end : 0;
 }
 
 bool input_at_word_end(const input *in) {
     return in->at >= in->end || is_blank(*in->at) || line_end_length(in->at) > 0 ||
-           joint_length(in) > 0 || (in->comment != 0 && *in->at == in->comment);
+           continuation_length(in) > 0 || (in->comment != 0 && *in->at == in->comment);
 }
 
-/* Moves to the end of the line, not behind it. */
-static void skip_line(input *in) {
+/* Moves to the end of the line, not past it. */
+static void skip_to_line_end(input *in) {
     while (in->at < in->end && line_end_length(in->at) == 0) {
         in->at++;
     }
@@ -130,20 +133,20 @@ bool input_more_in_line(input *in) {
             return false;
         }
         if (in->comment != 0 && *in->at == in->comment) {
-            skip_line(in);
+            skip_to_line_end(in);
             return false;
         }
-        size_t joint = joint_length(in);
-        if (joint == 0) {
+        size_t skipped = continuation_length(in);
+        if (skipped == 0) {
             return line_end_length(in->at) == 0;
         }
-        in->at += joint;
+        in->at += skipped;
         in->line++;
     }
 }
 
 bool input_next_line(input *in) {
-    skip_line(in);
+    skip_to_line_end(in);
     if (in->at >= in->end) {
         return false;
     }

@@ -1,4 +1,4 @@
-/* input.h: a whole file in memory, plain or gzipped, a place in it to read words and numbers, and what went wrong */
+/* input.h: reads a whole file, plain or gzipped, and scans it for lines, words and numbers */
 #ifndef TOOLS_INPUT_H
 #define TOOLS_INPUT_H
 
@@ -12,52 +12,69 @@
 #define INPUT_PRINTF(text, first)
 #endif
 
-/** Content of at most 2 GiB, followed by a zero byte, and the reading place `at` in data..end.
+/** The content of a file, at most 2 GiB, followed by a zero byte, and a cursor `at` in data..end.
  *
- *  A line ends at \n, \r\n or \r. Blanks are space, tab, vertical tab and form feed.
+ *  A line ends at \n, \r\n or \r. Blanks are space, tab, vertical tab and form feed. A word is a
+ *  maximal sequence of other characters.
  */
 typedef struct input {
     const char *path;
     char *data;
-    const char *end; /* data + content */
-    const char *at;
-    int64_t line;      /* of `at`, 1-based; 0: binary, or the file as a whole */
+    const char *end;   /* data + length of the content */
+    const char *at;    /* the cursor */
+    int64_t line;      /* line of the cursor, 1-based; 0: binary data, or the file as a whole */
     bool continuation; /* a backslash before the end of a line makes both blank (OBJ) */
-    char comment;      /* from here to the end of the line is blank; 0: no comments */
-    char *message;     /* message_size bytes, may be NULL */
+    char comment;      /* this character starts a comment, blank to the end of the line; 0: none */
+    char *message;     /* error text, message_size bytes; may be NULL */
     size_t message_size;
 } input;
 
-/** Reads the file; path and message are borrowed until input_close. On error the message is set, nothing to close. */
+/** Reads a file into memory and places the cursor at its beginning.
+ *
+ *  in       [out]  release with input_close; nothing to release on error.
+ *  path     [in]   borrowed until input_close.
+ *  message  [out]  borrowed until input_close; receives the text of all errors, "" at first.
+ *  Returns  true; false: the file cannot be read, is truncated (gzip) or exceeds 2 GiB, out of
+ *           memory; the message is set.
+ */
 bool input_open(input *in, const char *path, char *message, size_t message_size);
 
+/** Releases the content. */
 void input_close(input *in);
 
-/** Sets the message "path:line: ..." (without the line where it is 0); returns false, to be handed on. */
-bool input_refuse(input *in, const char *format, ...) INPUT_PRINTF(2, 3);
+/** Sets the message to "path:line: ..." ("path: ..." if the line is 0). Returns false, so that
+ *  callers can return its result. */
+bool input_error(input *in, const char *format, ...) INPUT_PRINTF(2, 3);
 
-/** Passes over blanks; true if something of the line is left. */
+/** Skips blanks. Returns true if there is more on the line, false at its end or at a comment. */
 bool input_more_in_line(input *in);
 
-/** Moves behind the end of the line; false at the end of the file. */
+/** Moves to the beginning of the next line; false: there is none. */
 bool input_next_line(input *in);
 
-/** Passes over blanks, empty lines and comments; false at the end of the file. */
+/** Skips blanks, empty lines and comments. Returns true if there is more in the file. */
 bool input_more(input *in);
 
-/** Reads the number that starts at the next non-blank of the line, as strtod does; false, not moved: none there. */
+/** Reads the number that starts at the next non-blank character of the line, by strtod.
+ *
+ *  x  [out]  the number.
+ *  Returns  true, with the cursor after the number; false: there is none.
+ */
 bool input_number(input *in, double *x);
 
-/** The same for a decimal integer; one beyond 64 bits is none. A following letter, slash or point is left there. */
+/** The same for a decimal integer. The cursor stops at the first character that is not a digit, for
+ *  example a letter, a slash or a point. Integers beyond 64 bits are rejected. */
 bool input_integer(input *in, int64_t *k);
 
-/** Copies the next word of the line and moves behind it; "" at the end of the line. A longer word is cut. */
+/** Copies the next word of the line and moves past it. At the end of the line the word is "". Words
+ *  longer than size - 1 bytes are truncated. */
 void input_word(input *in, char *word, size_t size);
 
-/** True where a word ends: at a blank, the end of the line or of the file, or a comment. */
+/** Returns whether the cursor is at the end of a word: at a blank, the end of the line or of the
+ *  file, or a comment. */
 bool input_at_word_end(const input *in);
 
-/** Does the path end like this, in lower or upper case, .gz at its end left aside? */
+/** Returns whether a path ends with the given lower-case text, ignoring case and a final .gz. */
 bool input_path_ends(const char *path, const char *ending);
 
 #endif

@@ -1,18 +1,19 @@
-/* matrix_file.c: reads matrices: chooses the format, makes the matrix of what was read */
+/* matrix_file.c: reads matrix files: selects the format, converts the entries to a matrix */
 #include "matrix_file.h"
 
 #include <string.h>
 
 #include "matrix_read.h"
 
-bool matrix_read_check_size(matrix_read *r, int64_t n_rows, int64_t n_cols) {
-    /* a row takes memory even when it is empty, a digit in the header does not: so the file's length is the limit */
+bool matrix_read_set_size(matrix_read *r, int64_t n_rows, int64_t n_cols) {
+    /* an empty row takes memory too, but a digit in a header does not: the file length is the
+     * limit */
     int64_t limit = r->in->end - r->in->data;
     limit = limit < INT32_MAX ? limit : INT32_MAX;
     if (n_rows < 0 || n_cols < 0 || n_rows > limit || n_cols > limit) {
-        return input_refuse(r->in,
-                            "%lld x %lld is out of range, or too large for a file of this length",
-                            (long long)n_rows, (long long)n_cols);
+        return input_error(
+            r->in, "the size %lld x %lld is out of range, or too large for a file of this length",
+            (long long)n_rows, (long long)n_cols);
     }
     r->n_rows = n_rows;
     r->n_cols = n_cols;
@@ -20,7 +21,7 @@ bool matrix_read_check_size(matrix_read *r, int64_t n_rows, int64_t n_cols) {
 }
 
 /* Replaces a pattern without values by a matrix of ones. */
-static sl_status give_values(sl_matrix **M) {
+static sl_status set_ones(sl_matrix **M) {
     sl_csc A = sl_matrix_view(*M);
     triplets ones = {0, 0, NULL, NULL, NULL};
     bool ok = triplets_reserve(&ones, (size_t)A.p[A.n_cols] + 1);
@@ -37,19 +38,20 @@ static sl_status give_values(sl_matrix **M) {
     return status;
 }
 
-static bool hand_over(sl_matrix **out, input *in, sl_status status) {
+/* Completes the matrix, or sets the message of the status. */
+static bool finish(sl_matrix **out, input *in, sl_status status) {
     if (status == SL_OK && sl_matrix_view(*out).x == NULL) {
-        status = give_values(out);
+        status = set_ones(out);
     }
-    return status == SL_OK || input_refuse(in, "%s", sl_status_string(status));
+    return status == SL_OK || input_error(in, "%s", sl_status_string(status));
 }
 
 static bool read_matrix_market(sl_matrix **out, input *in) {
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     sl_status status = sl_matrix_parse(out, in->data, (size_t)(in->end - in->data), NULL, &stats);
-    in->line = status != SL_OK && stats.error_line > 0 ? stats.error_line : 0;
-    return hand_over(out, in, status);
+    in->line = status != SL_OK && stats.error.line > 0 ? stats.error.line : 0;
+    return finish(out, in, status);
 }
 
 static bool read_triplets(sl_matrix **out, input *in, bool (*read)(matrix_read *r)) {
@@ -61,8 +63,8 @@ static bool read_triplets(sl_matrix **out, input *in, bool (*read)(matrix_read *
         return false;
     }
     in->line = 0;
-    return hand_over(
-        out, in, triplets_finish(out, (sl_int)r.n_rows, (sl_int)r.n_cols, &r.entries, !r.pattern));
+    return finish(out, in,
+                  triplets_finish(out, (sl_int)r.n_rows, (sl_int)r.n_cols, &r.entries, !r.pattern));
 }
 
 bool matrix_file_read(sl_matrix **out, const char *path, char *message, size_t message_size) {
@@ -85,8 +87,9 @@ bool matrix_file_read(sl_matrix **out, const char *path, char *message, size_t m
     }
     if (!known) {
         in.line = 0;
-        (void)input_refuse(
-            &in, "not a name of a matrix (.mtx .rb _csparse.txt _cholmod.txt, or one with .gz)");
+        (void)input_error(&in,
+                          "unknown matrix format: the name must end in .mtx, .rb, _csparse.txt or "
+                          "_cholmod.txt, optionally followed by .gz");
     }
     input_close(&in);
     return ok;

@@ -1,26 +1,32 @@
-/* matrix_read.h: what the readers of the matrix formats share: a file that becomes triplets that become a matrix */
+/* matrix_read.h: what the matrix format readers share: a file, its size and its entries so far */
 #ifndef TOOLS_MATRIX_READ_H
 #define TOOLS_MATRIX_READ_H
 
 #include "input.h"
-#include "triplets.h"
+#include "tools/matrix/triplets.h"
 
+/** A matrix being read. */
 typedef struct matrix_read {
     input *in;
     int64_t n_rows;
     int64_t n_cols;
     triplets entries;
-    bool pattern; /* the values are not meant */
+    bool pattern; /* the format has no values; those in entries are meaningless */
 } matrix_read;
 
-/** Are these sizes that a file of this length can be believed to have? Sets the message if not. */
-bool matrix_read_check_size(matrix_read *r, int64_t n_rows, int64_t n_cols);
+/** Sets the size of the matrix. Returns false and sets the message if the size is out of range or
+ *  larger than the file in bytes. */
+bool matrix_read_set_size(matrix_read *r, int64_t n_rows, int64_t n_cols);
 
-/** Reads a Rutherford-Boeing file. */
+/* One reader per format. Each reads all of r->in into r; false: r->in has the message. */
+
+/** Rutherford-Boeing. */
 bool matrix_read_rb(matrix_read *r);
 
-/** Read lines "i j value", without a header and with CHOLMOD's. */
+/** Lines "i j value" without a header. */
 bool matrix_read_csparse(matrix_read *r);
+
+/** Lines "i j value" with the header of CHOLMOD's test matrices. */
 bool matrix_read_cholmod(matrix_read *r);
 
 #endif

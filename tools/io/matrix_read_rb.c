@@ -1,15 +1,17 @@
-/* matrix_read_rb.c: reads Rutherford-Boeing matrix files, whose numbers stand in fields of fixed width
+/* matrix_read_rb.c: reads Rutherford-Boeing matrix files
  *
- * Line 1: title and key. Line 2: how many lines there are of each kind. Line 3: type, rows, columns, entries. Line 4:
- * the Fortran formats of pointers, indices and values, as (26I3). Then these three, each from a new line on. */
+ * Line 1: title and key. Line 2: the number of lines of each section. Line 3: type, rows, columns,
+ * entries. Line 4: the Fortran formats of the pointers, indices and values, for example (26I3).
+ * Then these three sections, each starting on a new line. Numbers are in fields of fixed width. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "matrix_read.h"
 
-#define WIDEST 63
+#define MAX_FIELD_WIDTH 63
 
-/* A Fortran format: `repeat` fields of `width` characters a line; `used` of the current line are read. */
+/* A Fortran format: `repeat` fields of `width` characters per line. `used` fields of the current
+ * line have been read. */
 typedef struct fields {
     int repeat;
     int width;
@@ -20,7 +22,8 @@ static char upper(char c) {
     return c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
 }
 
-/* (26I3), (4E20.12), (1P,4D20.12): a scale factor P changes no number that has an exponent. */
+/* Reads a format like (26I3), (4E20.12) or (1P,4D20.12). The scale factor P is ignored: on input it
+ * does not affect numbers with an exponent. */
 static bool read_format(input *in, fields *f, const char *letters) {
     int64_t repeat = 1;
     int64_t width = 0;
@@ -35,13 +38,13 @@ static bool read_format(input *in, fields *f, const char *letters) {
     ok = ok && input_more_in_line(in) && strchr(letters, upper(*in->at)) != NULL && *in->at != '\0';
     in->at += ok;
     ok = ok && input_integer(in, &width) && repeat > 0 && repeat <= 1000 && width > 0 &&
-         width <= WIDEST;
+         width <= MAX_FIELD_WIDTH;
     while (ok && *in->at != ')') {
         ok = strchr("0123456789.eE", *in->at) != NULL && *in->at != '\0';
         in->at += ok;
     }
     if (!ok) {
-        return input_refuse(in, "a format that is not like (26I3) or (4E20.12)");
+        return input_error(in, "unsupported format: expected one like (26I3) or (4E20.12)");
     }
     in->at++;
     f->repeat = (int)repeat;
@@ -50,8 +53,9 @@ static bool read_format(input *in, fields *f, const char *letters) {
     return true;
 }
 
-/* Copies the next field, blanks left out; false where the line is too short, or the file ends inside the field. */
-static bool next_field(input *in, fields *f, char field[2 * WIDEST + 1]) {
+/* Copies the next field without blanks. False: the line is too short, or the file ends in the
+ * field. */
+static bool next_field(input *in, fields *f, char field[2 * MAX_FIELD_WIDTH + 1]) {
     if (f->used == f->repeat) {
         if (!input_next_line(in)) {
             return false;
@@ -68,8 +72,7 @@ static bool next_field(input *in, fields *f, char field[2 * WIDEST + 1]) {
         bool sign = c == '+' || c == '-';
         char before = length > 0 ? field[length - 1] : '\0';
         if (sign && ((before >= '0' && before <= '9') || before == '.')) {
-            field[length++] =
-                'E'; /* Fortran leaves the E out where the exponent has three digits */
+            field[length++] = 'E'; /* Fortran omits the E before an exponent of three digits */
         }
         if (c != ' ') {
             field[length++] = c == 'D' ? 'E' : c;
@@ -80,7 +83,7 @@ static bool next_field(input *in, fields *f, char field[2 * WIDEST + 1]) {
 }
 
 static bool next_integer(input *in, fields *f, int64_t *k) {
-    char field[2 * WIDEST + 1];
+    char field[2 * MAX_FIELD_WIDTH + 1];
     char *after = field;
     if (next_field(in, f, field)) {
         *k = strtoll(field, &after, 10);
@@ -89,7 +92,7 @@ static bool next_integer(input *in, fields *f, int64_t *k) {
 }
 
 static bool next_real(input *in, fields *f, double *x) {
-    char field[2 * WIDEST + 1];
+    char field[2 * MAX_FIELD_WIDTH + 1];
     char *after = field;
     if (next_field(in, f, field)) {
         *x = strtod(field, &after);
@@ -106,10 +109,10 @@ static bool read_type(matrix_read *r, bool *symmetric) {
     }
     if (strlen(type) != 3 || strchr("RIP", type[0]) == NULL || strchr("SUR", type[1]) == NULL ||
         type[2] != 'A') {
-        return input_refuse(
+        return input_error(
             in,
-            "type '%s' is not read: real, integer or pattern (r i p), symmetric, unsymmetric or "
-            "rectangular (s u r), assembled (a)",
+            "type '%s' is not supported: it must be real, integer or pattern (r i p), symmetric, "
+            "unsymmetric or rectangular (s u r), and assembled (a)",
             type);
     }
     r->pattern = type[0] == 'P';
@@ -120,14 +123,14 @@ static bool read_type(matrix_read *r, bool *symmetric) {
 static bool read_pointers(matrix_read *r, fields *f, int64_t entries, int64_t *pointers) {
     for (int64_t j = 0; j <= r->n_cols; j++) {
         if (!next_integer(r->in, f, &pointers[j])) {
-            return input_refuse(r->in, "pointer %lld: truncated, or not a number", (long long)j);
+            return input_error(r->in, "pointer %lld: missing, or not a number", (long long)j);
         }
         if (pointers[j] < (j > 0 ? pointers[j - 1] : 1) || pointers[j] > entries + 1) {
-            return input_refuse(r->in, "pointer %lld is out of range", (long long)j);
+            return input_error(r->in, "pointer %lld is out of range", (long long)j);
         }
     }
     if (pointers[0] != 1 || pointers[r->n_cols] != entries + 1) {
-        return input_refuse(r->in, "the pointers do not run from 1 to entries + 1");
+        return input_error(r->in, "the pointers must run from 1 to entries + 1");
     }
     return true;
 }
@@ -138,13 +141,13 @@ static bool read_indices(matrix_read *r, fields *f, const int64_t *pointers, boo
         for (int64_t p = pointers[j]; p < pointers[j + 1]; p++) {
             int64_t i = 0;
             if (!next_integer(r->in, f, &i) || i < 1 || i > r->n_rows) {
-                return input_refuse(r->in, "index %lld: truncated, not a number or out of range",
-                                    (long long)p);
+                return input_error(r->in, "index %lld: missing, not a number or out of range",
+                                   (long long)p);
             }
             bool mirrored = symmetric && i - 1 < j;
             if (!triplets_add(&r->entries, (sl_int)(mirrored ? j : i - 1),
                               (sl_int)(mirrored ? i - 1 : j), 1.0)) {
-                return input_refuse(r->in, "out of memory");
+                return input_error(r->in, "out of memory");
             }
         }
     }
@@ -155,7 +158,7 @@ static bool read_values(matrix_read *r, fields *f) {
     (void)input_next_line(r->in);
     for (size_t p = 0; p < r->entries.count; p++) {
         if (!next_real(r->in, f, &r->entries.x[p])) {
-            return input_refuse(r->in, "value %lld: truncated, or not a number", (long long)p + 1);
+            return input_error(r->in, "value %lld: missing, or not a number", (long long)p + 1);
         }
     }
     return true;
@@ -169,16 +172,16 @@ bool matrix_read_rb(matrix_read *r) {
     bool symmetric = false;
     fields formats[3];
     if (!input_next_line(in) || !input_next_line(in)) {
-        return input_refuse(in, "truncated in the header");
+        return input_error(in, "truncated in the header");
     }
     if (!read_type(r, &symmetric)) {
         return false;
     }
     if (!input_integer(in, &rows) || !input_integer(in, &cols) || !input_integer(in, &entries) ||
         entries < 0 || entries > in->end - in->data || (symmetric && rows != cols)) {
-        return input_refuse(in, "needs the counts of rows, columns and entries");
+        return input_error(in, "counts of rows, columns and entries expected");
     }
-    if (!matrix_read_check_size(r, rows, cols)) {
+    if (!matrix_read_set_size(r, rows, cols)) {
         return false;
     }
     (void)input_next_line(in);
@@ -188,7 +191,7 @@ bool matrix_read_rb(matrix_read *r) {
     }
     int64_t *pointers = (int64_t *)malloc(((size_t)cols + 1) * sizeof *pointers);
     if (pointers == NULL) {
-        return input_refuse(in, "out of memory");
+        return input_error(in, "out of memory");
     }
     (void)input_next_line(in);
     bool ok = read_pointers(r, &formats[0], entries, pointers) &&

@@ -1,4 +1,4 @@
-/* cg.c: conjugate gradients with Jacobi preconditioning, the iterative rival of a local solve */
+/* cg.c: conjugate gradients with Jacobi preconditioning, for comparison with local solves */
 #include "cg.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static double dot(const double *a, const double *b, sl_int n) {
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* y = A x, gathered: with both triangles stored, column j is row j. Returns x' y. */
+/* y = A x. Both triangles are stored, so column j is also row j. Returns x' y. */
 static double multiply(const sl_csc *A, double *y, const double *x) {
     double product = 0;
     for (sl_int j = 0; j < A->n_cols; j++) {

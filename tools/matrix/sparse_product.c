@@ -1,5 +1,5 @@
-/* product.c: the product of two sparse matrices, and the symmetric matrix next to a nearly symmetric one */
-#include "product.h"
+/* sparse_product.c: product of two sparse matrices, symmetric storage conversions */
+#include "sparse_product.h"
 
 #include <stdlib.h>
 
@@ -9,7 +9,8 @@ static bool has_values(const sl_csc *A) {
     return A->n_cols == 0 || (A->p != NULL && (A->p[A->n_cols] == 0 || A->x != NULL));
 }
 
-/* Column by column. sum, mark and rows: room for A's rows; mark -1, sum 0. */
+/* Computes C column by column. sum, mark, rows: scratch of A->n_rows; on entry mark is -1, sum is
+ * 0. */
 static bool multiply(triplets *list, const sl_csc *A, const sl_csc *B, double *sum, sl_int *mark,
                      sl_int *rows) {
     for (sl_int j = 0; j < B->n_cols; j++) {
@@ -40,13 +41,13 @@ bool csc_product(sl_matrix **out, const sl_csc *A, const sl_csc *B) {
     if (A->n_cols != B->n_rows || !has_values(A) || !has_values(B)) {
         return false;
     }
-    const size_t room = (size_t)A->n_rows + 1;
+    const size_t capacity = (size_t)A->n_rows + 1;
     triplets list = {0, 0, NULL, NULL, NULL};
-    double *sum = (double *)calloc(room, sizeof *sum);
-    sl_int *mark = (sl_int *)malloc(room * sizeof *mark);
-    sl_int *rows = (sl_int *)malloc(room * sizeof *rows);
+    double *sum = (double *)calloc(capacity, sizeof *sum);
+    sl_int *mark = (sl_int *)malloc(capacity * sizeof *mark);
+    sl_int *rows = (sl_int *)malloc(capacity * sizeof *rows);
     bool ok = sum != NULL && mark != NULL && rows != NULL;
-    for (size_t i = 0; i < room && ok; i++) {
+    for (size_t i = 0; i < capacity && ok; i++) {
         mark[i] = -1;
     }
     ok = ok && multiply(&list, A, B, sum, mark, rows);
@@ -60,7 +61,7 @@ bool csc_product(sl_matrix **out, const sl_csc *A, const sl_csc *B) {
     return triplets_finish(out, A->n_rows, B->n_cols, &list, true) == SL_OK;
 }
 
-bool csc_both_triangles(sl_matrix **out, const sl_csc *A) {
+bool csc_expand_symmetric(sl_matrix **out, const sl_csc *A) {
     sl_triangle stored;
     triplets list = {0, 0, NULL, NULL, NULL};
     *out = NULL;
@@ -80,7 +81,7 @@ bool csc_both_triangles(sl_matrix **out, const sl_csc *A) {
     return triplets_finish(out, A->n_rows, A->n_cols, &list, true) == SL_OK;
 }
 
-bool csc_symmetrized(sl_matrix **out, const sl_csc *C) {
+bool csc_symmetric_part(sl_matrix **out, const sl_csc *C) {
     triplets list = {0, 0, NULL, NULL, NULL};
     *out = NULL;
     if (C->n_rows != C->n_cols || !has_values(C)) {

@@ -1,32 +1,32 @@
-/* triplets.c: a growing list of matrix entries, and the matrix made of it */
+/* triplets.c: a growing list of matrix entries (i, j, value), and its conversion to a matrix */
 #include "triplets.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-bool triplets_reserve(triplets *t, size_t room) {
-    if (room <= t->room) {
+bool triplets_reserve(triplets *t, size_t capacity) {
+    if (capacity <= t->capacity) {
         return true;
     }
-    if (room > SIZE_MAX / sizeof(double)) {
+    if (capacity > SIZE_MAX / sizeof(double)) {
         return false;
     }
-    /* whichever of the three moves keeps its new place, so that a failure in between loses nothing */
-    sl_int *i = (sl_int *)realloc(t->i, room * sizeof *i);
+    /* an array that has moved is kept even if a later realloc fails, so that nothing is lost */
+    sl_int *i = (sl_int *)realloc(t->i, capacity * sizeof *i);
     t->i = i != NULL ? i : t->i;
-    sl_int *j = (sl_int *)realloc(t->j, room * sizeof *j);
+    sl_int *j = (sl_int *)realloc(t->j, capacity * sizeof *j);
     t->j = j != NULL ? j : t->j;
-    double *x = (double *)realloc(t->x, room * sizeof *x);
+    double *x = (double *)realloc(t->x, capacity * sizeof *x);
     t->x = x != NULL ? x : t->x;
     if (i == NULL || j == NULL || x == NULL) {
         return false;
     }
-    t->room = room;
+    t->capacity = capacity;
     return true;
 }
 
 bool triplets_add(triplets *t, sl_int i, sl_int j, double x) {
-    if (t->count == t->room && !triplets_reserve(t, t->room < 64 ? 64 : 2 * t->room)) {
+    if (t->count == t->capacity && !triplets_reserve(t, t->capacity < 64 ? 64 : 2 * t->capacity)) {
         return false;
     }
     t->i[t->count] = i;
@@ -38,7 +38,7 @@ bool triplets_add(triplets *t, sl_int i, sl_int j, double x) {
 
 sl_status triplets_finish(sl_matrix **out, sl_int n_rows, sl_int n_cols, triplets *t,
                           bool with_values) {
-    /* an empty list has no arrays, and NULL values would mean a pattern */
+    /* an empty list has no arrays, but NULL values would mean a pattern */
     sl_status status = triplets_reserve(t, 1) ? SL_OK : SL_ERR_MEMORY;
     *out = NULL;
     if (status == SL_OK) {

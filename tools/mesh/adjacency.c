@@ -1,5 +1,5 @@
-/* patch.c: neighbours in a mesh or a matrix, patches grown by breadth-first search, connected components */
-#include "patch.h"
+/* adjacency.c: neighbors of mesh vertices or matrix rows, breadth-first search, components */
+#include "adjacency.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 void adjacency_free(adjacency *a) {
     if (a != NULL) {
         free(a->begin);
-        free(a->neighbour);
+        free(a->neighbor);
         memset(a, 0, sizeof *a);
     }
 }
@@ -15,16 +15,17 @@ void adjacency_free(adjacency *a) {
 static bool adjacency_allocate(adjacency *a, sl_int n, sl_off count) {
     a->n = n;
     a->begin = (sl_off *)calloc((size_t)n + 2, sizeof *a->begin);
-    a->neighbour = (sl_int *)malloc(((size_t)count + 1) * sizeof *a->neighbour);
-    if (a->begin == NULL || a->neighbour == NULL) {
+    a->neighbor = (sl_int *)malloc(((size_t)count + 1) * sizeof *a->neighbor);
+    if (a->begin == NULL || a->neighbor == NULL) {
         adjacency_free(a);
         return false;
     }
     return true;
 }
 
-/* Edges as they come, both directions in one pass over each: the caller counts first (count[v+2]), then places. While
- * placing, begin[v+1] is the next free place of v; when all are placed it is the end of v. */
+/* The graph is built in two passes over the edges. The first counts the neighbors of v in
+ * begin[v+2]. After prefix sums the second stores them: begin[v+1] is the next free position of v,
+ * and its end once all edges are stored. */
 static void count_edge(adjacency *a, sl_int u, sl_int v) {
     if (u != v) {
         a->begin[u + 2]++;
@@ -32,10 +33,10 @@ static void count_edge(adjacency *a, sl_int u, sl_int v) {
     }
 }
 
-static void place_edge(adjacency *a, sl_int u, sl_int v) {
+static void store_edge(adjacency *a, sl_int u, sl_int v) {
     if (u != v) {
-        a->neighbour[a->begin[u + 1]++] = v;
-        a->neighbour[a->begin[v + 1]++] = u;
+        a->neighbor[a->begin[u + 1]++] = v;
+        a->neighbor[a->begin[v + 1]++] = u;
     }
 }
 
@@ -45,8 +46,8 @@ static void sum_counts(adjacency *a) {
     }
 }
 
-/* Sorts the lists by transposing the whole (it is symmetric), then drops repetitions. */
-static bool sort_and_unite(adjacency *a) {
+/* Sorts all lists by transposing the symmetric structure, then removes duplicates. */
+static bool sort_and_deduplicate(adjacency *a) {
     adjacency sorted = {0, NULL, NULL};
     if (!adjacency_allocate(&sorted, a->n, a->begin[a->n])) {
         return false;
@@ -54,15 +55,15 @@ static bool sort_and_unite(adjacency *a) {
     memcpy(sorted.begin + 1, a->begin, ((size_t)a->n + 1) * sizeof *sorted.begin);
     for (sl_int v = 0; v < a->n; v++) {
         for (sl_off p = a->begin[v]; p < a->begin[v + 1]; p++) {
-            sorted.neighbour[sorted.begin[a->neighbour[p] + 1]++] = v;
+            sorted.neighbor[sorted.begin[a->neighbor[p] + 1]++] = v;
         }
     }
     sl_off kept = 0;
     for (sl_int v = 0; v < a->n; v++) {
         sl_off from = kept;
         for (sl_off p = sorted.begin[v]; p < sorted.begin[v + 1]; p++) {
-            if (kept == from || a->neighbour[kept - 1] != sorted.neighbour[p]) {
-                a->neighbour[kept++] = sorted.neighbour[p];
+            if (kept == from || a->neighbor[kept - 1] != sorted.neighbor[p]) {
+                a->neighbor[kept++] = sorted.neighbor[p];
             }
         }
         a->begin[v] = from;
@@ -73,7 +74,7 @@ static bool sort_and_unite(adjacency *a) {
 }
 
 static bool finish(adjacency *a) {
-    if (!sort_and_unite(a)) {
+    if (!sort_and_deduplicate(a)) {
         adjacency_free(a);
         return false;
     }
@@ -98,9 +99,9 @@ bool adjacency_from_mesh(adjacency *out, const mesh *m) {
     }
     sum_counts(out);
     for (const sl_int *f = m->faces; f < m->faces + corners; f += 3) {
-        place_edge(out, f[0], f[1]);
-        place_edge(out, f[1], f[2]);
-        place_edge(out, f[2], f[0]);
+        store_edge(out, f[0], f[1]);
+        store_edge(out, f[1], f[2]);
+        store_edge(out, f[2], f[0]);
     }
     return finish(out);
 }
@@ -119,13 +120,13 @@ bool adjacency_from_matrix(adjacency *out, const sl_csc *A) {
     sum_counts(out);
     for (sl_int j = 0; j < A->n_cols; j++) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
-            place_edge(out, A->i[p], j);
+            store_edge(out, A->i[p], j);
         }
     }
     return finish(out);
 }
 
-/* patch_bfs that leaves what it found marked in seen. */
+/* As adjacency_bfs, but leaves the found vertices marked in seen. */
 static sl_int search(sl_int *patch, sl_int count, const adjacency *a, sl_int start,
                      unsigned char *seen) {
     if (count <= 0 || start < 0 || start >= a->n) {
@@ -137,7 +138,7 @@ static sl_int search(sl_int *patch, sl_int count, const adjacency *a, sl_int sta
     for (sl_int head = 0; head < found && found < count; head++) {
         sl_int v = patch[head];
         for (sl_off p = a->begin[v]; p < a->begin[v + 1] && found < count; p++) {
-            sl_int w = a->neighbour[p];
+            sl_int w = a->neighbor[p];
             if (!seen[w]) {
                 seen[w] = 1;
                 patch[found++] = w;
@@ -147,8 +148,8 @@ static sl_int search(sl_int *patch, sl_int count, const adjacency *a, sl_int sta
     return found;
 }
 
-sl_int patch_bfs(sl_int *patch, sl_int count, const adjacency *a, sl_int start,
-                 unsigned char *seen) {
+sl_int adjacency_bfs(sl_int *patch, sl_int count, const adjacency *a, sl_int start,
+                     unsigned char *seen) {
     sl_int found = search(patch, count, a, start, seen);
     for (sl_int k = 0; k < found; k++) {
         seen[patch[k]] = 0;
@@ -156,7 +157,7 @@ sl_int patch_bfs(sl_int *patch, sl_int count, const adjacency *a, sl_int start,
     return found;
 }
 
-sl_int patch_components(sl_int *component, sl_int *sizes, const adjacency *a) {
+sl_int adjacency_components(sl_int *component, sl_int *sizes, const adjacency *a) {
     size_t n = (size_t)a->n;
     sl_int *patch = (sl_int *)malloc((n + 1) * sizeof *patch);
     unsigned char *seen = (unsigned char *)calloc(n + 1, 1);

@@ -1,26 +1,26 @@
-/* disk.c: is a part of a mesh a disk? its faces turned to one orientation, its boundary as a loop */
-#include "disk.h"
+/* disk_patch.c: checks that a submesh is a disk, orients its faces and finds its boundary loop */
+#include "disk_patch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* An edge of a face: from corner `from` to corner `to`, as the face stands. */
+/* A side of a face: a directed edge in the face's orientation. */
 typedef struct side {
-    sl_int low, high; /* its ends by number */
+    sl_int low, high; /* its two vertices, low < high */
     sl_int face;
-    sl_int from;
+    sl_int from; /* the vertex where it starts */
 } side;
 
-typedef struct inspection {
-    disk *d;
-    side *sides; /* 3 n_faces, sorted: the sides of an edge stand together */
-    sl_int *
-        next; /* 3 n_faces: the side of the same edge in the other face, -1: none; by 3 face + corner */
+typedef struct disk_check {
+    disk_patch *d;
+    side *sides; /* 3 n_faces, sorted: the sides of an edge are adjacent */
+    /* 3 n_faces, at 3 face + corner: the side of the same edge in the other face, -1: none */
+    sl_int *next;
     sl_int *work; /* 3 n_faces + n_vertices + 2 */
     char *message;
     size_t message_size;
-} inspection;
+} disk_check;
 
 static int by_edge(const void *a, const void *b) {
     const side *s = (const side *)a, *t = (const side *)b;
@@ -33,35 +33,35 @@ static int by_edge(const void *a, const void *b) {
     return (s->face > t->face) - (s->face < t->face);
 }
 
-void disk_free(disk *d) {
-    part_free(&d->p);
+void disk_patch_free(disk_patch *d) {
+    submesh_free(&d->p);
     free(d->boundary);
     memset(d, 0, sizeof *d);
 }
 
-static sl_int mesh_vertex(const inspection *q, sl_int v) {
+static sl_int mesh_vertex(const disk_check *q, sl_int v) {
     return q->d->p.vertices[v];
 }
 
-static bool refuse(const inspection *q, const char *reason) {
-    (void)snprintf(q->message, q->message_size, "the patch is no disk: %s", reason);
+static bool fail(const disk_check *q, const char *reason) {
+    (void)snprintf(q->message, q->message_size, "the patch is not a disk: %s", reason);
     return false;
 }
 
-static bool refuse_vertex(const inspection *q, const char *reason, sl_int v) {
-    (void)snprintf(q->message, q->message_size, "the patch is no disk: %s vertex %d", reason,
+static bool fail_at_vertex(const disk_check *q, const char *reason, sl_int v) {
+    (void)snprintf(q->message, q->message_size, "the patch is not a disk: %s vertex %d", reason,
                    (int)mesh_vertex(q, v));
     return false;
 }
 
-/* The side of face f that starts at its corner c. */
-static sl_int side_from(const inspection *q, sl_int f, sl_int from) {
+/* The side of face f that starts at vertex `from`, as 3 face + corner. */
+static sl_int side_from(const disk_check *q, sl_int f, sl_int from) {
     const sl_int *face = q->d->p.m.faces + 3 * (size_t)f;
     return 3 * f + (face[0] == from ? 0 : face[1] == from ? 1 : 2);
 }
 
-/* Sorts the sides and pairs them up. */
-static bool pair_sides(inspection *q) {
+/* Sorts the sides and pairs the two sides of each interior edge. */
+static bool pair_sides(disk_check *q) {
     const mesh *m = &q->d->p.m;
     size_t count = 3 * (size_t)m->n_faces;
     for (size_t k = 0; k < count; k++) {
@@ -77,9 +77,10 @@ static bool pair_sides(inspection *q) {
             continue;
         }
         if (k + 2 < count && t[1].low == s->low && t[1].high == s->high) {
-            (void)snprintf(q->message, q->message_size,
-                           "the patch is no disk: three faces at the edge of vertices %d and %d",
-                           (int)mesh_vertex(q, s->low), (int)mesh_vertex(q, s->high));
+            (void)snprintf(
+                q->message, q->message_size,
+                "the patch is not a disk: the edge of vertices %d and %d has three faces",
+                (int)mesh_vertex(q, s->low), (int)mesh_vertex(q, s->high));
             return false;
         }
         sl_int a = side_from(q, s->face, s->from), b = side_from(q, t->face, t->from);
@@ -89,8 +90,9 @@ static bool pair_sides(inspection *q) {
     return true;
 }
 
-/* Walks over all faces from face 0, and turns them as it comes: +1 as they stand, -1 turned over. */
-static bool turn_faces(inspection *q) {
+/* Visits all faces from face 0 in breadth-first order and gives them its orientation.
+ * turn: +1 keep the face, -1 reverse it, 0 not visited. */
+static bool orient_faces(disk_check *q) {
     sl_int n_faces = q->d->p.m.n_faces, found = 1;
     sl_int *queue = q->work, *turn = q->work + n_faces, *faces = q->d->p.m.faces;
     memset(turn, 0, (size_t)n_faces * sizeof *turn);
@@ -103,21 +105,21 @@ static bool turn_faces(inspection *q) {
             if (other < 0) {
                 continue;
             }
-            /* sides that run the same way belong to faces that stand differently */
+            /* two sides in the same direction mean opposite orientations */
             sl_int wanted = faces[3 * f + c] == faces[other] ? -turn[f] : turn[f];
             if (turn[other / 3] == 0) {
                 turn[other / 3] = wanted;
                 queue[found++] = other / 3;
             } else if (turn[other / 3] != wanted) {
-                return refuse(q, "it has one side only, as a Moebius strip");
+                return fail(q, "it has one side only, like a Moebius strip");
             }
         }
     }
     if (found < n_faces) {
-        return refuse(q, "its faces are several pieces that share no edge");
+        return fail(q, "its faces form several pieces that share no edge");
     }
     for (sl_int f = 0; f < n_faces; f++) {
-        if (turn[f] < 0) { /* sides 0 and 2 change their places: the pairs are not used any more */
+        if (turn[f] < 0) { /* sides 0 and 2 are swapped: the pairs are no longer used */
             sl_int v = faces[3 * f + 1];
             faces[3 * f + 1] = faces[3 * f + 2];
             faces[3 * f + 2] = v;
@@ -126,9 +128,9 @@ static bool turn_faces(inspection *q) {
     return true;
 }
 
-/* A side without a partner runs along the boundary: once a vertex, and one loop in all. */
-static bool find_loop(inspection *q, sl_int edges) {
-    disk *d = q->d;
+/* The unpaired sides form the boundary: each vertex starts at most one, and all form one loop. */
+static bool find_boundary(disk_check *q, sl_int edges) {
+    disk_patch *d = q->d;
     const mesh *m = &d->p.m;
     sl_int *after = q->work, sides = 0, start = -1;
     for (sl_int v = 0; v < m->n_vertices; v++) {
@@ -146,14 +148,14 @@ static bool find_loop(inspection *q, sl_int edges) {
             continue;
         }
         if (after[u] >= 0) {
-            return refuse_vertex(q, "it touches itself at", u);
+            return fail_at_vertex(q, "it touches itself at", u);
         }
         after[u] = v;
         start = start < 0 || u < start ? u : start;
         sides++;
     }
     if (sides == 0) {
-        return refuse(q, "it is closed, without a boundary");
+        return fail(q, "it is closed: it has no boundary");
     }
     d->boundary = (sl_int *)malloc((size_t)sides * sizeof *d->boundary);
     if (d->boundary == NULL) {
@@ -164,18 +166,18 @@ static bool find_loop(inspection *q, sl_int edges) {
         d->boundary[d->n_boundary++] = v;
     }
     if (d->n_boundary < sides) {
-        return refuse(q, "it has more than one boundary, as a ring");
+        return fail(q, "it has more than one boundary, like a ring");
     }
     if (m->n_vertices - edges + m->n_faces != 1) {
-        return refuse(q, "it has a handle, or touches itself at a vertex inside");
+        return fail(q, "it has a handle, or touches itself at an interior vertex");
     }
     return true;
 }
 
-static bool inspect(inspection *q) {
+static bool inspect(disk_check *q) {
     const mesh *m = &q->d->p.m;
     if (m->n_faces == 0) {
-        return refuse(q, "no face has all its corners in it");
+        return fail(q, "no face has all its corners in the patch");
     }
     memset(q->work, 0, ((size_t)m->n_vertices + 1) * sizeof *q->work);
     for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
@@ -183,7 +185,7 @@ static bool inspect(inspection *q) {
     }
     for (sl_int v = 0; v < m->n_vertices; v++) {
         if (!q->work[v]) {
-            return refuse_vertex(q, "no face of it is at", v);
+            return fail_at_vertex(q, "it has no face at", v);
         }
     }
     if (!pair_sides(q)) {
@@ -191,15 +193,15 @@ static bool inspect(inspection *q) {
     }
     sl_int edges = 0;
     for (sl_int k = 0; k < 3 * m->n_faces; k++) {
-        edges += q->next[k] < k; /* of a pair the later side counts, and -1 always */
+        edges += q->next[k] < k; /* the later side of a pair counts, and each unpaired side (-1) */
     }
-    return turn_faces(q) && find_loop(q, edges);
+    return orient_faces(q) && find_boundary(q, edges);
 }
 
-/* Makes the disk of d->p, whose boundary is yet to be found. */
-static bool finish(disk *d, char *message, size_t message_size) {
+/* Completes the disk from its submesh d->p. Frees d on error. */
+static bool finish(disk_patch *d, char *message, size_t message_size) {
     size_t sides = 3 * (size_t)d->p.m.n_faces;
-    inspection q = {d, NULL, NULL, NULL, message, message_size};
+    disk_check q = {d, NULL, NULL, NULL, message, message_size};
     q.sides = (side *)malloc((sides + 1) * sizeof *q.sides);
     q.next = (sl_int *)malloc((sides + 1) * sizeof *q.next);
     q.work = (sl_int *)malloc((sides + (size_t)d->p.m.n_vertices + 2) * sizeof *q.work);
@@ -213,22 +215,23 @@ static bool finish(disk *d, char *message, size_t message_size) {
     free(q.next);
     free(q.work);
     if (!ok) {
-        disk_free(d);
+        disk_patch_free(d);
     }
     return ok;
 }
 
-bool disk_of_list(disk *out, incidence *around, const sl_int *vertices, sl_int count, char *message,
-                  size_t message_size) {
+bool disk_patch_from_vertices(disk_patch *out, incidence *inc, const sl_int *vertices, sl_int count,
+                              char *message, size_t message_size) {
     memset(out, 0, sizeof *out);
-    return part_span(&out->p, around, vertices, count, message, message_size) &&
+    return submesh_from_vertices(&out->p, inc, vertices, count, message, message_size) &&
            finish(out, message, message_size);
 }
 
-bool disk_of_faces(disk *out, incidence *around, const sl_int *vertices, sl_int n_vertices,
-                   const sl_int *faces, sl_int n_faces, char *message, size_t message_size) {
+bool disk_patch_from_faces(disk_patch *out, incidence *inc, const sl_int *vertices,
+                           sl_int n_vertices, const sl_int *faces, sl_int n_faces, char *message,
+                           size_t message_size) {
     memset(out, 0, sizeof *out);
-    if (!part_of_faces(&out->p, around, vertices, n_vertices, faces, n_faces)) {
+    if (!submesh_from_faces(&out->p, inc, vertices, n_vertices, faces, n_faces)) {
         (void)snprintf(message, message_size, "out of memory");
         return false;
     }

@@ -1,5 +1,5 @@
-/* ball.c: the vertices within a distance along edges (Dijkstra), found in time proportional to their number */
-#include "ball.h"
+/* graph_ball.c: all vertices within a given edge-path distance of some sources (Dijkstra) */
+#include "graph_ball.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,30 +7,31 @@
 
 #include "int_list.h"
 
-/* A binary heap of (distance, vertex), the nearest on top; a vertex whose distance falls is put in again. */
+/* An entry of the binary heap, nearest on top. A vertex is pushed again when its distance
+ * decreases. */
 typedef struct entry {
     double distance;
     sl_int vertex;
 } entry;
 
 typedef struct search {
-    incidence *around; /* place[v]: v's position in reached, -1: not reached */
+    incidence *inc; /* local_index[v]: position of v in reached, -1: not reached */
     entry *heap;
-    size_t n_heap, heap_room;
+    size_t n_heap, heap_capacity;
     int_list reached;
-    double *distance; /* the shortest so far, by position */
-    size_t room;      /* at distance */
+    double *distance; /* shortest path so far, by position in reached */
+    size_t capacity;  /* elements at distance */
 } search;
 
 static bool push(search *s, double distance, sl_int vertex) {
-    if (s->n_heap == s->heap_room) {
-        size_t wanted = s->heap_room < 64 ? 64 : 2 * s->heap_room;
+    if (s->n_heap == s->heap_capacity) {
+        size_t wanted = s->heap_capacity < 64 ? 64 : 2 * s->heap_capacity;
         entry *larger = (entry *)realloc(s->heap, wanted * sizeof *larger);
         if (larger == NULL) {
             return false;
         }
         s->heap = larger;
-        s->heap_room = wanted;
+        s->heap_capacity = wanted;
     }
     size_t at = s->n_heap++;
     for (; at > 0 && s->heap[(at - 1) / 2].distance > distance; at = (at - 1) / 2) {
@@ -60,37 +61,37 @@ static entry pop(search *s) {
     return top;
 }
 
-/* Notes that v can be reached by a path of this length. */
-static bool reach(search *s, sl_int v, double distance) {
-    sl_int place = s->around->place[v];
-    if (place >= 0) {
-        if (distance >= s->distance[place]) {
+/* Records a path of this length to v. */
+static bool record_path(search *s, sl_int v, double distance) {
+    sl_int local_index = s->inc->local_index[v];
+    if (local_index >= 0) {
+        if (distance >= s->distance[local_index]) {
             return true;
         }
-        s->distance[place] = distance;
+        s->distance[local_index] = distance;
         return push(s, distance, v);
     }
     size_t count = s->reached.count;
-    if (count == s->room) {
-        size_t wanted = s->room < 64 ? 64 : 2 * s->room;
+    if (count == s->capacity) {
+        size_t wanted = s->capacity < 64 ? 64 : 2 * s->capacity;
         double *larger = (double *)realloc(s->distance, wanted * sizeof *larger);
         if (larger == NULL) {
             return false;
         }
         s->distance = larger;
-        s->room = wanted;
+        s->capacity = wanted;
     }
     if (!int_list_add(&s->reached, v)) {
         return false;
     }
-    s->around->place[v] = (sl_int)count;
+    s->inc->local_index[v] = (sl_int)count;
     s->distance[count] = distance;
     return push(s, distance, v);
 }
 
-/* Goes on from v to the other corners of its faces. */
-static bool go_on(search *s, sl_int v, double distance, double radius) {
-    const incidence *a = s->around;
+/* Extends the path to v by one edge, to the other corners of v's faces. */
+static bool extend_paths(search *s, sl_int v, double distance, double radius) {
+    const incidence *a = s->inc;
     const double *from = a->m->xyz + 3 * (size_t)v;
     for (sl_off p = a->begin[v]; p < a->begin[v + 1]; p++) {
         const sl_int *f = a->m->faces + 3 * (size_t)a->face[p];
@@ -98,7 +99,7 @@ static bool go_on(search *s, sl_int v, double distance, double radius) {
             const double *to = a->m->xyz + 3 * (size_t)f[c];
             double length =
                 distance + hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-            if (f[c] != v && length <= radius && !reach(s, f[c], length)) {
+            if (f[c] != v && length <= radius && !record_path(s, f[c], length)) {
                 return false;
             }
         }
@@ -106,53 +107,54 @@ static bool go_on(search *s, sl_int v, double distance, double radius) {
     return true;
 }
 
-void ball_free(ball *b) {
+void graph_ball_free(graph_ball *b) {
     free(b->vertices);
-    free(b->along_edges);
+    free(b->path_length);
     memset(b, 0, sizeof *b);
 }
 
-bool ball_find(ball *out, incidence *around, const sl_int *sources, sl_int count, double radius) {
+bool graph_ball_create(graph_ball *out, incidence *inc, const sl_int *sources, sl_int count,
+                       double radius) {
     search s;
     memset(&s, 0, sizeof s);
-    s.around = around;
+    s.inc = inc;
     memset(out, 0, sizeof *out);
     bool ok = true;
     for (sl_int k = 0; k < count && ok && radius >= 0; k++) {
-        ok = reach(&s, sources[k], 0);
+        ok = record_path(&s, sources[k], 0);
     }
     out->vertices = (sl_int *)malloc(sizeof *out->vertices);
-    out->along_edges = (double *)malloc(sizeof *out->along_edges);
-    ok = ok && out->vertices != NULL && out->along_edges != NULL;
-    size_t room = 1;
+    out->path_length = (double *)malloc(sizeof *out->path_length);
+    ok = ok && out->vertices != NULL && out->path_length != NULL;
+    size_t capacity = 1;
     while (ok && s.n_heap > 0) {
         entry e = pop(&s);
-        if (e.distance > s.distance[around->place[e.vertex]]) {
-            continue; /* an older entry of a vertex that came nearer since */
+        if (e.distance > s.distance[inc->local_index[e.vertex]]) {
+            continue; /* an outdated entry: a shorter path was found later */
         }
-        if ((size_t)out->n == room) {
-            room *= 2;
-            sl_int *vertices = (sl_int *)realloc(out->vertices, room * sizeof *vertices);
+        if ((size_t)out->n == capacity) {
+            capacity *= 2;
+            sl_int *vertices = (sl_int *)realloc(out->vertices, capacity * sizeof *vertices);
             out->vertices = vertices != NULL ? vertices : out->vertices;
-            double *lengths = (double *)realloc(out->along_edges, room * sizeof *lengths);
-            out->along_edges = lengths != NULL ? lengths : out->along_edges;
+            double *lengths = (double *)realloc(out->path_length, capacity * sizeof *lengths);
+            out->path_length = lengths != NULL ? lengths : out->path_length;
             if (vertices == NULL || lengths == NULL) {
                 ok = false;
                 break;
             }
         }
         out->vertices[out->n] = e.vertex;
-        out->along_edges[out->n++] = e.distance;
-        ok = go_on(&s, e.vertex, e.distance, radius);
+        out->path_length[out->n++] = e.distance;
+        ok = extend_paths(&s, e.vertex, e.distance, radius);
     }
     for (size_t k = 0; k < s.reached.count; k++) {
-        around->place[s.reached.at[k]] = -1;
+        inc->local_index[s.reached.at[k]] = -1;
     }
     free(s.heap);
     free(s.reached.at);
     free(s.distance);
     if (!ok) {
-        ball_free(out);
+        graph_ball_free(out);
     }
     return ok;
 }

@@ -1,13 +1,14 @@
-/* grid.c: made-up problems of any size: triangulated grids, flat or closed, and the Laplacians of 2D and 3D grids */
+/* grid.c: synthetic problems of any size: grid and torus meshes, Laplacians of 2D and 3D grids */
 #include "grid.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "triplets.h"
+#include "tools/matrix/triplets.h"
 
-/* SplitMix64 [Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014]; uniform in -1..1. */
+/* SplitMix64, uniform in [-1, 1).
+ * Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014. */
 static double next_symmetric(uint64_t *state) {
     *state += 0x9e3779b97f4a7c15u;
     uint64_t z = *state;
@@ -43,8 +44,8 @@ static void connect_squares(sl_int *faces, sl_int nx, sl_int ny) {
     }
 }
 
-/* Room for so many vertices and faces. */
-static bool make_room(mesh *out, int64_t vertices, int64_t faces) {
+/* Allocates the arrays of a mesh. */
+static bool allocate(mesh *out, int64_t vertices, int64_t faces) {
     memset(out, 0, sizeof *out);
     if (vertices > INT32_MAX || faces > INT32_MAX) {
         return false;
@@ -63,7 +64,7 @@ static bool make_room(mesh *out, int64_t vertices, int64_t faces) {
 bool mesh_grid(mesh *out, sl_int nx, sl_int ny, double jitter, uint64_t seed) {
     memset(out, 0, sizeof *out);
     if (nx < 1 || ny < 1 || !(jitter >= 0) || !isfinite(jitter) ||
-        !make_room(out, (int64_t)nx * ny, 2 * (int64_t)(nx - 1) * (ny - 1))) {
+        !allocate(out, (int64_t)nx * ny, 2 * (int64_t)(nx - 1) * (ny - 1))) {
         return false;
     }
     place_vertices(out->xyz, nx, ny, jitter, seed);
@@ -75,7 +76,7 @@ bool mesh_torus(mesh *out, sl_int nu, sl_int nv, double jitter, uint64_t seed) {
     const double turn = 2 * acos(-1.0), tube = 0.4;
     memset(out, 0, sizeof *out);
     if (nu < 3 || nv < 3 || !(jitter >= 0) || !isfinite(jitter) ||
-        !make_room(out, (int64_t)nu * nv, 2 * (int64_t)nu * nv)) {
+        !allocate(out, (int64_t)nu * nv, 2 * (int64_t)nu * nv)) {
         return false;
     }
     double *xyz = out->xyz;
@@ -97,7 +98,7 @@ bool mesh_torus(mesh *out, sl_int nu, sl_int nv, double jitter, uint64_t seed) {
     return true;
 }
 
-/* Each point gives its edges to the next point of each direction, and its diagonal. */
+/* Each point adds its diagonal entry and its edge to the next point in each direction. */
 static bool add_points(triplets *t, const sl_int size[3], double shift) {
     sl_int stride[3] = {1, size[0], size[0] * size[1]};
     sl_int row = 0;
@@ -105,15 +106,15 @@ static bool add_points(triplets *t, const sl_int size[3], double shift) {
     for (at[2] = 0; at[2] < size[2]; at[2]++) {
         for (at[1] = 0; at[1] < size[1]; at[1]++) {
             for (at[0] = 0; at[0] < size[0]; at[0]++, row++) {
-                int neighbours = 0;
+                int degree = 0;
                 for (int d = 0; d < 3; d++) {
                     bool next = at[d] + 1 < size[d];
-                    neighbours += next + (at[d] > 0);
+                    degree += next + (at[d] > 0);
                     if (next && !triplets_add(t, row + stride[d], row, -1.0)) {
                         return false;
                     }
                 }
-                if (!triplets_add(t, row, row, neighbours + shift)) {
+                if (!triplets_add(t, row, row, degree + shift)) {
                     return false;
                 }
             }

@@ -1,4 +1,4 @@
-/* incidence.h: the faces around each vertex of a mesh, and scratch with which parts of it are numbered locally */
+/* incidence.h: the faces around each vertex of a mesh, and scratch to number some vertices */
 #ifndef TOOLS_INCIDENCE_H
 #define TOOLS_INCIDENCE_H
 
@@ -6,39 +6,43 @@
 
 #include "mesh.h"
 
-/** Made once a mesh; what is then asked about a part of the mesh costs what the part does.
+/** Vertex-face incidence, created once per mesh. Later queries about a subset of the mesh cost time
+ *  proportional to the subset.
  *
- *  Faces around vertex v: face[begin[v]] .. face[begin[v+1]-1], ascending. Faces with a repeated vertex have no shape
- *  and are left out.
+ *  The faces around vertex v are face[begin[v]] .. face[begin[v+1]-1], ascending. Faces with a
+ *  repeated vertex are left out.
  */
 typedef struct incidence {
     const mesh *m; /* borrowed */
     sl_off *begin; /* n_vertices + 1 */
     sl_int *face;
-    sl_int *place; /* n_vertices times -1: lent to whoever numbers a subset, -1 again afterwards */
-    unsigned char *taken; /* n_faces zeros: lent, 0 again afterwards */
+    sl_int *local_index;      /* n_vertices: scratch to number a subset, -1 between calls */
+    unsigned char *face_mark; /* n_faces: scratch, 0 between calls */
 } incidence;
 
-/** Collects them.
+/** Collects the faces around each vertex of m.
  *
  *  out  [out]  release with incidence_free; all zero on error.
- *  Returns  true; false: a face index out of range, out of memory.
+ *  m    [in]   borrowed, must outlive out.
+ *  Returns  true; false: a face index is out of range, out of memory.
  *  Cost     O(vertices + faces).
  */
 bool incidence_create(incidence *out, const mesh *m);
 
+/** Releases the arrays and sets a to all zero. */
 void incidence_free(incidence *a);
 
-/** The faces at the edge (u, v), u not v: up to `most` of them into faces; returns how many there are.
+/** The faces at the edge (u, v), u different from v.
  *
- *  Cost  O(faces around the end that has fewer).
+ *  faces  [out]  the first max_faces of them.
+ *  Returns  the number of faces at the edge; may exceed max_faces.
+ *  Cost     O(faces around the end that has fewer).
  */
-sl_int incidence_edge(const incidence *a, sl_int u, sl_int v, sl_int *faces, sl_int most);
+sl_int incidence_edge_faces(const incidence *a, sl_int u, sl_int v, sl_int *faces,
+                            sl_int max_faces);
 
-/** Is every vertex of a list in range, and there once? The scratch is given back as it was.
- *
- *  vertices  [in]  count numbers; a count below 0 is no list.
- */
-bool incidence_are_distinct(incidence *around, const sl_int *vertices, sl_int count);
+/** Returns whether all count vertices of a list are in range and distinct; false if count < 0. The
+ *  scratch is used and restored. */
+bool incidence_vertices_are_distinct(incidence *inc, const sl_int *vertices, sl_int count);
 
 #endif

@@ -1,4 +1,4 @@
-/* mesh.c: reads triangle meshes: chooses the format, collects vertices and faces, checks what came out */
+/* mesh.c: reads triangle meshes: selects the format, collects vertices and faces, checks indices */
 #include "mesh.h"
 
 #include <math.h>
@@ -15,50 +15,52 @@ void mesh_free(mesh *m) {
     }
 }
 
-/* Room for `more` elements after `count`: the array, moved or not, or NULL (then the old one still stands). */
-static void *grown(void *array, size_t *room, size_t count, size_t more, size_t element) {
-    if (count + more <= *room && array != NULL) {
+/* Ensures room for `more` elements after `count`, by doubling.
+ * Returns the array, moved or not; NULL: out of memory, the old array is still valid. */
+static void *grow_array(void *array, size_t *capacity, size_t count, size_t more, size_t element) {
+    if (count + more <= *capacity && array != NULL) {
         return array;
     }
-    size_t wanted = 2 * *room > count + more ? 2 * *room : count + more;
+    size_t wanted = 2 * *capacity > count + more ? 2 * *capacity : count + more;
     wanted = wanted < 64 ? 64 : wanted;
     void *larger = wanted <= SIZE_MAX / element ? realloc(array, wanted * element) : NULL;
     if (larger != NULL) {
-        *room = wanted;
+        *capacity = wanted;
     }
     return larger;
 }
 
 bool mesh_build_vertex(mesh_build *b, double x, double y, double z) {
     if (!isfinite(x) || !isfinite(y) || !isfinite(z)) {
-        return input_refuse(b->in, "vertex %d: a coordinate is not finite",
-                            (int)b->made.n_vertices);
+        return input_error(b->in, "vertex %d: a coordinate is not finite",
+                           (int)b->result.n_vertices);
     }
-    if (b->made.n_vertices == INT32_MAX) {
-        return input_refuse(b->in, "more than 2^31-1 vertices");
+    if (b->result.n_vertices == INT32_MAX) {
+        return input_error(b->in, "more than 2^31-1 vertices");
     }
-    size_t count = (size_t)b->made.n_vertices;
-    double *xyz = (double *)grown(b->made.xyz, &b->vertex_room, count, 1, 3 * sizeof *xyz);
+    size_t count = (size_t)b->result.n_vertices;
+    double *xyz =
+        (double *)grow_array(b->result.xyz, &b->vertex_capacity, count, 1, 3 * sizeof *xyz);
     if (xyz == NULL) {
-        return input_refuse(b->in, "out of memory");
+        return input_error(b->in, "out of memory");
     }
-    b->made.xyz = xyz;
+    b->result.xyz = xyz;
     xyz[3 * count] = x;
     xyz[3 * count + 1] = y;
     xyz[3 * count + 2] = z;
-    b->made.n_vertices++;
+    b->result.n_vertices++;
     return true;
 }
 
 bool mesh_build_corner(mesh_build *b, int64_t vertex) {
     if (vertex < 0 || vertex >= INT32_MAX) {
-        return input_refuse(b->in, "face %lld: vertex %lld (counted from 0) is out of range",
-                            (long long)b->polygons, (long long)vertex);
+        return input_error(b->in, "face %lld: vertex %lld (counted from 0) is out of range",
+                           (long long)b->polygons, (long long)vertex);
     }
     sl_int *corners =
-        (sl_int *)grown(b->corners, &b->corner_room, b->n_corners, 1, sizeof *corners);
+        (sl_int *)grow_array(b->corners, &b->corner_capacity, b->n_corners, 1, sizeof *corners);
     if (corners == NULL) {
-        return input_refuse(b->in, "out of memory");
+        return input_error(b->in, "out of memory");
     }
     b->corners = corners;
     corners[b->n_corners++] = (sl_int)vertex;
@@ -72,38 +74,40 @@ bool mesh_build_corner(mesh_build *b, int64_t vertex) {
 
 bool mesh_build_polygon(mesh_build *b) {
     if (b->n_corners < 3) {
-        return input_refuse(b->in, "face %lld: has %d corners, 3 or more are needed",
-                            (long long)b->polygons, (int)b->n_corners);
+        return input_error(b->in, "face %lld has %d corners; 3 or more are needed",
+                           (long long)b->polygons, (int)b->n_corners);
     }
-    size_t count = (size_t)b->made.n_faces;
+    size_t count = (size_t)b->result.n_faces;
     size_t more = b->n_corners - 2;
     if (more > (size_t)INT32_MAX - count) {
-        return input_refuse(b->in, "more than 2^31-1 triangles");
+        return input_error(b->in, "more than 2^31-1 triangles");
     }
-    sl_int *faces = (sl_int *)grown(b->made.faces, &b->face_room, count, more, 3 * sizeof *faces);
+    sl_int *faces =
+        (sl_int *)grow_array(b->result.faces, &b->face_capacity, count, more, 3 * sizeof *faces);
     if (faces == NULL) {
-        return input_refuse(b->in, "out of memory");
+        return input_error(b->in, "out of memory");
     }
-    b->made.faces = faces;
+    b->result.faces = faces;
     for (size_t k = 0; k < more; k++) {
         sl_int *face = faces + 3 * (count + k);
         face[0] = b->corners[0];
         face[1] = b->corners[k + 1];
         face[2] = b->corners[k + 2];
     }
-    b->made.n_faces += (sl_int)more;
+    b->result.n_faces += (sl_int)more;
     b->n_corners = 0;
     b->polygons++;
     return true;
 }
 
 static bool indices_in_range(mesh_build *b) {
-    if (b->largest < b->made.n_vertices) {
+    if (b->largest < b->result.n_vertices) {
         return true;
     }
     b->in->line = b->largest_line;
-    return input_refuse(b->in, "face %lld: vertex %d (counted from 0) of only %d",
-                        (long long)b->largest_face, (int)b->largest, (int)b->made.n_vertices);
+    return input_error(
+        b->in, "face %lld: vertex %d (counted from 0) is out of range: the mesh has %d vertices",
+        (long long)b->largest_face, (int)b->largest, (int)b->result.n_vertices);
 }
 
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) {
@@ -131,15 +135,16 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) 
     }
     if (!known) {
         in.line = 0;
-        (void)input_refuse(&in,
-                           "not a name of a mesh (.obj .off .ply .stl, or one of these with .gz)");
+        (void)input_error(&in,
+                          "unknown mesh format: the name must end in .obj, .off, .ply or .stl, "
+                          "optionally followed by .gz");
     }
     free(b.corners);
     input_close(&in);
     if (ok) {
-        *out = b.made;
+        *out = b.result;
     } else {
-        mesh_free(&b.made);
+        mesh_free(&b.result);
     }
     return ok;
 }

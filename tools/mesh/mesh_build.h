@@ -1,35 +1,46 @@
-/* mesh_build.h: a mesh while a reader fills it: growing arrays, polygons cut into fans, indices checked */
+/* mesh_build.h: builds a mesh while a file is read: growing arrays, fans, index checks */
 #ifndef TOOLS_MESH_BUILD_H
 #define TOOLS_MESH_BUILD_H
 
-#include "input.h"
+#include "tools/io/input.h"
 #include "mesh.h"
 
-/** The mesh so far. The arrays double when full, so memory follows the data and not the counts of a header. */
+/** A mesh under construction. Arrays double when full, so memory follows the data and not the
+ *  counts of a header. */
 typedef struct mesh_build {
     input *in;
-    mesh made;
-    size_t vertex_room;
-    size_t face_room;
-    sl_int *corners; /* of the polygon at hand */
+    mesh result;
+    size_t vertex_capacity;
+    size_t face_capacity;
+    sl_int *corners; /* of the current polygon */
     size_t n_corners;
-    size_t corner_room;
-    sl_int largest; /* index of any face so far, -1: none; faces may come before their vertices */
-    int64_t largest_line; /* where it stood; 0 where there are no lines */
-    int64_t largest_face; /* the polygon it stood in, counted from 0 */
+    size_t corner_capacity;
+    sl_int largest; /* largest index in any face, -1: none; faces may precede their vertices */
+    int64_t largest_line; /* the line of that index; 0 for binary files */
+    int64_t largest_face; /* the polygon of that index, counted from 0 */
     int64_t polygons;
 } mesh_build;
 
-/** Adds a vertex; refuses coordinates that are not finite. All of these set in's message when they refuse. */
+/** Adds a vertex. Like the next two functions, sets the message of b->in and returns false on
+ *  error.
+ *
+ *  Returns  true; false: a coordinate is not finite, too many vertices, out of memory.
+ */
 bool mesh_build_vertex(mesh_build *b, double x, double y, double z);
 
-/** Adds a corner, 0 or more, to the polygon at hand. */
+/** Adds a corner to the current polygon.
+ *
+ *  Returns  true; false: vertex is negative or too large, out of memory.
+ */
 bool mesh_build_corner(mesh_build *b, int64_t vertex);
 
-/** Ends the polygon at hand: three corners or more become a fan. */
+/** Ends the current polygon and adds it as a fan of triangles.
+ *
+ *  Returns  true; false: fewer than three corners, too many triangles, out of memory.
+ */
 bool mesh_build_polygon(mesh_build *b);
 
-/* The formats; each reads all of b->in into b. */
+/* One reader per format. Each reads all of b->in into b; false: b->in has the message. */
 bool mesh_read_obj(mesh_build *b);
 bool mesh_read_off(mesh_build *b);
 bool mesh_read_ply(mesh_build *b);

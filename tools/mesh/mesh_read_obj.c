@@ -7,27 +7,27 @@ static bool read_vertex(mesh_build *b) {
     double x[3];
     for (int k = 0; k < 3; k++) {
         if (!input_number(b->in, &x[k]) || !input_at_word_end(b->in)) {
-            return input_refuse(b->in, "v: needs three numbers");
+            return input_error(b->in, "v: three numbers expected");
         }
     }
     return mesh_build_vertex(b, x[0], x[1], x[2]);
 }
 
-/* v, v/vt, v//vn or v/vt/vn: only the first number matters, the rest must be of digits, signs and slashes. */
+/* v, v/vt, v//vn or v/vt/vn: only v is used; the rest must consist of digits, signs and slashes. */
 static bool read_corner(mesh_build *b) {
     input *in = b->in;
     int64_t index = 0;
     if (!input_integer(in, &index) || !(input_at_word_end(in) || *in->at == '/')) {
-        return input_refuse(in, "f: a corner that is not an index");
+        return input_error(in, "f: a corner is not an index");
     }
     for (; !input_at_word_end(in); in->at++) {
         if (strchr("0123456789-/", *in->at) == NULL || *in->at == '\0') {
-            return input_refuse(in, "f: a corner that is not v, v/vt, v//vn or v/vt/vn");
+            return input_error(in, "f: a corner is not v, v/vt, v//vn or v/vt/vn");
         }
     }
-    int64_t vertex = index > 0 ? index - 1 : b->made.n_vertices + index;
+    int64_t vertex = index > 0 ? index - 1 : b->result.n_vertices + index;
     if (index == 0 || vertex < 0) {
-        return input_refuse(in, "f: index %lld is out of range", (long long)index);
+        return input_error(in, "f: index %lld is out of range", (long long)index);
     }
     return mesh_build_corner(b, vertex);
 }
@@ -46,7 +46,7 @@ bool mesh_read_obj(mesh_build *b) {
     in->comment = '#';
     in->continuation = true;
     while (input_more(in)) {
-        char word[4]; /* longer keywords are cut, and still none of the two below */
+        char word[4]; /* longer keywords are truncated and match neither of the two below */
         input_word(in, word, sizeof word);
         if (strcmp(word, "v") == 0 ? !read_vertex(b) : strcmp(word, "f") == 0 && !read_face(b)) {
             return false;
@@ -55,9 +55,9 @@ bool mesh_read_obj(mesh_build *b) {
             break;
         }
     }
-    if (b->made.n_vertices == 0) {
+    if (b->result.n_vertices == 0) {
         in->line = 0;
-        return input_refuse(in, "no vertices: not an OBJ mesh");
+        return input_error(in, "no vertices: not an OBJ mesh");
     }
     return true;
 }

@@ -3,8 +3,9 @@
 
 #include "mesh_build.h"
 
-/* The first word, if it is not a number: what a vertex line holds. Texture, colour and normal stand behind x y z and
- * are passed over with the rest of the line; four or n coordinates would change what x y z are. */
+/* Reads the first word, unless it is a number: it says what a vertex line contains. Texture, color
+ * and normal follow x y z and are ignored with the rest of the line. Formats with 4 or n
+ * coordinates are rejected because their x y z have another meaning. */
 static bool read_keyword(mesh_build *b) {
     input *in = b->in;
     double ignored;
@@ -21,13 +22,13 @@ static bool read_keyword(mesh_build *b) {
     rest += *rest == 'C' ? 1 : 0;
     rest += *rest == 'N' ? 1 : 0;
     if (strcmp(rest, "4OFF") == 0 || strcmp(rest, "nOFF") == 0 || strcmp(rest, "4nOFF") == 0) {
-        return input_refuse(in, "%s: only three coordinates are read", word);
+        return input_error(in, "%s is not supported: vertices must have three coordinates", word);
     }
     if (strcmp(rest, "OFF") != 0) {
-        return input_refuse(in, "neither OFF nor a count: not an OFF mesh");
+        return input_error(in, "not an OFF mesh: begins with neither OFF nor a count");
     }
     if (input_more_in_line(in) && strncmp(in->at, "BINARY", 6) == 0) {
-        return input_refuse(in, "binary OFF is not read");
+        return input_error(in, "binary OFF is not supported");
     }
     return true;
 }
@@ -36,7 +37,7 @@ static bool read_counts(mesh_build *b, int64_t *vertices, int64_t *faces) {
     input *in = b->in;
     if (!input_more(in) || !input_integer(in, vertices) || !input_integer(in, faces) ||
         !input_at_word_end(in) || *vertices < 0 || *faces < 0) {
-        return input_refuse(in, "needs the counts of vertices, faces and edges");
+        return input_error(in, "counts of vertices, faces and edges expected");
     }
     (void)input_next_line(in);
     return true;
@@ -49,7 +50,7 @@ static bool read_vertex(mesh_build *b, int64_t number) {
         ok = input_number(b->in, &x[k]) && input_at_word_end(b->in);
     }
     if (!ok) {
-        return input_refuse(b->in, "vertex %lld: needs three numbers", (long long)number);
+        return input_error(b->in, "vertex %lld: three numbers expected", (long long)number);
     }
     (void)input_next_line(b->in);
     return mesh_build_vertex(b, x[0], x[1], x[2]);
@@ -59,13 +60,13 @@ static bool read_face(mesh_build *b, int64_t number) {
     input *in = b->in;
     int64_t corners = 0;
     if (!input_more(in) || !input_integer(in, &corners) || !input_at_word_end(in)) {
-        return input_refuse(in, "face %lld: needs a count of corners", (long long)number);
+        return input_error(in, "face %lld: number of corners expected", (long long)number);
     }
     for (int64_t k = 0; k < corners; k++) {
         int64_t vertex = 0;
         if (!input_integer(in, &vertex) || !input_at_word_end(in)) {
-            return input_refuse(in, "face %lld: needs %lld corners", (long long)number,
-                                (long long)corners);
+            return input_error(in, "face %lld: %lld corners expected", (long long)number,
+                               (long long)corners);
         }
         if (!mesh_build_corner(b, vertex)) {
             return false;
@@ -79,7 +80,7 @@ static bool read_face(mesh_build *b, int64_t number) {
 bool mesh_read_off(mesh_build *b) {
     b->in->comment = '#';
     if (!input_more(b->in)) {
-        return input_refuse(b->in, "empty: not an OFF mesh");
+        return input_error(b->in, "not an OFF mesh: the file is empty");
     }
     int64_t vertices = 0;
     int64_t faces = 0;

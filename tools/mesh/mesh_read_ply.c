@@ -1,4 +1,4 @@
-/* mesh_read_ply.c: reads the vertices and faces of a PLY file: ascii, binary little-endian and big-endian */
+/* mesh_read_ply.c: reads the vertices and faces of an ASCII or binary PLY file */
 #include <string.h>
 
 #include "mesh_build.h"
@@ -6,7 +6,7 @@
 #define PLY_MAX_ELEMENTS 32
 #define PLY_MAX_PROPERTIES 256
 
-/* Scalar types; the order is that of type_names and type_bytes. */
+/* Scalar types, in the order of type_names and type_bytes. */
 typedef enum ply_type {
     PLY_INT8,
     PLY_UINT8,
@@ -24,7 +24,7 @@ static const char *const type_names[2][8] = {
 };
 static const int type_bytes[8] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-/* What a property is to the mesh: the coordinates are 0, 1, 2. */
+/* The role of a property in the mesh; 0, 1, 2 are the coordinates x, y, z. */
 enum { ROLE_NONE = -1, ROLE_CORNERS = 3 };
 
 typedef struct ply_property {
@@ -35,9 +35,9 @@ typedef struct ply_property {
 } ply_property;
 
 typedef struct ply_element {
-    char name[16]; /* cut: only "vertex" and "face" matter, and messages */
+    char name[16]; /* truncated: used to find "vertex" and "face", and in messages */
     int64_t count;
-    int first; /* properties first .. past-1 */
+    int first; /* its properties are first .. past-1 */
     int past;
 } ply_element;
 
@@ -60,7 +60,7 @@ static bool read_type(input *in, ply_type *type) {
             return true;
         }
     }
-    return input_refuse(in, "'%s' is not a PLY type", word);
+    return input_error(in, "'%s' is not a PLY type", word);
 }
 
 static bool read_format(ply *f) {
@@ -70,7 +70,7 @@ static bool read_format(ply *f) {
     f->ascii = strcmp(word, "ascii") == 0;
     f->big_endian = strcmp(word, "binary_big_endian") == 0;
     if (!f->ascii && !f->big_endian && strcmp(word, "binary_little_endian") != 0) {
-        return input_refuse(in, "'%s' is not a PLY format", word);
+        return input_error(in, "'%s' is not a PLY format", word);
     }
     return true;
 }
@@ -78,14 +78,14 @@ static bool read_format(ply *f) {
 static bool read_element(ply *f) {
     input *in = f->b->in;
     if (f->n_elements == PLY_MAX_ELEMENTS) {
-        return input_refuse(in, "more than %d elements", PLY_MAX_ELEMENTS);
+        return input_error(in, "more than %d elements", PLY_MAX_ELEMENTS);
     }
     ply_element *e = &f->elements[f->n_elements++];
     input_word(in, e->name, sizeof e->name);
     e->first = f->n_properties;
     e->past = f->n_properties;
     if (!input_integer(in, &e->count) || !input_at_word_end(in) || e->count < 0) {
-        return input_refuse(in, "element %s needs a count", e->name);
+        return input_error(in, "element %s has no count", e->name);
     }
     return true;
 }
@@ -103,10 +103,10 @@ static int role_of(const char *element, const char *property, bool list) {
 static bool read_property(ply *f) {
     input *in = f->b->in;
     if (f->n_elements == 0) {
-        return input_refuse(in, "a property before the first element");
+        return input_error(in, "a property before the first element");
     }
     if (f->n_properties == PLY_MAX_PROPERTIES) {
-        return input_refuse(in, "more than %d properties", PLY_MAX_PROPERTIES);
+        return input_error(in, "more than %d properties", PLY_MAX_PROPERTIES);
     }
     ply_element *e = &f->elements[f->n_elements - 1];
     ply_property *p = &f->properties[f->n_properties++];
@@ -128,7 +128,7 @@ static bool read_property(ply *f) {
     return true;
 }
 
-/* Each of the roles first .. last must be there exactly once. */
+/* Returns whether the element has each of the roles first .. last exactly once. */
 static bool has_roles(const ply *f, const ply_element *e, int first, int last) {
     for (int role = first; role <= last; role++) {
         int times = 0;
@@ -148,26 +148,26 @@ static bool check_header(const ply *f) {
         const ply_element *e = &f->elements[k];
         bool vertex = strcmp(e->name, "vertex") == 0;
         if (vertex && !has_roles(f, e, 0, 2)) {
-            return input_refuse(f->b->in, "element vertex needs x, y and z, each once");
+            return input_error(f->b->in, "element vertex must have x, y and z, each once");
         }
         if (strcmp(e->name, "face") == 0 && e->count > 0 &&
             !has_roles(f, e, ROLE_CORNERS, ROLE_CORNERS)) {
-            return input_refuse(f->b->in, "element face needs one list vertex_indices");
+            return input_error(f->b->in, "element face must have one list vertex_indices");
         }
         vertices = vertices || vertex;
     }
-    return vertices || input_refuse(f->b->in, "no element vertex: not a mesh");
+    return vertices || input_error(f->b->in, "not a mesh: there is no element vertex");
 }
 
-/* Leaves the reading place at the first byte of the data. */
+/* Leaves in->at at the first byte of the data. */
 static bool read_header(ply *f) {
     input *in = f->b->in;
     char word[16];
     input_word(in, word, sizeof word);
     if (strcmp(word, "ply") != 0) {
-        return input_refuse(in, "does not begin with ply: not a PLY mesh");
+        return input_error(in, "not a PLY mesh: does not begin with ply");
     }
-    /* where lines end in a single \r, a \n after the header's last one is already a byte of data */
+    /* if lines end in a single \r, a \n after the last header line is already data */
     bool single_return = *in->at == '\r' && in->at[1] != '\n';
     bool formatted = false;
     while (input_next_line(in)) {
@@ -186,19 +186,19 @@ static bool read_header(ply *f) {
             } else {
                 (void)input_next_line(in);
             }
-            return formatted ? check_header(f) : input_refuse(in, "the header has no format");
+            return formatted ? check_header(f) : input_error(in, "the header has no format");
         } else if (word[0] != '\0' && strcmp(word, "comment") != 0 &&
                    strcmp(word, "obj_info") != 0) {
-            ok = input_refuse(in, "'%s' is no word of a PLY header", word);
+            ok = input_error(in, "'%s' is not a PLY header keyword", word);
         }
         if (!ok) {
             return false;
         }
     }
-    return input_refuse(in, "truncated in the header");
+    return input_error(in, "truncated in the header");
 }
 
-/* The bytes of one scalar, most significant first once collected; every PLY type fits a double exactly. */
+/* Decodes one scalar. Every PLY type fits a double exactly. */
 static double decode(const ply *f, ply_type type, const char *at) {
     int bytes = type_bytes[type];
     uint64_t bits = 0;
@@ -243,25 +243,26 @@ static bool is_index(double x) {
     return x >= 0 && x <= 4294967295.0 && x == (double)(int64_t)x;
 }
 
-/* A scalar goes to xyz, a list of corners to the polygon at hand, everything else nowhere. */
+/* Reads one property: coordinates into xyz, corners into the current polygon; others are
+ * skipped. */
 static bool read_value(ply *f, const ply_property *p, const char *element, int64_t number,
                        double xyz[3]) {
     input *in = f->b->in;
     double x = 0;
     double count = 1;
     if (p->list && (!read_scalar(f, p->count_type, &count) || !is_index(count))) {
-        return input_refuse(in, "%s %lld: truncated, or a list without a count", element,
-                            (long long)number);
+        return input_error(in, "%s %lld: truncated, or a list has no valid count", element,
+                           (long long)number);
     }
     for (int64_t k = 0; k < (int64_t)count; k++) {
         if (!read_scalar(f, p->type, &x)) {
-            return input_refuse(in, "%s %lld: truncated, or not a number", element,
-                                (long long)number);
+            return input_error(in, "%s %lld: truncated, or not a number", element,
+                               (long long)number);
         }
         if (p->role == ROLE_CORNERS) {
             if (!is_index(x)) {
-                return input_refuse(in, "%s %lld: %g is not the index of a vertex", element,
-                                    (long long)number, x);
+                return input_error(in, "%s %lld: %g is not a vertex index", element,
+                                   (long long)number, x);
             }
             if (!mesh_build_corner(f->b, (int64_t)x)) {
                 return false;
@@ -276,7 +277,7 @@ static bool read_value(ply *f, const ply_property *p, const char *element, int64
 static bool read_instances(ply *f, const ply_element *e) {
     bool vertex = strcmp(e->name, "vertex") == 0;
     bool face = strcmp(e->name, "face") == 0;
-    /* without properties there is nothing to read, however many the header claims */
+    /* without properties there is nothing to read, whatever count the header claims */
     int64_t count = e->past > e->first ? e->count : 0;
     for (int64_t number = 0; number < count; number++) {
         double xyz[3] = {0, 0, 0};

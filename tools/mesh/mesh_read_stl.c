@@ -1,28 +1,25 @@
-/* mesh_read_stl.c: reads ASCII and binary STL files; corners with the same coordinates become one vertex */
+/* mesh_read_stl.c: reads ASCII and binary STL files; merges corners with equal coordinates */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "mesh_build.h"
 
-enum {
-    HEADER = 84,
-    RECORD = 50
-}; /* bytes: 80 of anything and a count; a normal, three corners, a word */
+/* Bytes of a binary file. Header: 80 arbitrary bytes and the count of facets. Record: a normal and
+ * three corners of 3 floats each, and 2 bytes of attributes. */
+enum { HEADER = 84, RECORD = 50 };
 
-/* ---- one vertex for equal corners ---- */
-
-typedef struct place {
+typedef struct position {
     double x[3];
     sl_int vertex;
-} place;
+} position;
 
-static bool same_place(const place *a, const place *b) {
+static bool same_position(const position *a, const position *b) {
     return a->x[0] == b->x[0] && a->x[1] == b->x[1] && a->x[2] == b->x[2];
 }
 
-static int by_place(const void *a, const void *b) {
-    const place *p = (const place *)a, *q = (const place *)b;
+static int by_position(const void *a, const void *b) {
+    const position *p = (const position *)a, *q = (const position *)b;
     for (int d = 0; d < 3; d++) {
         if (p->x[d] != q->x[d]) {
             return p->x[d] < q->x[d] ? -1 : 1;
@@ -31,28 +28,29 @@ static int by_place(const void *a, const void *b) {
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-/* Vertices keep the order in which they first came. */
+/* Merges vertices with equal coordinates. The first of each keeps its rank in the order of the
+ * file. */
 static bool weld(mesh_build *b) {
-    mesh *m = &b->made;
+    mesh *m = &b->result;
     size_t n = (size_t)m->n_vertices;
-    place *places = (place *)malloc((n + 1) * sizeof *places);
+    position *points = (position *)malloc((n + 1) * sizeof *points);
     sl_int *number = (sl_int *)malloc((n + 1) * sizeof *number);
-    if (places == NULL || number == NULL) {
-        free(places);
+    if (points == NULL || number == NULL) {
+        free(points);
         free(number);
-        return input_refuse(b->in, "out of memory");
+        return input_error(b->in, "out of memory");
     }
     for (size_t v = 0; v < n; v++) {
-        memcpy(places[v].x, m->xyz + 3 * v, sizeof places[v].x);
-        places[v].vertex = (sl_int)v;
+        memcpy(points[v].x, m->xyz + 3 * v, sizeof points[v].x);
+        points[v].vertex = (sl_int)v;
     }
-    qsort(places, n, sizeof *places, by_place);
-    for (size_t k = 0; k < n; k++) { /* the first vertex of each place */
-        bool again = k > 0 && same_place(&places[k], &places[k - 1]);
-        number[places[k].vertex] = again ? number[places[k - 1].vertex] : places[k].vertex;
+    qsort(points, n, sizeof *points, by_position);
+    for (size_t k = 0; k < n; k++) { /* number[v]: the first vertex at its position */
+        bool again = k > 0 && same_position(&points[k], &points[k - 1]);
+        number[points[k].vertex] = again ? number[points[k - 1].vertex] : points[k].vertex;
     }
     sl_int kept = 0;
-    for (size_t v = 0; v < n; v++) { /* a first vertex comes before those at its place */
+    for (size_t v = 0; v < n; v++) { /* renumber; a first vertex precedes its duplicates */
         if (number[v] == (sl_int)v) {
             memmove(m->xyz + 3 * (size_t)kept, m->xyz + 3 * v, 3 * sizeof *m->xyz);
             number[v] = kept++;
@@ -66,19 +64,18 @@ static bool weld(mesh_build *b) {
     m->n_vertices = kept;
     b->largest = kept - 1; /* every vertex is a corner */
     free(number);
-    free(places);
+    free(points);
     return true;
 }
 
-/* The next corner of the facet at hand. */
+/* Adds a corner to the current facet. */
 static bool add_corner(mesh_build *b, const double x[3]) {
-    /* + 0.0: a negative zero is a zero */
+    /* + 0.0 turns a negative zero into a zero */
     return mesh_build_vertex(b, x[0] + 0.0, x[1] + 0.0, x[2] + 0.0) &&
-           mesh_build_corner(b, b->made.n_vertices - 1);
+           mesh_build_corner(b, b->result.n_vertices - 1);
 }
 
-/* ---- binary: always little-endian ---- */
-
+/* Binary files are always little-endian. */
 static uint32_t word_at(const char *bytes) {
     uint32_t word = 0;
     for (int k = 3; k >= 0; k--) {
@@ -96,7 +93,7 @@ static double float_at(const char *bytes) {
 
 static bool read_binary(mesh_build *b, uint32_t count) {
     for (uint32_t f = 0; f < count; f++) {
-        const char *at = b->in->data + HEADER + (size_t)f * RECORD + 12; /* behind the normal */
+        const char *at = b->in->data + HEADER + (size_t)f * RECORD + 12; /* after the normal */
         for (int c = 0; c < 3; c++, at += 12) {
             const double x[3] = {float_at(at), float_at(at + 4), float_at(at + 8)};
             if (!add_corner(b, x)) {
@@ -110,8 +107,7 @@ static bool read_binary(mesh_build *b, uint32_t count) {
     return true;
 }
 
-/* ---- ASCII ---- */
-
+/* Reads a word in lower case. */
 static void read_keyword(input *in, char word[16]) {
     input_word(in, word, 16);
     for (char *c = word; *c != '\0'; c++) {
@@ -123,7 +119,7 @@ static bool read_vertex(mesh_build *b) {
     double x[3];
     for (int d = 0; d < 3; d++) {
         if (!input_number(b->in, &x[d]) || !input_at_word_end(b->in)) {
-            return input_refuse(b->in, "vertex: needs three numbers");
+            return input_error(b->in, "vertex: three numbers expected");
         }
     }
     return add_corner(b, x);
@@ -138,19 +134,19 @@ static bool read_ascii(mesh_build *b) {
         bool is_end = strcmp(word, "endsolid") == 0;
         if (strcmp(word, "solid") == 0 || is_end) {
             if (in_solid != is_end || b->n_corners > 0) {
-                return input_refuse(in, "%s stands where it cannot", word);
+                return input_error(in, "unexpected %s", word);
             }
             in_solid = !is_end;
         } else if (!in_solid) {
-            return input_refuse(in, "\"%s\" stands outside of a solid", word);
+            return input_error(in, "'%s' outside a solid", word);
         } else if (strcmp(word, "vertex") == 0) {
             if (!read_vertex(b)) {
                 return false;
             }
-            continue; /* the next word may stand on the same line */
+            continue; /* the next keyword may be on the same line */
         } else if (strcmp(word, "endloop") == 0) {
             if (b->n_corners != 3) {
-                return input_refuse(in, "a facet of %d vertices", (int)b->n_corners);
+                return input_error(in, "a facet must have 3 vertices, not %d", (int)b->n_corners);
             }
             if (!mesh_build_polygon(b)) {
                 return false;
@@ -159,7 +155,7 @@ static bool read_ascii(mesh_build *b) {
         } else if (strcmp(word, "facet") == 0 || strcmp(word, "outer") == 0 ||
                    strcmp(word, "endfacet") == 0) {
             if (b->n_corners > 0) {
-                return input_refuse(in, "%s stands inside of a loop", word);
+                return input_error(in, "'%s' inside a loop", word);
             }
             if (word[0] == 'o') {
                 read_keyword(in, word); /* loop */
@@ -169,13 +165,13 @@ static bool read_ascii(mesh_build *b) {
                 continue;
             }
         } else {
-            return input_refuse(in, "\"%s\" is no word of an STL file", word);
+            return input_error(in, "'%s' is not an STL keyword", word);
         }
-        if (!input_next_line(in)) { /* what follows solid, facet is passed over */
+        if (!input_next_line(in)) { /* the rest of a solid or facet line is ignored */
             break;
         }
     }
-    return !in_solid || input_refuse(in, "ends without endsolid: truncated");
+    return !in_solid || input_error(in, "truncated: ends without endsolid");
 }
 
 static bool begins_with_solid(input *in) {
@@ -193,7 +189,7 @@ bool mesh_read_stl(mesh_build *b) {
     size_t length = (size_t)(in->end - in->data);
     uint32_t count = length >= HEADER ? word_at(in->data + 80) : 0;
     bool ok;
-    /* a binary file may begin with "solid" too: its length is what tells */
+    /* a binary file may begin with "solid" too, so the length decides */
     if (length >= HEADER && length == HEADER + (size_t)count * RECORD) {
         in->line = 0;
         ok = read_binary(b, count);
@@ -201,12 +197,12 @@ bool mesh_read_stl(mesh_build *b) {
         ok = read_ascii(b);
     } else {
         in->line = 0;
-        return input_refuse(in,
-                            length < HEADER
-                                ? "too short for an STL file"
-                                : "neither ASCII STL nor binary STL of %lu triangles: %lu "
-                                  "bytes",
-                            (unsigned long)count, (unsigned long)length);
+        return input_error(in,
+                           length < HEADER
+                               ? "too short for an STL file"
+                               : "neither ASCII STL nor binary STL of %lu triangles: %lu "
+                                 "bytes",
+                           (unsigned long)count, (unsigned long)length);
     }
     return ok && weld(b);
 }

@@ -1,11 +1,12 @@
-/* mesh_facts.c: what can be said about a triangle mesh: components, borders, faults, angles */
-#include "mesh_facts.h"
+/* mesh_stats.c: counts and measures of a triangle mesh: components, boundary, defects, angles */
+#include "mesh_stats.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One side of a face, from one corner to the next; sides between the same two vertices form an edge. */
+/* A side of a face, from one corner to the next. All sides between the same two vertices form an
+ * edge. */
 typedef struct side {
     sl_int low, high;
     bool forward; /* runs from low to high */
@@ -19,7 +20,8 @@ static int by_ends(const void *a, const void *b) {
     return x->high < y->high ? -1 : x->high > y->high;
 }
 
-/* Union-find with halved paths [Tarjan, van Leeuwen 1984]. */
+/* Union-find with path halving. Tarjan, van Leeuwen: Worst-case analysis of set union algorithms,
+ * 1984. */
 static size_t root_of(size_t *parent, size_t k) {
     while (parent[k] != k) {
         parent[k] = parent[parent[k]];
@@ -32,7 +34,7 @@ static void join(size_t *parent, size_t a, size_t b) {
     parent[root_of(parent, a)] = root_of(parent, b);
 }
 
-/* The number of distinct classes among the marked ones. */
+/* The number of classes with a marked root. */
 static sl_int count_roots(size_t *parent, const unsigned char *marked, size_t n) {
     sl_int count = 0;
     for (size_t k = 0; k < n; k++) {
@@ -41,7 +43,7 @@ static sl_int count_roots(size_t *parent, const unsigned char *marked, size_t n)
     return count;
 }
 
-static const double *place(const mesh *m, sl_int v) {
+static const double *position(const mesh *m, sl_int v) {
     return m->xyz + 3 * (size_t)v;
 }
 
@@ -49,8 +51,8 @@ static double distance(const double *a, const double *b) {
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* Edges: the sorted sides in groups. The border is joined into loops over the vertices. */
-static bool look_at_edges(mesh_facts *f, const mesh *m, size_t *parent, unsigned char *marked) {
+/* Groups the sorted sides into edges. Union-find over the vertices counts the boundary loops. */
+static bool measure_edges(mesh_stats *f, const mesh *m, size_t *parent, unsigned char *marked) {
     size_t count = 0, n = (size_t)m->n_vertices;
     side *sides = (side *)malloc((3 * (size_t)m->n_faces + 1) * sizeof *sides);
     if (sides == NULL) {
@@ -69,36 +71,35 @@ static bool look_at_edges(mesh_facts *f, const mesh *m, size_t *parent, unsigned
         marked[v] = 0;
     }
     double sum = 0;
-    f->edge_shortest = HUGE_VAL;
+    f->edge_min = HUGE_VAL;
     for (size_t k = 0, end; k < count; k = end) {
         for (end = k + 1; end < count && by_ends(&sides[k], &sides[end]) == 0;) {
             end++;
         }
-        double length = distance(place(m, sides[k].low), place(m, sides[k].high));
+        double length = distance(position(m, sides[k].low), position(m, sides[k].high));
         sum += length;
-        f->edge_shortest = fmin(f->edge_shortest, length);
-        f->edge_longest = fmax(f->edge_longest, length);
+        f->edge_min = fmin(f->edge_min, length);
+        f->edge_max = fmax(f->edge_max, length);
         f->edges++;
-        f->fan_edges += end - k > 2;
-        f->twisted_edges += end - k == 2 && sides[k].forward == sides[k + 1].forward;
+        f->nonmanifold_edges += end - k > 2;
+        f->inconsistent_edges += end - k == 2 && sides[k].forward == sides[k + 1].forward;
         if (end - k == 1) {
-            f->border_edges++;
+            f->boundary_edges++;
             marked[sides[k].low] = marked[sides[k].high] = 1;
             join(parent, (size_t)sides[k].low, (size_t)sides[k].high);
         }
     }
-    f->border_loops = count_roots(parent, marked, n);
+    f->boundary_loops = count_roots(parent, marked, n);
     f->edge_mean = f->edges > 0 ? sum / (double)f->edges : 0;
-    f->edge_shortest = f->edges > 0 ? f->edge_shortest : 0;
+    f->edge_min = f->edges > 0 ? f->edge_min : 0;
     free(sides);
     return true;
 }
 
-/* Vertices: components, and corners around each vertex joined where faces share an edge there: more than one class at a
- * vertex is a pinch. */
+/* An edge as seen from its end `at`, in one face. */
 typedef struct spoke {
-    sl_int at, other; /* an edge seen from its end `at` */
-    size_t corner;    /* of the face there */
+    sl_int at, other;
+    size_t corner; /* the corner of the face at `at`, 3 face + 0..2 */
 } spoke;
 
 static int by_spoke(const void *a, const void *b) {
@@ -109,7 +110,9 @@ static int by_spoke(const void *a, const void *b) {
     return x->other < y->other ? -1 : x->other > y->other;
 }
 
-static bool look_at_vertices(mesh_facts *f, const mesh *m, size_t *parent, unsigned char *marked) {
+/* Counts components and non-manifold vertices. Two corners at a vertex belong to the same fan if
+ * their faces share an edge there; a vertex with more than one fan is not manifold. */
+static bool measure_vertices(mesh_stats *f, const mesh *m, size_t *parent, unsigned char *marked) {
     size_t corners = 3 * (size_t)m->n_faces, n = (size_t)m->n_vertices;
     spoke *spokes = (spoke *)malloc((2 * corners + 1) * sizeof *spokes);
     size_t *fan = (size_t *)malloc((corners + 1) * sizeof *fan);
@@ -140,8 +143,8 @@ static bool look_at_vertices(mesh_facts *f, const mesh *m, size_t *parent, unsig
             fans[m->faces[k]] += root_of(fan, k) == k;
         }
         for (size_t v = 0; v < n; v++) {
-            f->pinched += fans[v] > 1;
-            f->used += marked[v];
+            f->nonmanifold_vertices += fans[v] > 1;
+            f->used_vertices += marked[v];
         }
         f->components = count_roots(parent, marked, n);
     }
@@ -151,7 +154,7 @@ static bool look_at_vertices(mesh_facts *f, const mesh *m, size_t *parent, unsig
     return ok;
 }
 
-/* Angle at a, in degrees. */
+/* The angle at a, in degrees. */
 static double angle(const double *a, const double *b, const double *c) {
     double u[3], v[3], n[3];
     for (int d = 0; d < 3; d++) {
@@ -170,35 +173,35 @@ static double face_area(const double *a, const double *b, const double *c) {
     return 0.5 * distance(a, b) * distance(a, c) * sin(x);
 }
 
-static void look_at_faces(mesh_facts *f, const mesh *m) {
-    f->angle_smallest = HUGE_VAL;
-    f->angle_largest = -HUGE_VAL;
+static void measure_faces(mesh_stats *f, const mesh *m) {
+    f->angle_min = HUGE_VAL;
+    f->angle_max = -HUGE_VAL;
     for (size_t k = 0; k < (size_t)m->n_faces; k++) {
         const sl_int *v = m->faces + 3 * k;
-        const double *x[3] = {place(m, v[0]), place(m, v[1]), place(m, v[2])};
+        const double *x[3] = {position(m, v[0]), position(m, v[1]), position(m, v[2])};
         bool twice = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
         double area = twice ? 0 : face_area(x[0], x[1], x[2]);
-        f->repeated += twice;
-        f->flat += !twice && !(area > 0);
+        f->repeated_vertex_faces += twice;
+        f->zero_area_faces += !twice && !(area > 0);
         f->area += area;
         for (int c = 0; c < 3; c++) {
             if (area > 0) {
                 double here = angle(x[c], x[(c + 1) % 3], x[(c + 2) % 3]);
-                f->angle_smallest = fmin(f->angle_smallest, here);
-                f->angle_largest = fmax(f->angle_largest, here);
+                f->angle_min = fmin(f->angle_min, here);
+                f->angle_max = fmax(f->angle_max, here);
             }
             for (int d = 0; d < 3; d++) {
-                f->low[d] = fmin(f->low[d], x[c][d]);
-                f->high[d] = fmax(f->high[d], x[c][d]);
+                f->box_min[d] = fmin(f->box_min[d], x[c][d]);
+                f->box_max[d] = fmax(f->box_max[d], x[c][d]);
             }
         }
     }
-    if (!(f->angle_smallest <= f->angle_largest)) {
-        f->angle_smallest = f->angle_largest = NAN;
+    if (!(f->angle_min <= f->angle_max)) {
+        f->angle_min = f->angle_max = NAN;
     }
 }
 
-bool mesh_facts_find(mesh_facts *out, const mesh *m) {
+bool mesh_stats_compute(mesh_stats *out, const mesh *m) {
     memset(out, 0, sizeof *out);
     for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
         if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
@@ -206,17 +209,17 @@ bool mesh_facts_find(mesh_facts *out, const mesh *m) {
         }
     }
     for (int d = 0; d < 3; d++) {
-        out->low[d] = m->n_faces > 0 ? HUGE_VAL : 0;
-        out->high[d] = m->n_faces > 0 ? -HUGE_VAL : 0;
+        out->box_min[d] = m->n_faces > 0 ? HUGE_VAL : 0;
+        out->box_max[d] = m->n_faces > 0 ? -HUGE_VAL : 0;
     }
     size_t n = (size_t)m->n_vertices;
     size_t *parent = (size_t *)malloc((n + 1) * sizeof *parent);
     unsigned char *marked = (unsigned char *)malloc(n + 1);
-    bool ok = parent != NULL && marked != NULL && look_at_edges(out, m, parent, marked) &&
-              look_at_vertices(out, m, parent, marked);
+    bool ok = parent != NULL && marked != NULL && measure_edges(out, m, parent, marked) &&
+              measure_vertices(out, m, parent, marked);
     if (ok) {
-        look_at_faces(out, m);
-        out->euler = (sl_off)out->used - out->edges + m->n_faces;
+        measure_faces(out, m);
+        out->euler = (sl_off)out->used_vertices - out->edges + m->n_faces;
     }
     free(marked);
     free(parent);

@@ -1,4 +1,5 @@
-/* mesh_write.c: writes triangle meshes with numbers and colours at their vertices as OBJ and PLY files */
+/* mesh_write.c: writes triangle meshes with vertex values and colors as OBJ and PLY files */
+#define _POSIX_C_SOURCE 200809L
 #include "mesh_write.h"
 
 #include <math.h>
@@ -6,12 +7,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <zlib.h>
 
-#include "input.h"
+#include "tools/io/input.h"
+#include "tools/io/output_file.h"
 
-/* A file being written, plain or gzipped; it remembers that something failed. */
+/* A file being written, plain or gzipped; failed is set by the first error. */
 typedef struct sink {
     gzFile file;
     bool failed;
@@ -33,9 +36,7 @@ INPUT_PRINTF(2, 3) static void print(sink *s, const char *format, ...) {
     }
 }
 
-/* ---- OBJ ---- */
-
-/* The first field as 0..1, where nothing else gives texture coordinates. */
+/* Writes a field as the texture coordinate u, scaled from its range to 0..1. */
 static void print_field_as_uv(sink *s, const mesh_field *field, sl_int n) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (sl_int v = 0; v < n; v++) {
@@ -50,6 +51,7 @@ static void print_field_as_uv(sink *s, const mesh_field *field, sl_int n) {
     }
 }
 
+/* Returns whether texture coordinates were written. */
 static bool print_uv(sink *s, const mesh *m, const mesh_extra *extra) {
     const double *uv = extra->corner_uv != NULL ? extra->corner_uv : extra->uv;
     size_t count = extra->corner_uv != NULL ? 3 * (size_t)m->n_faces : (size_t)m->n_vertices;
@@ -96,8 +98,7 @@ static void write_obj(sink *s, const mesh *m, const mesh_extra *extra) {
     }
 }
 
-/* ---- PLY ---- */
-
+/* A double, little-endian. */
 static void put_number(sink *s, double x) {
     unsigned char bytes[8];
     uint64_t bits;
@@ -150,7 +151,7 @@ static void write_ply(sink *s, const mesh *m, const mesh_extra *extra) {
     }
 }
 
-static bool refuse(char *message, size_t size, const char *path, const char *words) {
+static bool fail(char *message, size_t size, const char *path, const char *words) {
     if (message != NULL && size > 0) {
         (void)snprintf(message, size, "%s: %s", path, words);
     }
@@ -164,15 +165,28 @@ bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *
     size_t length = strlen(path);
     bool packed = length > 3 && strcmp(path + length - 3, ".gz") == 0;
     if (!obj && !ply) {
-        return refuse(message, message_size, path,
-                      "a mesh is written as .obj or .ply, or one of these with .gz");
+        return fail(
+            message, message_size, path,
+            "unknown mesh format: the name must end in .obj or .ply, optionally followed by .gz");
     }
-    sink s = {gzopen(path, packed ? "wb6" : "wbT"), false};
-    if (s.file == NULL) {
-        return refuse(message, message_size, path, "cannot be written");
+    FILE *file = output_open(path, message, message_size);
+    if (file == NULL) {
+        return false;
     }
-    (void)gzbuffer(s.file, 1u << 17);
-    (obj ? write_obj : write_ply)(&s, m, extra != NULL ? extra : &nothing);
-    bool closed = gzclose(s.file) == Z_OK;
-    return (closed && !s.failed) || refuse(message, message_size, path, "was not written whole");
+    /* zlib writes to the descriptor of the stream, which itself stays empty. */
+    int fd = dup(fileno(file));
+    sink s = {fd >= 0 ? gzdopen(fd, packed ? "wb6" : "wbT") : NULL, false};
+    bool written = s.file != NULL;
+    if (written) {
+        (void)gzbuffer(s.file, 1u << 17);
+        (obj ? write_obj : write_ply)(&s, m, extra != NULL ? extra : &nothing);
+        written = gzclose(s.file) == Z_OK && !s.failed;
+    } else if (fd >= 0) {
+        (void)close(fd);
+    }
+    if (!written) {
+        output_discard(file);
+        return fail(message, message_size, path, "could not be written completely");
+    }
+    return output_close(file, message, message_size);
 }

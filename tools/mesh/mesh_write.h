@@ -1,39 +1,42 @@
-/* mesh_write.h: writes triangle meshes with numbers and colours at their vertices as OBJ and PLY files */
+/* mesh_write.h: writes triangle meshes with vertex values and colors as OBJ and PLY files */
 #ifndef TOOLS_MESH_WRITE_H
 #define TOOLS_MESH_WRITE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "colors.h"
+#include "rgb.h"
 #include "mesh.h"
 
-/** A number at each vertex. */
+/** A named value at each vertex. */
 typedef struct mesh_field {
     const char *name;    /* letters, digits, underscores */
     const double *value; /* n_vertices */
 } mesh_field;
 
-/** What goes into the file beside vertices and faces; all zero is nothing. */
+/** Optional data to write with a mesh. All pointers may be NULL; all zero writes the mesh alone. */
 typedef struct mesh_extra {
-    const double *uv;        /* 2 n_vertices texture coordinates */
-    const double *corner_uv; /* 6 n_faces texture coordinates of corners; OBJ only, instead of uv */
+    const double *uv;        /* 2 n_vertices: texture coordinates u v */
+    const double *corner_uv; /* 6 n_faces: texture coordinates of corners; OBJ only, replaces uv */
     const rgb *color;        /* n_vertices */
     const mesh_field *fields;
     int n_fields;
 } mesh_extra;
 
-/** Writes a mesh; the ending of the name tells the format: .obj or .ply, plain or with .gz after it.
+/** Writes a mesh. The file name selects the format: .obj or .ply, plain or with .gz.
  *
- *  OBJ  v lines (with r g b in 0..1 behind x y z where there are colours), vt lines and f v/vt corners where there are
- *       texture coordinates; without these the first field takes their place as u (what lies between its smallest and
- *       largest value, as 0..1). All fields stand in comment lines "#field NAME" and "#f VALUE".
- *  PLY  binary little-endian: x y z as doubles, fields as double properties of their names, s t for texture
+ *  OBJ  v lines, with r g b in 0..1 after x y z if there are colors; vt lines and f v/vt corners if
+ *       there are texture coordinates. Without texture coordinates the first field is written as u,
+ *       scaled from its range to 0..1. All fields follow as comment lines "#field NAME" and
+ *       "#f VALUE".
+ *  PLY  binary little-endian: x y z as double, fields as double properties by name, s t for texture
  *       coordinates, red green blue.
  *
- *  message  [out]  on error what is wrong; may be NULL.
- *  Returns  true; false: another ending, or the file cannot be written.
- *  Example  tests/test_tools_mesh_write.c
+ *  path     [in]   the file; an existing one is replaced only by a complete one (output_open).
+ *  extra    [in]   may be NULL.
+ *  message  [out]  the reason on error, message_size bytes; may be NULL.
+ *  Returns  true; false: unknown file name extension, or the file cannot be written.
+ *  Example  tests/tools/test_mesh_write.c
  */
 bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *message,
                 size_t message_size);

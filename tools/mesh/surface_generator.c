@@ -1,5 +1,5 @@
-/* surface.c: made-up surfaces of any size, by a short name: grids, spheres, tori, knots, bumpy ones */
-#include "surface.h"
+/* surface_generator.c: synthetic surfaces of any size, by name: grids, spheres, tori, a knot */
+#include "surface_generator.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,15 +10,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { MOST_CUTS = 10 };
+enum { MAX_SUBDIVISIONS = 10 };
 
-/* ---- the subdivided icosahedron ---- */
-
-/* Each edge of an icosahedron becomes 2^cuts edges. The middle of the edge (a, b) of one level is found by a table of the
- * edges of that level, sorted: no hashing, and the same numbers everywhere. */
+/* A side of a face. Subdivision finds the sides of an edge by sorting all sides: no hashing is
+ * needed, and the vertex numbers are the same on every machine. */
 typedef struct half_edge {
-    sl_int low, high; /* ends */
-    size_t place; /* 3 face + corner: the edge opposite to nothing, from that corner to the next */
+    sl_int low, high; /* its two vertices, low < high */
+    size_t corner;    /* 3 face + corner: the side from that corner to the next */
 } half_edge;
 
 static int by_ends(const void *a, const void *b) {
@@ -29,7 +27,7 @@ static int by_ends(const void *a, const void *b) {
     if (x->high != y->high) {
         return x->high < y->high ? -1 : 1;
     }
-    return x->place < y->place ? -1 : x->place > y->place;
+    return x->corner < y->corner ? -1 : x->corner > y->corner;
 }
 
 static void to_sphere(double *x) {
@@ -62,8 +60,9 @@ static bool icosahedron(mesh *m) {
     return true;
 }
 
-/* Numbers the middles of the edges; middle[3 f + c] is that of the edge from corner c to the next. */
-static bool make_middles(mesh *fine, sl_int *middle, const mesh *m) {
+/* Adds the midpoint of each edge, projected to the sphere. middle[3 f + c] is the vertex on the
+ * edge of face f from corner c to the next. */
+static bool add_midpoints(mesh *fine, sl_int *middle, const mesh *m) {
     size_t count = 3 * (size_t)m->n_faces;
     half_edge *edges = (half_edge *)malloc(count * sizeof *edges);
     if (edges == NULL) {
@@ -73,7 +72,7 @@ static bool make_middles(mesh *fine, sl_int *middle, const mesh *m) {
         sl_int a = m->faces[k], b = m->faces[k % 3 == 2 ? k - 2 : k + 1];
         edges[k].low = a < b ? a : b;
         edges[k].high = a < b ? b : a;
-        edges[k].place = k;
+        edges[k].corner = k;
     }
     qsort(edges, count, sizeof *edges, by_ends);
     for (size_t k = 0; k < count; k++) {
@@ -84,14 +83,14 @@ static bool make_middles(mesh *fine, sl_int *middle, const mesh *m) {
             }
             to_sphere(x);
         }
-        middle[edges[k].place] = fine->n_vertices - 1;
+        middle[edges[k].corner] = fine->n_vertices - 1;
     }
     free(edges);
     return true;
 }
 
-/* Each triangle becomes four. Closed: as many new vertices as edges, 3 n_faces / 2. */
-static bool cut(mesh *m) {
+/* Splits each triangle into four. The surface is closed: it has 3 n_faces / 2 edges. */
+static bool subdivide(mesh *m) {
     mesh fine;
     memset(&fine, 0, sizeof fine);
     size_t vertices = (size_t)m->n_vertices + 3 * (size_t)m->n_faces / 2;
@@ -103,7 +102,7 @@ static bool cut(mesh *m) {
     bool ok = middle != NULL && fine.xyz != NULL && fine.faces != NULL;
     if (ok) {
         memcpy(fine.xyz, m->xyz, 3 * (size_t)m->n_vertices * sizeof *fine.xyz);
-        ok = make_middles(&fine, middle, m);
+        ok = add_midpoints(&fine, middle, m);
     }
     for (size_t f = 0; ok && f < (size_t)m->n_faces; f++) {
         const sl_int *old = m->faces + 3 * f, *mid = middle + 3 * f;
@@ -124,13 +123,13 @@ static bool cut(mesh *m) {
 static bool make_sphere(mesh *m, sl_int cuts) {
     bool ok = icosahedron(m);
     for (sl_int k = 0; ok && k < cuts; k++) {
-        ok = cut(m);
+        ok = subdivide(m);
     }
     return ok;
 }
 
-/* Bumps of several sizes, of no symmetry. */
-static void bump(mesh *m) {
+/* Bumps of several sizes, without any symmetry. */
+static void add_bumps(mesh *m) {
     for (size_t v = 0; v < (size_t)m->n_vertices; v++) {
         double *x = m->xyz + 3 * v;
         double r = 1 + 0.22 * sin(2.3 * x[0] + 0.7) * cos(1.9 * x[1] - 0.4) +
@@ -143,9 +142,7 @@ static void bump(mesh *m) {
     }
 }
 
-/* ---- a star: a sphere with five arms of different lengths ---- */
-
-/* How far out the star reaches in a direction. */
+/* The radius of the star in a direction: a sphere with five arms of different lengths. */
 static double star_radius(const double x[3]) {
     static const double arms[5][5] = {/* unit direction, length, sharpness */
                                       {0.099, 0.990, 0.099, 1.5, 14},
@@ -170,7 +167,8 @@ static void grow_arms(mesh *m) {
     }
 }
 
-/* Adds area times middle of a face of the star to its corners; sum: 4 numbers a vertex. */
+/* Adds area * centroid (up to a factor) and area of a face of the star to the sums of its corners;
+ * sum: 4 numbers per vertex. */
 static void add_face(double *sum, const mesh *m, const sl_int *f) {
     const double *a = m->xyz + 3 * (size_t)f[0], *b = m->xyz + 3 * (size_t)f[1],
                  *c = m->xyz + 3 * (size_t)f[2];
@@ -189,9 +187,9 @@ static void add_face(double *sum, const mesh *m, const sl_int *f) {
     }
 }
 
-/* Moves the directions of a sphere's vertices so that the faces of the star come out alike in area: each vertex goes to
- * the middle of its faces, some times over. */
-static bool even_out(mesh *m) {
+/* Moves the vertices on the sphere so that the faces of the star have similar areas: each vertex
+ * moves to the area-weighted centroid of its faces, ROUNDS times. */
+static bool equalize_areas(mesh *m) {
     enum { ROUNDS = 16 };
     size_t n = (size_t)m->n_vertices;
     double *sum = (double *)malloc(4 * n * sizeof *sum);
@@ -214,15 +212,13 @@ static bool even_out(mesh *m) {
 static bool make_star(mesh *m, sl_int cuts) {
     bool ok = icosahedron(m);
     for (sl_int k = 0; ok && k < cuts; k++) {
-        ok = cut(m) && even_out(m);
+        ok = subdivide(m) && equalize_areas(m);
     }
     if (ok) {
         grow_arms(m);
     }
     return ok;
 }
-
-/* ---- tubes ---- */
 
 static void point_of_knot(double out[3], double s) {
     out[0] = sin(s) + 2 * sin(2 * s);
@@ -242,7 +238,8 @@ static void cross(double out[3], const double a[3], const double b[3]) {
     }
 }
 
-/* Two directions across the curve at s; the second from its second derivative, which neither of the curves lacks. */
+/* Two unit vectors normal to the curve at s. The second is derived from the second derivative,
+ * which does not vanish on either curve. */
 static void frame(double side[3], double out[3], void (*point)(double *, double), double s) {
     const double h = 1e-4;
     double before[3], at[3], after[3], along[3];
@@ -271,14 +268,14 @@ static bool make_tube(mesh *m, sl_int w, sl_int h, double radius, void (*point)(
     double *x = m->xyz;
     sl_int *f = m->faces;
     for (sl_int i = 0; i < w; i++) {
-        double s = 2 * pi * i / w, centre[3], side[3], out[3];
-        point(centre, s);
+        double s = 2 * pi * i / w, center[3], side[3], out[3];
+        point(center, s);
         frame(side, out, point, s);
         for (sl_int j = 0; j < h; j++, x += 3, f += 6) {
             double t = 2 * pi * j / h;
             sl_int i1 = i + 1 < w ? i + 1 : 0, j1 = j + 1 < h ? j + 1 : 0;
             for (int d = 0; d < 3; d++) {
-                x[d] = centre[d] + radius * (cos(t) * out[d] + sin(t) * side[d]);
+                x[d] = center[d] + radius * (cos(t) * out[d] + sin(t) * side[d]);
             }
             const sl_int square[6] = {i * h + j, i1 * h + j,  i1 * h + j1,
                                       i * h + j, i1 * h + j1, i * h + j1};
@@ -287,8 +284,6 @@ static bool make_tube(mesh *m, sl_int w, sl_int h, double radius, void (*point)(
     }
     return true;
 }
-
-/* ---- names ---- */
 
 static bool make_hills(mesh *m, sl_int w, sl_int h) {
     if (!mesh_grid(m, w, h, 0.2, 1)) {
@@ -315,11 +310,11 @@ static kind kind_of(const char *text) {
     return (kind)k;
 }
 
-bool surface_is_named(const char *text) {
+bool surface_is_specification(const char *text) {
     return kind_of(text) != N_KINDS;
 }
 
-static bool refuse(char *message, size_t size, const char *text, const char *words) {
+static bool fail(char *message, size_t size, const char *text, const char *words) {
     if (message != NULL && size > 0) {
         (void)snprintf(message, size, "%s: %s", text, words);
     }
@@ -338,7 +333,7 @@ static bool make(mesh *out, kind k, sl_int w, sl_int h) {
             return false;
         }
         if (k == BLOB) {
-            bump(out);
+            add_bumps(out);
         }
         return true;
     case STAR:
@@ -353,11 +348,11 @@ static bool make(mesh *out, kind k, sl_int w, sl_int h) {
     return false;
 }
 
-bool surface_make(mesh *out, const char *text, char *message, size_t message_size) {
+bool surface_generate(mesh *out, const char *text, char *message, size_t message_size) {
     memset(out, 0, sizeof *out);
     kind k = kind_of(text);
     if (k == N_KINDS) {
-        return refuse(message, message_size, text, "no surface of this name");
+        return fail(message, message_size, text, "no surface has this name");
     }
     const char *sizes = text + strlen(names[k]);
     bool one = k == SPHERE || k == BLOB || k == STAR;
@@ -365,18 +360,18 @@ bool surface_make(mesh *out, const char *text, char *message, size_t message_siz
     char rest = 0;
     if (one ? sscanf(sizes, "%9d%c", &w, &rest) != 1
             : sscanf(sizes, "%9dx%9d%c", &w, &h, &rest) != 2) {
-        return refuse(message, message_size, text,
-                      one ? "needs a number behind the colon, like 5"
-                          : "needs two sizes behind the colon, like 100x100");
+        return fail(message, message_size, text,
+                    one ? "a number is needed after the colon, like 5"
+                        : "two sizes are needed after the colon, like 100x100");
     }
     int fewest = one ? 0 : k == TORUS || k == KNOT ? 3 : 1;
-    if (w < fewest || (one && w > MOST_CUTS) || (!one && h < fewest) ||
+    if (w < fewest || (one && w > MAX_SUBDIVISIONS) || (!one && h < fewest) ||
         (!one && 2 * (int64_t)w * h > INT32_MAX / 3)) {
-        return refuse(message, message_size, text, "a size out of range");
+        return fail(message, message_size, text, "a size is out of range");
     }
     if (!make(out, k, (sl_int)w, (sl_int)h)) {
         mesh_free(out);
-        return refuse(message, message_size, text, "out of memory");
+        return fail(message, message_size, text, "out of memory");
     }
     return true;
 }
