@@ -1,38 +1,40 @@
-/* test_batch.c: many solves by one call: the bits of single solves for any number of threads, wrong requests */
-#include "parallel_for.h"
-#include "problem.h"
+/* test_batch.c: sl_batch_solve: the bits of single solves for any number of threads, errors */
+#include "tests/lib/parallel_for.h"
+#include "tests/lib/factored.h"
 
 enum { REQUESTS = 9 };
 
-/* Requests of every kind over one factor, and what single solves answer. */
+/* Requests of every kind for one factor, and the results of single solves. */
 typedef struct batch_t {
-    problem_t y;
-    sl_plan *plan[REQUESTS]; /* the last has none: a full solve */
+    factored_t y;
+    sl_plan *plan[REQUESTS]; /* NULL for the last: a full solve */
     sl_request request[REQUESTS];
-    double *X[REQUESTS], *B[REQUESTS], *wanted[REQUESTS];
-    size_t size[REQUESTS]; /* of X */
+    double *X[REQUESTS], *B[REQUESTS], *expected[REQUESTS];
+    size_t size[REQUESTS]; /* doubles in X */
+    int is_interleaved;    /* X and B are row-major */
 } batch_t;
 
-/* What a single call answers to request k. */
-static void solve_alone(batch_t *t, int k) {
+/* The result of request k by a single call. */
+static void solve_single(batch_t *t, int k) {
     const sl_request *r = &t->request[k];
     if (!r->plan) {
-        SL_CHECK((r->is_interleaved ? sl_factor_solve_interleaved : sl_factor_solve)(
-            t->y.F, t->wanted[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+        SL_CHECK((t->is_interleaved ? sl_factor_solve_interleaved : sl_factor_solve)(
+            t->y.F, t->expected[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
     } else {
-        SL_CHECK((r->is_interleaved ? sl_plan_solve_interleaved : sl_plan_solve)(
-            r->plan, t->y.F, t->wanted[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+        SL_CHECK((t->is_interleaved ? sl_plan_solve_interleaved : sl_plan_solve)(
+            r->plan, t->y.F, t->expected[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
     }
 }
 
-static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa) {
+static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa, int is_interleaved) {
     static const sl_int columns[REQUESTS] = {1, 3, 8, 0, 40, 17, 2, 9, 21};
     sl_options opt = options_none();
     batch_t t;
     uint64_t seed = 5;
     memset(&t, 0, sizeof t);
+    t.is_interleaved = is_interleaved;
     opt.isa = isa;
-    t.y = problem_make(kind, size, 0, 0, &opt);
+    t.y = factored_make(kind, size, 0, 0, &opt);
     sl_int n = t.y.M.view.n_cols;
     for (int k = 0; k < REQUESTS; k++) {
         int is_full = k == REQUESTS - 1;
@@ -47,18 +49,17 @@ static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa) {
         sl_request *r = &t.request[k];
         r->plan = t.plan[k];
         r->nrhs = columns[k];
-        r->is_interleaved = k % 3 == 1 || k == REQUESTS - 1;
         size_t across = (size_t)columns[k];
-        r->ldb = r->is_interleaved ? across + 3 : (size_t)nb + 2;
-        r->ldx = r->is_interleaved ? across + 1 : (size_t)nx + 1;
-        t.size[k] = r->ldx * (r->is_interleaved ? (size_t)nx : across);
+        r->ldb = is_interleaved ? across + 3 : (size_t)nb + 2;
+        r->ldx = is_interleaved ? across + 1 : (size_t)nx + 1;
+        t.size[k] = r->ldx * (t.is_interleaved ? (size_t)nx : across);
         t.X[k] = r->X = test_reals(t.size[k]);
-        size_t size_b = r->ldb * (r->is_interleaved ? (size_t)nb : across);
+        size_t size_b = r->ldb * (t.is_interleaved ? (size_t)nb : across);
         t.B[k] = test_reals(size_b);
-        t.wanted[k] = test_reals(t.size[k]);
+        t.expected[k] = test_reals(t.size[k]);
         gen_reals(t.B[k], size_b, gen_bits(&seed));
         r->B = t.B[k];
-        solve_alone(&t, k);
+        solve_single(&t, k);
         free(bset);
         free(xset);
     }
@@ -70,25 +71,31 @@ static void batch_free(batch_t *t) {
         sl_plan_free(t->plan[k]);
         free(t->X[k]);
         free(t->B[k]);
-        free(t->wanted[k]);
+        free(t->expected[k]);
     }
-    problem_free(&t->y);
+    factored_free(&t->y);
 }
 
 static void batch_check(batch_t *t) {
     for (int k = 0; k < REQUESTS; k++) {
-        SAME_VALUES(t->X[k], t->wanted[k], t->size[k]);
+        SAME_VALUES(t->X[k], t->expected[k], t->size[k]);
         memset(t->X[k], 0, t->size[k] * sizeof(double));
     }
 }
 
-static void the_bits_of_single_solves(void **state) {
+static sl_status batch_solve(const batch_t *t, const sl_options *opt, sl_work *const *works,
+                             sl_int *failed) {
+    return (t->is_interleaved ? sl_batch_solve_interleaved
+                              : sl_batch_solve)(t->y.F, t->request, REQUESTS, opt, works, failed);
+}
+
+static void a_batch_gives_the_bits_of_single_solves(void **state) {
     (void)state;
     static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_COMPONENTS, GEN_PATH, GEN_ONE};
     isa_list_t isas = isas_present();
-    for (int kind = 0; kind < 4; kind++) {
+    for (int kind = 0; kind < 8; kind++) {
         for (int isa = 0; isa < isas.count; isa++) {
-            batch_t t = batch_make(kinds[kind], 200, isas.isa[isa]);
+            batch_t t = batch_make(kinds[kind / 2], 200, isas.isa[isa], kind % 2);
             sl_work *works[40];
             for (int k = 0; k < 40; k++) {
                 SL_CHECK(sl_work_create(&works[k], NULL));
@@ -97,17 +104,17 @@ static void the_bits_of_single_solves(void **state) {
                 int calls = 0;
                 sl_int failed = 7;
                 sl_threads threads = {count, count % 2 ? run_threads : run_backwards, &calls};
-                SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, &failed));
+                SL_CHECK(batch_solve(&t, THREADS(threads), NULL, &failed));
                 assert_int_equal(failed, -1);
                 assert_int_equal(calls, count > 1);
                 batch_check(&t);
-                SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, NULL));
+                SL_CHECK(batch_solve(&t, THREADS(threads), works, NULL));
                 batch_check(&t);
-                threads.run = NULL; /* OpenMP, or one after the other */
-                SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, NULL));
+                threads.run = NULL; /* OpenMP or serial */
+                SL_CHECK(batch_solve(&t, THREADS(threads), works, NULL));
                 batch_check(&t);
             }
-            SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, NULL, NULL, NULL));
+            SL_CHECK(batch_solve(&t, NULL, NULL, NULL));
             batch_check(&t);
             SL_CHECK(sl_batch_solve(t.y.F, NULL, 0, NULL, NULL, NULL));
             for (int k = 0; k < 40; k++) {
@@ -118,17 +125,17 @@ static void the_bits_of_single_solves(void **state) {
     }
 }
 
-/* Every worker has something to do where there is enough: nobody does it all. */
-static void the_work_is_shared(void **state) {
+/* All workers solve right-hand sides: all their workspaces grow. */
+static void all_workers_take_part(void **state) {
     (void)state;
-    batch_t t = batch_make(GEN_GRID2, 400, SL_ISA_AUTO);
+    batch_t t = batch_make(GEN_GRID2, 400, SL_ISA_AUTO, 0);
     int calls = 0;
     sl_work *works[4];
     for (int k = 0; k < 4; k++) {
         SL_CHECK(sl_work_create(&works[k], NULL));
     }
     sl_threads threads = {4, run_threads, &calls};
-    SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, NULL));
+    SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), works, NULL));
     assert_int_equal(calls, 1);
     batch_check(&t);
     size_t bytes = sl_work_bytes(works[0]);
@@ -140,10 +147,10 @@ static void the_work_is_shared(void **state) {
     batch_free(&t);
 }
 
-static void wrong_requests_touch_nothing(void **state) {
+static void invalid_requests_change_nothing(void **state) {
     (void)state;
-    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO),
-            other = batch_make(GEN_PATH, 100, SL_ISA_AUTO);
+    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO, 0),
+            other = batch_make(GEN_PATH, 100, SL_ISA_AUTO, 0);
     sl_request keep = t.request[5]; /* column-major, 17 right-hand sides */
     sl_int failed = 7;
     int calls = 0;
@@ -168,7 +175,7 @@ static void wrong_requests_touch_nothing(void **state) {
             break;
         case 3:
             r->X = (double *)(uintptr_t)r->B;
-            break; /* in place with two strides */
+            break; /* in place with different strides */
         case 4:
             r->plan = other.plan[0];
             r->ldx = r->ldb = 1000;
@@ -176,23 +183,24 @@ static void wrong_requests_touch_nothing(void **state) {
             break;
         }
         SL_EXPECT(wrong == 4 ? SL_ERR_STATE : SL_ERR_ARGUMENT,
-                  sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, &failed));
+                  sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), NULL, &failed));
         assert_int_equal(failed, 5);
         *r = keep;
     }
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));
+              sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), works, &failed));
     SL_CHECK(sl_work_create(&works[0], NULL));
     works[1] = works[0];
     SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, works, &failed));
+              sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), works, &failed));
     sl_work_free(works[0]);
-    threads.count = INT32_MAX; /* no more workers than blocks of right-hand sides */
-    SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, NULL));
+    threads.count = INT32_MAX; /* more workers than blocks of right-hand sides */
+    SL_CHECK(sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), NULL, NULL));
     memset(t.X[0], 0, t.size[0] * sizeof(double));
     calls = 0;
     threads.count = -1;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_solve(t.y.F, t.request, REQUESTS, &threads, NULL, &failed));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_solve(t.y.F, t.request, REQUESTS, THREADS(threads), NULL, &failed));
     assert_int_equal(calls, 0);
     for (size_t k = 0; k < t.size[0]; k++) {
         assert_true(t.X[0][k] == 0.0);
@@ -201,19 +209,19 @@ static void wrong_requests_touch_nothing(void **state) {
     batch_free(&other);
 }
 
-static void memory_may_fail(void **state) {
+static void a_failed_allocation_is_reported(void **state) {
     (void)state;
     counter_t counter = counter_make();
-    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO);
+    batch_t t = batch_make(GEN_GRID2, 100, SL_ISA_AUTO, 0);
     sl_options opt = options_counted(&counter);
     sl_factor *F = NULL;
     int calls = 0;
     sl_threads threads = {3, run_backwards, &calls};
     SL_CHECK(sl_factor_create(&F, t.y.S, &t.y.M.view, &opt, NULL));
     counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_batch_solve(F, t.request, REQUESTS, &threads, NULL, NULL));
+    SL_EXPECT(SL_ERR_MEMORY, sl_batch_solve(F, t.request, REQUESTS, THREADS(threads), NULL, NULL));
     counter.fail_at = -1;
-    SL_CHECK(sl_batch_solve(F, t.request, REQUESTS, &threads, NULL, NULL));
+    SL_CHECK(sl_batch_solve(F, t.request, REQUESTS, THREADS(threads), NULL, NULL));
     batch_check(&t);
     sl_factor_free(F);
     batch_free(&t);
@@ -222,10 +230,10 @@ static void memory_may_fail(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bits_of_single_solves),
-        cmocka_unit_test(the_work_is_shared),
-        cmocka_unit_test(wrong_requests_touch_nothing),
-        cmocka_unit_test(memory_may_fail),
+        cmocka_unit_test(a_batch_gives_the_bits_of_single_solves),
+        cmocka_unit_test(all_workers_take_part),
+        cmocka_unit_test(invalid_requests_change_nothing),
+        cmocka_unit_test(a_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,28 +1,28 @@
-/* test_batch_factor.c: several factors over one analysis by one call: bits, threads, those that fail, memory */
-#include "family.h"
+/* test_batch_factor.c: sl_batch_factor and sl_batch_refactor: bits, threads, errors, memory */
+#include "tests/lib/factor_array.h"
 
-static void assert_family(const several_t *y, sl_factor *const *F, const double *c, int count,
-                          sl_options opt) {
+static void assert_factors(const matrix_pair_t *y, sl_factor *const *F, const double *c, int count,
+                           sl_options opt) {
     opt.threads.count = 0;
     for (int k = 0; k < count; k++) {
-        sl_factor *alone = NULL;
-        SL_CHECK(sl_factor_create_combination(&alone, y->S, c + TERMS * k, several_values(y), TERMS,
-                                              &opt, NULL));
-        assert_same_bits(F[k], alone);
-        sl_factor_free(alone);
+        sl_factor *single = NULL;
+        SL_CHECK(sl_factor_create_combination(&single, y->S, c + TERMS * k, matrix_pair_values(y),
+                                              TERMS, &opt, NULL));
+        assert_same_bits(F[k], single);
+        sl_factor_free(single);
     }
 }
 
-static void the_bits_of_single_factors(void **state) {
+static void a_batch_gives_the_bits_of_single_factors(void **state) {
     (void)state;
     static const gen_kind_t kinds[5] = {GEN_GRID2, GEN_KKT, GEN_COMPONENTS, GEN_ONE, GEN_NONE};
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     double c[TERMS * MOST], other[TERMS * MOST];
     coefficients_of(c, MOST, 0.01);
     coefficients_of(other, MOST, 3);
     for (int kind = 0; kind < 5; kind++) {
-        several_t y = several_make(kinds[kind], 200, 0, 1, NULL);
-        for (int way = 0; way < ways.count; way++) {
+        matrix_pair_t y = matrix_pair_make(kinds[kind], 200, 0, 1, NULL);
+        for (int variant = 0; variant < variants.count; variant++) {
             for (int threads = 0; threads <= 4; threads++) {
                 for (int count = 0; count <= MOST; count = count * 2 + (count < 3)) {
                     counter_t counter = counter_make();
@@ -30,24 +30,24 @@ static void the_bits_of_single_factors(void **state) {
                     sl_factor *F[MOST] = {NULL};
                     sl_int failed = 7;
                     int calls = 0;
-                    way_take(&opt, &ways, way);
+                    options_set_variant(&opt, &variants, variant);
                     opt.threads = threads_of(threads, &calls);
-                    SL_CHECK(sl_batch_factor(F, count, y.S, c, several_values(&y), TERMS, &opt,
+                    SL_CHECK(sl_batch_factor(F, count, y.S, c, matrix_pair_values(&y), TERMS, &opt,
                                              &failed, NULL));
                     assert_int_equal(failed, -1);
                     assert_true(calls == 0 || (threads > 1 && count > 0));
-                    assert_family(&y, F, c, count, opt);
-                    size_t asked = counter.calls;
+                    assert_factors(&y, F, c, count, opt);
+                    size_t requests = counter.calls;
                     for (int again = 0; again <= 4; again++) {
                         const sl_threads others = threads_of(again, &calls);
                         const double *now = again % 2 ? c : other;
-                        SL_CHECK(sl_batch_refactor(F, count, now, several_values(&y), TERMS,
-                                                   again ? &others : NULL, &failed, NULL));
+                        SL_CHECK(sl_batch_refactor(F, count, now, matrix_pair_values(&y), TERMS,
+                                                   again ? THREADS(others) : NULL, &failed, NULL));
                         assert_int_equal(failed, -1);
-                        assert_int_equal(counter.calls, asked); /* allocates nothing */
+                        assert_int_equal(counter.calls, requests); /* allocates nothing */
                         if (again == 0 || again == 3) {
-                            assert_family(&y, F, now, count, opt);
-                            asked = counter.calls;
+                            assert_factors(&y, F, now, count, opt);
+                            requests = counter.calls;
                         }
                     }
                     free_all(F, count);
@@ -55,49 +55,51 @@ static void the_bits_of_single_factors(void **state) {
                 }
             }
         }
-        several_free(&y);
+        matrix_pair_free(&y);
     }
 }
 
-/* Whole factors to each thread while they go round; what is left over is factored by all threads together. */
+/* Each thread takes whole factors as long as there is one for every thread; all threads together
+ * compute the remaining ones. */
 static void threads_take_whole_factors_and_share_the_rest(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID3, 15 * 15 * 15, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID3, 15 * 15 * 15, 0, 1, NULL);
     double c[TERMS * MOST];
     coefficients_of(c, MOST, 0.5);
     for (int count = 1; count <= 5; count++) {
         sl_options opt = options_none();
         sl_factor *F[MOST] = {NULL};
         int calls = 0;
-        sl_stats stats, alone;
+        sl_stats stats, single;
         memset(&stats, 0, sizeof stats);
-        memset(&alone, 0, sizeof alone);
+        memset(&single, 0, sizeof single);
         opt.method = SL_METHOD_SUPERNODAL;
         opt.threads = threads_of(3, &calls);
-        SL_CHECK(sl_batch_factor(F, count, y.S, c, several_values(&y), TERMS, &opt, NULL, &stats));
+        SL_CHECK(
+            sl_batch_factor(F, count, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, &stats));
         if (count == 3) {
             assert_int_equal(calls, 1); /* one loop over three factors */
         } else {
-            assert_true(calls > 1); /* fronts are shared out */
+            assert_true(calls > 1); /* several loops over the tasks of one factor */
         }
-        assert_int_equal(stats.positive, y.n);
+        assert_int_equal(stats.factor.positive, y.n);
         size_t bytes = 0;
         for (int k = 0; k < count; k++) {
-            sl_factor_stats(F[k], &alone);
-            bytes += alone.bytes_factor;
+            sl_factor_stats(F[k], &single);
+            bytes += single.factor.bytes;
         }
-        assert_int_equal(stats.bytes_factor, bytes);
-        assert_family(&y, F, c, count, opt);
+        assert_int_equal(stats.factor.bytes, bytes);
+        assert_factors(&y, F, c, count, opt);
         free_all(F, count);
     }
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-/* The first that fails is told, the others are there. */
-static void one_may_fail(void **state) {
+/* The first failure is reported; the other factors are computed. */
+static void the_first_failure_is_reported_and_the_others_succeed(void **state) {
     (void)state;
     static const double nothing[TERMS] = {0, 0}, wrong[TERMS] = {1, NAN};
-    several_t y = several_make(GEN_GRID2, 100, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 100, 0, 1, NULL);
     double c[TERMS * MOST], good[TERMS * MOST];
     for (int threads = 0; threads <= 4; threads++) {
         for (int at = 0; at < MOST; at++) {
@@ -109,17 +111,17 @@ static void one_may_fail(void **state) {
             double x;
             coefficients_of(c, MOST, 1);
             coefficients_of(good, MOST, 1);
-            memcpy(c + TERMS * at, nothing, sizeof nothing); /* the zero matrix .. */
-            memcpy(c + TERMS * later, wrong, sizeof wrong);  /* .. and no matrix */
+            memcpy(c + TERMS * at, nothing, sizeof nothing); /* the zero matrix */
+            memcpy(c + TERMS * later, wrong, sizeof wrong);  /* a coefficient that is not finite */
             memset(&stats, 0, sizeof stats);
             memset(&own, 0, sizeof own);
             opt.threads = threads_of(threads, &calls);
             sl_status status = first == at ? SL_ERR_PIVOT : SL_ERR_NOT_FINITE;
-            SL_EXPECT(status, sl_batch_factor(F, MOST, y.S, c, several_values(&y), TERMS, &opt,
+            SL_EXPECT(status, sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt,
                                               &failed, &stats));
             assert_int_equal(failed, first);
-            assert_int_equal(stats.error_row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
-            assert_int_equal(stats.positive, 0);
+            assert_int_equal(stats.error.row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
+            assert_int_equal(stats.factor.positive, 0);
             for (int k = 0; k < MOST; k++) {
                 assert_true((F[k] == NULL) == (k == at || k == later));
                 if (F[k]) {
@@ -127,13 +129,13 @@ static void one_may_fail(void **state) {
                 }
             }
             free_all(F, MOST);
-            SL_CHECK(
-                sl_batch_factor(F, MOST, y.S, good, several_values(&y), TERMS, &opt, NULL, &own));
-            assert_int_equal(own.error_row, -1);
-            SL_EXPECT(status, sl_batch_refactor(F, MOST, c, several_values(&y), TERMS, &opt.threads,
+            SL_CHECK(sl_batch_factor(F, MOST, y.S, good, matrix_pair_values(&y), TERMS, &opt, NULL,
+                                     &own));
+            assert_int_equal(own.error.row, -1);
+            SL_EXPECT(status, sl_batch_refactor(F, MOST, c, matrix_pair_values(&y), TERMS, &opt,
                                                 &failed, &stats));
             assert_int_equal(failed, first);
-            assert_int_equal(stats.error_row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
+            assert_int_equal(stats.error.row, first == at ? sl_symbolic_view(y.S).perm[0] : -1);
             for (int k = 0; k < MOST; k++) {
                 SL_EXPECT(k == at || k == later ? SL_ERR_STATE : SL_OK,
                           sl_inverse_diagonal(F[k], &x, &row, 1, NULL, NULL));
@@ -141,21 +143,21 @@ static void one_may_fail(void **state) {
             SL_EXPECT(SL_ERR_STATE, sl_batch_diagonal(read_only(F), MOST, good, 1, &row, 1, NULL,
                                                       NULL, &failed, NULL));
             assert_int_equal(failed, first);
-            SL_CHECK(sl_batch_refactor(F, MOST, good, several_values(&y), TERMS, &opt.threads,
-                                       &failed, NULL));
+            SL_CHECK(sl_batch_refactor(F, MOST, good, matrix_pair_values(&y), TERMS, &opt, &failed,
+                                       NULL));
             assert_int_equal(failed, -1);
             free_all(F, MOST);
         }
     }
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-static void wrong_calls(void **state) {
+static void invalid_arguments_are_refused(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 25, 0, 1, NULL),
-              z = several_make(GEN_PATH, 25, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 25, 0, 1, NULL),
+                  z = matrix_pair_make(GEN_PATH, 25, 0, 1, NULL);
     double c[TERMS * MOST];
-    const double *const *v = several_values(&y);
+    const double *const *v = matrix_pair_values(&y);
     sl_factor *F[3], *G[3];
     sl_int failed = 9;
     sl_options opt = options_none();
@@ -177,7 +179,7 @@ static void wrong_calls(void **state) {
     assert_true(F[0] == NULL && F[1] == NULL && F[2] == NULL && failed == 0);
     SL_CHECK(sl_batch_factor(NULL, 0, y.S, NULL, NULL, 0, NULL, &failed, NULL));
     SL_CHECK(sl_batch_factor(F, 3, y.S, c, v, TERMS, NULL, &failed, NULL));
-    SL_CHECK(sl_batch_factor(G, 3, z.S, c, several_values(&z), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(G, 3, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
     sl_factor *mixed[3] = {F[0], F[1], G[0]}, *twice[3] = {F[0], F[1], F[0]},
               *bare[3] = {F[0], NULL, F[1]};
     SL_EXPECT(SL_ERR_STATE, sl_batch_refactor(mixed, 3, c, v, TERMS, NULL, &failed, NULL));
@@ -188,20 +190,21 @@ static void wrong_calls(void **state) {
     assert_int_equal(failed, 1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(NULL, 3, c, v, TERMS, NULL, &failed, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, -1, c, v, TERMS, NULL, &failed, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 3, c, v, TERMS, &threads, &failed, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_refactor(F, 3, c, v, TERMS, THREADS(threads), &failed, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 3, c, NULL, TERMS, NULL, &failed, NULL));
     assert_int_equal(failed, -1);
     SL_CHECK(sl_batch_refactor(NULL, 0, NULL, NULL, 0, NULL, &failed, NULL));
     free_all(F, 3);
     free_all(G, 3);
-    several_free(&y);
-    several_free(&z);
+    matrix_pair_free(&y);
+    matrix_pair_free(&z);
 }
 
-/* The factor that gets none is NULL, the others are there. */
-static void memory_may_fail(void **state) {
+/* The factor whose allocation fails is NULL; the others are computed. */
+static void a_failed_allocation_leaves_the_other_factors(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 100, 0, 2, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 100, 0, 2, NULL);
     double c[TERMS * 4];
     sl_status status = SL_ERR_MEMORY;
     coefficients_of(c, 4, 1);
@@ -214,7 +217,7 @@ static void memory_may_fail(void **state) {
         opt.threads = threads_of(3, &calls);
         memset(F, 0x5a, sizeof F);
         counter.fail_at = k;
-        status = sl_batch_factor(F, 4, y.S, c, several_values(&y), TERMS, &opt, &failed, NULL);
+        status = sl_batch_factor(F, 4, y.S, c, matrix_pair_values(&y), TERMS, &opt, &failed, NULL);
         assert_true(status == SL_OK || status == SL_ERR_MEMORY);
         assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
         for (int j = 0; j < 4; j++) {
@@ -225,16 +228,16 @@ static void memory_may_fail(void **state) {
         free_all(F, 4);
         COUNTER_CLEAN(&counter);
     }
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bits_of_single_factors),
+        cmocka_unit_test(a_batch_gives_the_bits_of_single_factors),
         cmocka_unit_test(threads_take_whole_factors_and_share_the_rest),
-        cmocka_unit_test(one_may_fail),
-        cmocka_unit_test(wrong_calls),
-        cmocka_unit_test(memory_may_fail),
+        cmocka_unit_test(the_first_failure_is_reported_and_the_others_succeed),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(a_failed_allocation_leaves_the_other_factors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,29 +1,30 @@
-/* test_batch_inverse.c: several factors asked by one call: one plan on all of them, diagonals, signatures of a mesh */
-#include "family.h"
+/* test_batch_inverse.c: one plan on several factors, and sl_batch_diagonal: bits, errors */
+#include "tests/lib/factor_array.h"
 
-#include "../tools/grid.h"
-#include "../tools/laplacian.h"
+#include "tools/mesh/grid.h"
+#include "tools/geometry/laplacian.h"
 
-/* One plan on all factors, with one B and with one for each; a full solve beside it. */
-static void one_plan_serves_all(void **state) {
+/* One plan on all factors, with one B for all and with one for each; a full solve in the same
+ * batch. */
+static void one_plan_solves_with_all_factors(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     double c[TERMS * MOST];
     coefficients_of(c, MOST, 0.1);
     for (int isa = 0; isa < isas.count; isa++) {
-        several_t y = several_make(GEN_GRID2, 200, 1, 0, NULL);
+        matrix_pair_t y = matrix_pair_make(GEN_GRID2, 200, 1, 0, NULL);
         const sl_int bset[2] = {17, 120}, xset[3] = {4, 18, 90};
         size_t n = (size_t)y.n;
         sl_factor *F[MOST] = {NULL};
         sl_plan *P = NULL;
         sl_options opt = options_none();
         sl_request requests[2 * MOST];
-        double B[4 * MOST], X[6 * MOST], wanted[6 * MOST], *full = test_reals(n * MOST),
-                                                           *expected = test_reals(n * MOST);
+        double B[4 * MOST], X[6 * MOST], expected_local[6 * MOST], *full = test_reals(n * MOST),
+                                                                   *expected = test_reals(n * MOST);
         opt.isa = isas.isa[isa];
         gen_reals(B, 4 * MOST, 5);
         gen_reals(expected, n * MOST, 6);
-        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, several_values(&y), TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
         SL_CHECK(sl_plan_create(&P, y.S, bset, 2, xset, 3, NULL, NULL));
         memset(requests, 0, sizeof requests);
         for (size_t k = 0; k < MOST; k++) {
@@ -35,8 +36,8 @@ static void one_plan_serves_all(void **state) {
             r->B = k < MOST / 2 ? B : B + 4 * k;
             r->ldb = 2;
             r->nrhs = 2;
-            SL_CHECK(sl_plan_solve(P, F[k], wanted + 6 * k, 3, r->B, 2, 2, NULL));
-            r[1].factor = k ? F[k] : NULL; /* that of the call */
+            SL_CHECK(sl_plan_solve(P, F[k], expected_local + 6 * k, 3, r->B, 2, 2, NULL));
+            r[1].factor = k ? F[k] : NULL; /* NULL: the factor of the call */
             r[1].X = full + n * k;
             memcpy(r[1].X, expected + n * k, n * sizeof(double));
             r[1].B = r[1].X;
@@ -46,41 +47,41 @@ static void one_plan_serves_all(void **state) {
         }
         SL_CHECK(sl_batch_solve(F[0], requests, 2 * MOST, NULL, NULL, NULL));
         SAME_VALUES(full, expected, n * MOST);
-        SAME_VALUES(X, wanted, 6 * MOST);
-        for (size_t k = 0; k < MOST; k++) { /* the plans alone, without a factor of the call */
+        SAME_VALUES(X, expected_local, 6 * MOST);
+        for (size_t k = 0; k < MOST; k++) { /* only the plans, no factor for the whole call */
             requests[k] = requests[2 * k];
         }
         for (int count = 0; count <= 4; count++) {
             int calls = 0;
             const sl_threads threads = threads_of(count, &calls);
             memset(X, 0, sizeof X);
-            SL_CHECK(sl_batch_solve(NULL, requests, MOST, &threads, NULL, NULL));
-            SAME_VALUES(X, wanted, 6 * MOST);
+            SL_CHECK(sl_batch_solve(NULL, requests, MOST, THREADS(threads), NULL, NULL));
+            SAME_VALUES(X, expected_local, 6 * MOST);
             assert_int_equal(calls, count > 1);
         }
         sl_plan_free(P);
         free_all(F, MOST);
         free(full);
         free(expected);
-        several_free(&y);
+        matrix_pair_free(&y);
     }
 }
 
-static void requests_with_wrong_factors(void **state) {
+static void requests_with_invalid_factors_are_refused(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 25, 0, 1, NULL),
-              z = several_make(GEN_PATH, 25, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 25, 0, 1, NULL),
+                  z = matrix_pair_make(GEN_PATH, 25, 0, 1, NULL);
     const double c[TERMS] = {1, 1}, none[TERMS] = {0, 0};
     const sl_int row = 3;
     double X[3] = {7, 7, 7}, B = 1;
     sl_factor *F = NULL, *G = NULL, *bad = NULL;
     sl_plan *P = NULL;
     sl_int failed = 9;
-    SL_CHECK(sl_factor_create_combination(&F, y.S, c, several_values(&y), TERMS, NULL, NULL));
-    SL_CHECK(sl_factor_create_combination(&bad, y.S, c, several_values(&y), TERMS, NULL, NULL));
-    SL_CHECK(sl_factor_create_combination(&G, z.S, c, several_values(&z), TERMS, NULL, NULL));
+    SL_CHECK(sl_factor_create_combination(&F, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL));
+    SL_CHECK(sl_factor_create_combination(&bad, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL));
+    SL_CHECK(sl_factor_create_combination(&G, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL));
     SL_EXPECT(SL_ERR_PIVOT,
-              sl_factor_refactor_combination(bad, none, several_values(&y), TERMS, NULL));
+              sl_factor_refactor_combination(bad, none, matrix_pair_values(&y), TERMS, NULL));
     SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, NULL, NULL));
     sl_request r[3];
     memset(r, 0, sizeof r);
@@ -108,19 +109,19 @@ static void requests_with_wrong_factors(void **state) {
     sl_factor_free(F);
     sl_factor_free(G);
     sl_factor_free(bad);
-    several_free(&y);
-    several_free(&z);
+    matrix_pair_free(&y);
+    matrix_pair_free(&z);
 }
 
-/* The bits of sl_inverse_diagonal, and the numbers of dense inverses: c n eps of the entry with c = 100, as definite
- * matrices are held to in test_inverse. */
-static void diagonals_over_t(void **state) {
+/* The bits of sl_inverse_diagonal, and the diagonals of dense inverses: c n eps relative to the
+ * entry, c = 100, as for definite matrices in test_inverse. */
+static void diagonals_equal_those_of_single_calls(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     double c[TERMS * MOST];
     coefficients_of(c, MOST, 0.01);
     for (int isa = 0; isa < isas.count; isa++) {
-        several_t y = several_make(GEN_GRID2, 150, 2, 3, NULL);
+        matrix_pair_t y = matrix_pair_make(GEN_GRID2, 150, 2, 3, NULL);
         size_t n = (size_t)y.n, ld = n + 3;
         sl_options opt = options_none();
         sl_factor *F[MOST] = {NULL};
@@ -129,9 +130,9 @@ static void diagonals_over_t(void **state) {
         uint64_t seed = 8;
         double *out = test_reals(ld * MOST), *one = test_reals(n);
         opt.isa = isas.isa[isa];
-        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, several_values(&y), TERMS, &opt, NULL, NULL));
+        SL_CHECK(sl_batch_factor(F, MOST, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
         for (int k = 0; k < 50; k++) {
-            rows[k] = gen_below(&seed, y.n); /* some twice */
+            rows[k] = gen_below(&seed, y.n); /* with repetitions */
         }
         for (int k = 0; k < 4; k++) {
             SL_CHECK(sl_work_create(&works[k], NULL));
@@ -146,8 +147,8 @@ static void diagonals_over_t(void **state) {
                         out[k] = 4321.5;
                     }
                     SL_CHECK(sl_batch_diagonal(read_only(F), MOST, out, ld, all ? NULL : rows, 50,
-                                               threads ? &t : NULL, own ? NULL : works, NULL,
-                                               NULL));
+                                               threads ? THREADS(t) : NULL, own ? NULL : works,
+                                               NULL, NULL));
                     assert_int_equal(calls, threads > 1);
                     for (size_t k = 0; k < MOST; k++) {
                         SL_CHECK(sl_inverse_diagonal(F[k], one, all ? NULL : rows, 50, NULL, NULL));
@@ -160,7 +161,7 @@ static void diagonals_over_t(void **state) {
             }
         }
         for (int k = 0; k < MOST; k++) {
-            sl_matrix *A = several_sum(&y, c + TERMS * k);
+            sl_matrix *A = matrix_pair_sum(&y, c + TERMS * k);
             sl_csc view = sl_matrix_view(A);
             double *M = ref_dense(&view), *Z = ref_inverse(y.n, M);
             for (size_t i = 0; i < n; i++) {
@@ -177,12 +178,13 @@ static void diagonals_over_t(void **state) {
         free_all(F, MOST);
         free(out);
         free(one);
-        several_free(&y);
+        matrix_pair_free(&y);
     }
 }
 
-/* Heat-kernel signatures of a mesh, as the header tells: M a diagonal, L without it, several t. */
-static void signatures_of_a_mesh(void **state) {
+/* Heat-kernel signatures of a mesh by the recipe of the header: M is diagonal, L is stored without
+ * its diagonal, several t. */
+static void heat_kernel_signatures_conserve_heat(void **state) {
     (void)state;
     enum { TIMES = 4 };
     const double t[TIMES] = {1e-3, 1e-2, 0.1, 1};
@@ -206,7 +208,7 @@ static void signatures_of_a_mesh(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     for (int k = 0; k < TERMS; k++) {
         v[k] = test_reals((size_t)sl_symbolic_entries(S));
-        SL_CHECK(sl_symbolic_spread(S, v[k], &terms[k], NULL));
+        SL_CHECK(sl_symbolic_scatter(S, v[k], &terms[k], NULL));
     }
     for (int k = 0; k < TIMES; k++) {
         c[TERMS * k] = 1;
@@ -222,14 +224,14 @@ static void signatures_of_a_mesh(void **state) {
         for (sl_int row = 0; row < n; row++) {
             double got = h[(size_t)row + (size_t)k * (size_t)n], heat = 0;
             assert_true(fabs(got - AT(Z, row, row)) <= 10 * pass_figure(n) * got);
-            for (sl_int other = 0; other < n; other++) { /* heat is kept */
+            for (sl_int other = 0; other < n; other++) { /* heat is conserved */
                 heat += AT(Z, row, other) * mass[other];
             }
             assert_true(fabs(heat - 1) <= 100 * pass_figure(n));
             trace += got * mass[row];
         }
-        assert_true(trace > 1 &&
-                    trace < before); /* 1 / (1 + t lambda), summed up; 1 of lambda = 0 */
+        /* sum of 1 / (1 + t lambda) over the eigenvalues; lambda = 0 contributes 1 */
+        assert_true(trace > 1 && trace < before);
         before = trace;
         free(M);
         free(Z);
@@ -249,7 +251,7 @@ static void signatures_of_a_mesh(void **state) {
     free(h);
 }
 
-/* A parallel-for in which nothing may be allocated. */
+/* A parallel-for whose bodies may not allocate. */
 static void run_without_memory(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                void *data) {
     counter_t *counter = (counter_t *)context;
@@ -261,11 +263,12 @@ static void run_without_memory(void *context, sl_int count, void (*body)(void *d
     counter->fail_at = -1;
 }
 
-/* Factors of several instruction sets, whose sweeps need different room, in one call: that is found beforehand. */
-static void diagonals_of_several_instruction_sets(void **state) {
+/* Factors of several instruction sets, whose sweeps need different amounts of scratch, in one call:
+ * the maximum is reserved in advance. */
+static void factors_of_several_instruction_sets_share_a_call(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
-    several_t y = several_make(GEN_GRID2, 400, 0, 0, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 400, 0, 0, NULL);
     const double c[TERMS] = {1, 1};
     sl_factor *F[4] = {NULL};
     counter_t counter = counter_make();
@@ -275,10 +278,10 @@ static void diagonals_of_several_instruction_sets(void **state) {
     for (int k = 0; k < isas.count; k++) {
         opt.isa = isas.isa[k];
         SL_CHECK(
-            sl_factor_create_combination(&F[k], y.S, c, several_values(&y), TERMS, &opt, NULL));
+            sl_factor_create_combination(&F[k], y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL));
     }
-    SL_CHECK(sl_batch_diagonal(read_only(F), isas.count, out, (size_t)y.n, NULL, 0, &threads, NULL,
-                               NULL, NULL));
+    SL_CHECK(sl_batch_diagonal(read_only(F), isas.count, out, (size_t)y.n, NULL, 0,
+                               THREADS(threads), NULL, NULL, NULL));
     for (int k = 0; k < isas.count; k++) {
         SL_CHECK(sl_inverse_diagonal(F[k], one, NULL, 0, NULL, NULL));
         SAME_VALUES(out + (size_t)k * (size_t)y.n, one, (size_t)y.n);
@@ -286,35 +289,36 @@ static void diagonals_of_several_instruction_sets(void **state) {
     free_all(F, 4);
     free(out);
     free(one);
-    several_free(&y);
+    matrix_pair_free(&y);
     COUNTER_CLEAN(&counter);
 }
 
-static void wrong_calls_of_diagonals(void **state) {
+static void invalid_arguments_of_diagonals_are_refused(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 25, 0, 1, NULL),
-              z = several_make(GEN_PATH, 25, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 25, 0, 1, NULL),
+                  z = matrix_pair_make(GEN_PATH, 25, 0, 1, NULL);
     double c[TERMS * MOST], before[TERMS * MOST];
     sl_factor *F[3], *G[1];
     sl_int failed = 9;
     sl_threads threads = {-1, NULL, NULL};
     coefficients_of(c, MOST, 1);
     memcpy(before, c, sizeof c);
-    SL_CHECK(sl_batch_factor(F, 3, y.S, c, several_values(&y), TERMS, NULL, NULL, NULL));
-    SL_CHECK(sl_batch_factor(G, 1, z.S, c, several_values(&z), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
     sl_factor *mixed[3] = {F[0], F[1], G[0]}, *bare[3] = {F[0], NULL, F[1]};
     const sl_factor *const *R = read_only(F);
     sl_int rows[2] = {3, 25};
     sl_stats stats;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 2, rows, 2, NULL, NULL, &failed, &stats));
-    assert_true(failed == -1 && stats.error_row == 25);
+    assert_true(failed == -1 && stats.error.row == 25);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 1, rows, -1, NULL, NULL, &failed, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, NULL, 1, rows, 1, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 0, rows, 1, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 24, NULL, 0, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(NULL, 3, c, 1, rows, 1, NULL, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, -1, c, 1, rows, 1, NULL, NULL, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 1, rows, 1, &threads, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_diagonal(R, 3, c, 1, rows, 1, THREADS(threads), NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_STATE,
               sl_batch_diagonal(read_only(mixed), 3, c, 1, rows, 1, NULL, NULL, &failed, NULL));
     assert_int_equal(failed, 2);
@@ -324,24 +328,27 @@ static void wrong_calls_of_diagonals(void **state) {
     sl_work *works[2] = {NULL, NULL};
     int calls = 0;
     threads = threads_of(2, &calls);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 1, rows, 1, &threads, works, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_diagonal(R, 3, c, 1, rows, 1, THREADS(threads), works, NULL, NULL));
     SL_CHECK(sl_work_create(&works[0], NULL));
     works[1] = works[0];
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(R, 3, c, 1, rows, 1, &threads, works, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_batch_diagonal(R, 3, c, 1, rows, 1, THREADS(threads), works, NULL, NULL));
     sl_work_free(works[0]);
     assert_true(calls == 0 && memcmp(c, before, sizeof c) == 0);
-    SL_CHECK(sl_batch_diagonal(R, 3, NULL, 0, rows, 0, &threads, NULL, &failed, &stats));
-    SL_CHECK(sl_batch_diagonal(NULL, 0, NULL, 0, NULL, 0, &threads, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_diagonal(R, 3, NULL, 0, rows, 0, THREADS(threads), NULL, &failed, &stats));
+    SL_CHECK(sl_batch_diagonal(NULL, 0, NULL, 0, NULL, 0, THREADS(threads), NULL, NULL, NULL));
     free_all(F, 3);
     free_all(G, 1);
-    several_free(&y);
-    several_free(&z);
+    matrix_pair_free(&y);
+    matrix_pair_free(&z);
 }
 
-/* Whoever gets none leaves out as it is; workspaces that have grown ask for none. */
-static void memory_may_fail(void **state) {
+/* A factor whose allocation fails leaves its output unchanged; workspaces that have grown allocate
+ * nothing. */
+static void a_failed_allocation_leaves_the_output(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 100, 0, 2, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 100, 0, 2, NULL);
     double c[TERMS * 4], out[16];
     const sl_int rows[4] = {1, 50, 50, 7};
     counter_t counter = counter_make();
@@ -350,29 +357,30 @@ static void memory_may_fail(void **state) {
     int calls = 0;
     const sl_threads threads = threads_of(3, &calls);
     coefficients_of(c, 4, 1);
-    SL_CHECK(sl_batch_factor(F, 4, y.S, c, several_values(&y), TERMS, &opt, NULL, NULL));
+    SL_CHECK(
+        sl_batch_factor(F, 4, y.S, c, matrix_pair_values(&y), TERMS, FOR_FACTOR(&opt), NULL, NULL));
     for (int own = 0; own < 2; own++) {
         sl_status status = SL_ERR_MEMORY;
         for (int64_t k = 0; status != SL_OK; k++) {
             sl_work *works[3] = {NULL, NULL, NULL};
-            size_t live = counter.live_blocks, asked;
+            size_t live = counter.live_blocks, requests;
             for (int j = 0; j < 3; j++) {
                 SL_CHECK(sl_work_create(&works[j], &opt));
             }
-            asked = counter.calls;
-            counter.fail_at = (int64_t)asked + k;
+            requests = counter.calls;
+            counter.fail_at = (int64_t)requests + k;
             out[0] = 4321;
-            status = sl_batch_diagonal(read_only(F), 4, out, 4, rows, 4, &threads,
+            status = sl_batch_diagonal(read_only(F), 4, out, 4, rows, 4, THREADS(threads),
                                        own ? NULL : works, NULL, NULL);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             assert_true((status == SL_OK) == (out[0] != 4321));
-            assert_int_equal(status == SL_ERR_MEMORY, counter.calls > asked + (size_t)k);
+            assert_int_equal(status == SL_ERR_MEMORY, counter.calls > requests + (size_t)k);
             counter.fail_at = -1;
             if (status == SL_OK && !own) {
-                asked = counter.calls;
-                SL_CHECK(sl_batch_diagonal(read_only(F), 4, out, 4, rows, 4, &threads, works, NULL,
-                                           NULL));
-                assert_int_equal(counter.calls, asked);
+                requests = counter.calls;
+                SL_CHECK(sl_batch_diagonal(read_only(F), 4, out, 4, rows, 4, THREADS(threads),
+                                           works, NULL, NULL));
+                assert_int_equal(counter.calls, requests);
             }
             for (int j = 0; j < 3; j++) {
                 sl_work_free(works[j]);
@@ -381,19 +389,19 @@ static void memory_may_fail(void **state) {
         }
     }
     free_all(F, 4);
-    several_free(&y);
+    matrix_pair_free(&y);
     COUNTER_CLEAN(&counter);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_plan_serves_all),
-        cmocka_unit_test(requests_with_wrong_factors),
-        cmocka_unit_test(diagonals_over_t),
-        cmocka_unit_test(signatures_of_a_mesh),
-        cmocka_unit_test(diagonals_of_several_instruction_sets),
-        cmocka_unit_test(wrong_calls_of_diagonals),
-        cmocka_unit_test(memory_may_fail),
+        cmocka_unit_test(one_plan_solves_with_all_factors),
+        cmocka_unit_test(requests_with_invalid_factors_are_refused),
+        cmocka_unit_test(diagonals_equal_those_of_single_calls),
+        cmocka_unit_test(heat_kernel_signatures_conserve_heat),
+        cmocka_unit_test(factors_of_several_instruction_sets_share_a_call),
+        cmocka_unit_test(invalid_arguments_of_diagonals_are_refused),
+        cmocka_unit_test(a_failed_allocation_leaves_the_output),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

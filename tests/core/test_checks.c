@@ -1,19 +1,19 @@
-/* test_meta.c: the test of the tests: every check used elsewhere must notice a deliberately broken result */
-#include "problem.h"
+/* test_checks.c: the checks of tests/lib detect results that were damaged on purpose */
+#include "tests/lib/factored.h"
 
-/* Breaks one number, runs a check, mends it again. */
-#define NOTICED(place, broken, check)                                                              \
-    do {                                                                                           \
-        double keep_ = (place);                                                                    \
-        (place) = (broken);                                                                        \
-        if (!(check)) {                                                                            \
-            print_error("not noticed: %s = %s\n", #place, #broken);                                \
-            fail();                                                                                \
-        }                                                                                          \
-        (place) = keep_;                                                                           \
+/* Damages one value, checks that this is detected, restores it. */
+#define DETECTED(variable, damaged, check) \
+    do { \
+        double keep_ = (variable); \
+        (variable) = (damaged); \
+        if (!(check)) { \
+            print_error("not detected: %s = %s\n", #variable, #damaged); \
+            fail(); \
+        } \
+        (variable) = keep_; \
     } while (0)
 
-/* The factor's own arrays, writable: what only this test may do. */
+/* The arrays of the library, writable; only this test may write them. */
 static double *writable(const double *x) {
     return (double *)(uintptr_t)x;
 }
@@ -22,26 +22,27 @@ static sl_int *writable_ints(const sl_int *x) {
     return (sl_int *)(uintptr_t)x;
 }
 
-static void a_broken_factor_is_noticed(void **state) {
+static void a_damaged_factor_is_detected(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[k];
-        problem_t y = problem_make(GEN_GRID2, 49, 1, 0, &opt);
-        sl_factor_view_t f = sl_factor_view(y.F);
-        sl_symbolic_view_t v = sl_symbolic_view(y.S);
+        factored_t y = factored_make(GEN_GRID2, 49, 1, 0, &opt);
+        sl_factor_arrays f = sl_factor_view(y.F);
+        sl_symbolic_arrays v = sl_symbolic_view(y.S);
         double *L = writable(f.L), *D = writable(f.D);
         NOTHING_WRONG(check_factor(y.F, &y.M.view));
         for (sl_int j = 0; j < 49; j++) {
-            NOTICED(D[j], D[j] * (1 + 1e-11), check_factor(y.F, &y.M.view));
-            NOTICED(D[j], NAN, check_factor(y.F, &y.M.view));
+            DETECTED(D[j], D[j] * (1 + 1e-11), check_factor(y.F, &y.M.view));
+            DETECTED(D[j], NAN, check_factor(y.F, &y.M.view));
         }
-        for (sl_off q = 0; q < panel_doubles(y.F);
-             q++) { /* values, padding, upper places: all of them */
-            NOTICED(L[q], L[q] * (1 + 1e-10) + 1e-10, check_factor(y.F, &y.M.view));
+        /* values, padding and upper entries: all of them */
+        for (sl_off q = 0; q < panel_doubles(y.F); q++) {
+            DETECTED(L[q], L[q] * (1 + 1e-10) + 1e-10, check_factor(y.F, &y.M.view));
         }
-        sl_int *perm = writable_ints(v.perm), first = perm[3]; /* a permuted result */
+        /* a permutation with a repeated row */
+        sl_int *perm = writable_ints(v.perm), first = perm[3];
         perm[3] = perm[20];
         assert_non_null(check_permutation(49, v.perm, v.iperm));
         perm[20] = first;
@@ -50,18 +51,18 @@ static void a_broken_factor_is_noticed(void **state) {
         perm[20] = perm[3];
         perm[3] = first;
         NOTHING_WRONG(check_factor(y.F, &y.M.view));
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-static void a_broken_analysis_is_noticed(void **state) {
+static void a_damaged_analysis_is_detected(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_GRID2, 81, 1, 1);
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     opt.relaxation = SL_RELAXATION_NONE;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-    sl_symbolic_view_t v = sl_symbolic_view(S);
+    sl_symbolic_arrays v = sl_symbolic_view(S);
     sl_int *parent = writable_ints(v.parent), *counts = writable_ints(v.counts),
            *rows = writable_ints(v.rows);
     sl_int *up = writable_ints(v.super_parent);
@@ -87,7 +88,8 @@ static void a_broken_analysis_is_noticed(void **state) {
         up[s]--;
     }
     sl_symbolic_free(S);
-    /* 0 under 2, 1 under 3: not contiguous; a postorder; a parent before its child */
+    /* chain: 0 is a child of 2 and 1 of 3, not contiguous; good: a postorder; back: a parent before
+     * its child */
     const sl_int chain[5] = {2, 3, 4, 4, -1}, good[5] = {4, 2, 4, 4, -1}, back[3] = {1, 0, -1};
     assert_non_null(check_postorder(5, chain));
     assert_null(check_postorder(5, good));
@@ -95,9 +97,9 @@ static void a_broken_analysis_is_noticed(void **state) {
     gen_matrix_free(&M);
 }
 
-static void a_broken_solution_is_noticed(void **state) {
+static void a_damaged_solution_is_detected(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 100, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     double X[100], Y[100], B[100];
     gen_reals(B, 100, 1);
     SL_CHECK(sl_factor_solve(y.F, X, 100, B, 100, 1, NULL));
@@ -105,38 +107,39 @@ static void a_broken_solution_is_noticed(void **state) {
     assert_true(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100));
     assert_int_equal(first_difference(X, Y, 100), -1);
     for (int k = 0; k < 100; k++) {
-        /* the pass figure is 10 n eps = 2.2e-13 here */
-        NOTICED(X[k], X[k] + 1e-10,
-                !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
-        NOTICED(X[k], NAN, !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
-        NOTICED(X[k], X[k] * (1 + DBL_EPSILON), first_difference(X, Y, 100) == k);
-        NOTICED(X[k], NAN, first_difference(X, Y, 100) == k);
+        /* the bound is 10 n eps = 2.2e-13 here */
+        DETECTED(X[k], X[k] + 1e-10,
+                 !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
+        DETECTED(X[k], NAN, !(worst_backward(&y.M.view, X, 100, B, 100, 1) <= pass_figure(100)));
+        DETECTED(X[k], X[k] * (1 + DBL_EPSILON), first_difference(X, Y, 100) == k);
+        DETECTED(X[k], NAN, first_difference(X, Y, 100) == k);
     }
     Y[5] = X[5] = 0.0;
     Y[5] = -Y[5];
-    assert_int_equal(first_difference(X, Y, 100), -1); /* the sign of a zero is free */
+    assert_int_equal(first_difference(X, Y, 100), -1); /* the sign of a zero does not matter */
     /* two rows exchanged */
     double keep = X[10];
     X[10] = X[70];
     X[70] = keep;
     assert_true(worst_backward(&y.M.view, X, 100, B, 100, 1) > pass_figure(100));
-    problem_free(&y);
+    factored_free(&y);
 }
 
-/* A broken number of L must reach the answers: each one that a local solve's statistics count is really read. */
-static void a_broken_number_reaches_the_answer(void **state) {
+/* Every value of L affects the solution: each entry that the statistics of a local solve count is
+ * read. */
+static void every_value_of_l_affects_the_solution(void **state) {
     (void)state;
     sl_options opt = options_none();
     opt.relaxation = SL_RELAXATION_NONE;
-    problem_t y = problem_make(GEN_DENSE, 30, 1, 0, &opt);
-    sl_symbolic_view_t v = sl_symbolic_view(y.S);
+    factored_t y = factored_make(GEN_DENSE, 30, 1, 0, &opt);
+    sl_symbolic_arrays v = sl_symbolic_view(y.S);
     double *L = writable(sl_factor_view(y.F).L), B[30], X[30], Y[30];
     gen_reals(B, 30, 1);
     SL_CHECK(sl_factor_solve(y.F, X, 30, B, 30, 1, NULL));
     assert_int_equal(v.n_supers, 1);
     for (sl_int c = 0; c < 30; c++) {
         for (sl_int r = c + 1; r < 30; r++) {
-            sl_off q = ref_place(30, r, c);
+            sl_off q = ref_position(30, r, c);
             double keep = L[q];
             L[q] += 1e-3;
             SL_CHECK(sl_factor_solve(y.F, Y, 30, B, 30, 1, NULL));
@@ -144,13 +147,13 @@ static void a_broken_number_reaches_the_answer(void **state) {
             L[q] = keep;
         }
     }
-    problem_free(&y);
+    factored_free(&y);
 }
 
-static void a_careless_library_is_noticed(void **state) {
+static void memory_errors_are_detected(void **state) {
     (void)state;
     counter_t counter = counter_make();
-    /* a block too many, a write past the end, a write before the release */
+    /* a block that is not released, a write past its end, a failed allocation */
     unsigned char *a = (unsigned char *)counter_allocate(&counter, 10);
     assert_int_equal(counter.live_blocks, 1);
     assert_int_equal(counter.live_bytes, 10);
@@ -169,8 +172,8 @@ static void a_careless_library_is_noticed(void **state) {
     assert_int_equal(counter.live_blocks, 0);
 }
 
-/* The references, against each other: they share no code. */
-static void references_agree(void **state) {
+/* The dense references agree with each other; they share no code. */
+static void the_dense_references_agree(void **state) {
     (void)state;
     for (int kind = GEN_ONE; kind < GEN_SCALED; kind++) {
         gen_matrix_t A = gen_matrix((gen_kind_t)kind, 25, 0, 3);
@@ -206,12 +209,12 @@ static void references_agree(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_broken_factor_is_noticed),
-        cmocka_unit_test(a_broken_analysis_is_noticed),
-        cmocka_unit_test(a_broken_solution_is_noticed),
-        cmocka_unit_test(a_broken_number_reaches_the_answer),
-        cmocka_unit_test(a_careless_library_is_noticed),
-        cmocka_unit_test(references_agree),
+        cmocka_unit_test(a_damaged_factor_is_detected),
+        cmocka_unit_test(a_damaged_analysis_is_detected),
+        cmocka_unit_test(a_damaged_solution_is_detected),
+        cmocka_unit_test(every_value_of_l_affects_the_solution),
+        cmocka_unit_test(memory_errors_are_detected),
+        cmocka_unit_test(the_dense_references_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,32 +1,34 @@
-/* test_combination.c: factors of weighted sums of value arrays: the bits of the plain way, what is refused, memory */
-#include "several.h"
+/* test_combination.c: sl_factor_create_combination: the bits of a factor of the sum, errors */
+#include "tests/lib/matrix_pair.h"
 
-/* For every way to factor: the bits of the plain way where nothing is duplicated, L D L' = the sum everywhere. */
-static void combinations_are_factors_of_sums(void **state) {
+/* With every method and instruction set: without duplicates the bits of the factor of the summed
+ * matrix, and L D L' = the sum for all storage styles. */
+static void a_combination_has_the_bits_of_the_factored_sum(void **state) {
     (void)state;
     const double c[3][TERMS] = {{1, 0.3}, {2, 1e-5}, {0, 7}};
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int style = 0; style < GEN_STYLES; style++) {
-            several_t y = several_make((gen_kind_t)kind, 90, style, (style + 1) % GEN_STYLES, NULL);
+            matrix_pair_t y =
+                matrix_pair_make((gen_kind_t)kind, 90, style, (style + 1) % GEN_STYLES, NULL);
             int exact = !gen_style(style).duplicated && !gen_style((style + 1) % 12).duplicated;
-            for (int way = 0; way < ways.count; way++) {
+            for (int variant = 0; variant < variants.count; variant++) {
                 sl_options opt = options_none();
                 sl_factor *F = NULL;
-                way_take(&opt, &ways, way);
+                options_set_variant(&opt, &variants, variant);
                 for (int k = 0; k < 3; k++) {
                     if (k == 0) {
-                        SL_CHECK(sl_factor_create_combination(&F, y.S, c[k], several_values(&y),
+                        SL_CHECK(sl_factor_create_combination(&F, y.S, c[k], matrix_pair_values(&y),
                                                               TERMS, &opt, NULL));
                     } else {
-                        SL_CHECK(sl_factor_refactor_combination(F, c[k], several_values(&y), TERMS,
-                                                                NULL));
+                        SL_CHECK(sl_factor_refactor_combination(F, c[k], matrix_pair_values(&y),
+                                                                TERMS, NULL));
                     }
-                    sl_factor *plain = several_plain(&y, c[k], &opt);
+                    sl_factor *plain = matrix_pair_factor(&y, c[k], &opt);
                     if (exact) {
                         assert_same_bits(F, plain);
                     }
-                    sl_matrix *A = several_sum(&y, c[k]);
+                    sl_matrix *A = matrix_pair_sum(&y, c[k]);
                     sl_csc view = sl_matrix_view(A);
                     NOTHING_WRONG(check_factor(F, &view));
                     sl_matrix_free(A);
@@ -34,92 +36,93 @@ static void combinations_are_factors_of_sums(void **state) {
                 }
                 sl_factor_free(F);
             }
-            several_free(&y);
+            matrix_pair_free(&y);
         }
     }
 }
 
-/* Many terms, more entries in a supernode than are summed at a time, one array several times. */
-static void many_terms(void **state) {
+/* Many terms, more entries in a supernode than one block of the summation holds, one array given
+ * several times. */
+static void a_combination_of_many_terms_has_the_same_bits(void **state) {
     (void)state;
-    several_t y = several_make(GEN_DENSE, 60, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_DENSE, 60, 0, 1, NULL);
     const double *values[7], c[7] = {0.5, 0.25, 1, 0.125, 0.125, -2, 2}, two[TERMS] = {1, 1};
     for (int t = 0; t < 7; t++) {
         values[t] = y.values[t == 2];
     }
-    sl_factor *F = NULL, *plain = several_plain(&y, two, NULL);
+    sl_factor *F = NULL, *plain = matrix_pair_factor(&y, two, NULL);
     SL_CHECK(sl_factor_create_combination(&F, y.S, c, values, 7, NULL, NULL));
-    sl_matrix *A = several_sum(&y, two);
+    sl_matrix *A = matrix_pair_sum(&y, two);
     sl_csc view = sl_matrix_view(A);
     NOTHING_WRONG(check_factor(F, &view));
-    SL_CHECK(sl_factor_refactor(F, &view, NULL)); /* the plain way over the same factor */
+    SL_CHECK(sl_factor_refactor(F, &view, NULL)); /* the matrix of the sum into the same factor */
     assert_same_bits(F, plain);
     sl_matrix_free(A);
     sl_factor_free(F);
     sl_factor_free(plain);
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-static void no_term_is_the_zero_matrix(void **state) {
+static void a_combination_of_no_terms_is_the_zero_matrix(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 36, 0, 0, NULL);
-    way_list_t ways = ways_present();
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 36, 0, 0, NULL);
+    variant_list_t variants = variants_present();
     const sl_csc empty = {0, 0, NULL, NULL, NULL};
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &empty, NULL, NULL));
-    for (int way = 0; way < ways.count; way++) {
+    for (int variant = 0; variant < variants.count; variant++) {
         sl_options opt = options_none();
         sl_stats stats;
         sl_factor *F = NULL;
-        way_take(&opt, &ways, way);
+        options_set_variant(&opt, &variants, variant);
         memset(&stats, 0, sizeof stats);
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create_combination(&F, y.S, NULL, NULL, 0, &opt, &stats));
         assert_null(F);
-        assert_int_equal(stats.error_row, sl_symbolic_view(y.S).perm[0]);
-        opt.definiteness = SL_SEMIDEFINITE;
+        assert_int_equal(stats.error.row, sl_symbolic_view(y.S).perm[0]);
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
         SL_CHECK(sl_factor_create_combination(&F, y.S, NULL, NULL, 0, &opt, &stats));
-        assert_int_equal(stats.null, y.n);
+        assert_int_equal(stats.factor.null, y.n);
         sl_factor_free(F);
         SL_CHECK(sl_factor_create_combination(&F, S, NULL, NULL, 0, &opt, NULL));
         sl_factor_free(F);
     }
     sl_symbolic_free(S);
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-/* The entry (row, column) of a term, wherever it stands in the array. */
-static void set_entry(several_t *y, int term, sl_int row, sl_int column, double value) {
+/* Sets the entry (row, column) of a term, wherever it is in the array. */
+static void set_entry(matrix_pair_t *y, int term, sl_int row, sl_int column, double value) {
     gen_matrix_t *M = term ? &y->K : &y->M;
     for (sl_int p = M->p[column]; p < M->p[column + 1]; p++) {
         if (M->i[p] == row) {
             M->x[p] = value;
-            SL_CHECK(sl_symbolic_spread(y->S, y->values[term], &M->view, NULL));
+            SL_CHECK(sl_symbolic_scatter(y->S, y->values[term], &M->view, NULL));
             return;
         }
     }
     fail();
 }
 
-/* One of each kind in the middle of a path: on the diagonal, where both terms have an entry, or on an edge, which K
- * stores above the diagonal. */
-static void what_is_not_finite_is_refused(void **state) {
+/* An entry of each kind in the middle of a path: on the diagonal, where both terms have an entry,
+ * or on an edge that K stores above the diagonal. */
+static void values_that_are_not_finite_are_refused(void **state) {
     (void)state;
     static const struct {
         double m, k, edge, c[TERMS];
-        sl_int row; /* with column 14; -1: a coefficient */
+        sl_int row; /* the entry is (row, 14); -1: a coefficient */
     } cases[9] = {{NAN, 9, 1, {1, 1}, 14},       {9, NAN, 1, {1, 1}, 14},
                   {9, INFINITY, 1, {1, 0}, 14},  {INFINITY, -INFINITY, 1, {1, 1}, 14},
                   {1e300, 9, 1, {1e300, 1}, 14}, {DBL_MAX, -DBL_MAX, 1, {1, -1}, 14},
                   {9, 9, -INFINITY, {1, 1}, 15}, {9, 9, 1, {NAN, 1}, -1},
                   {9, 9, 1, {1, -INFINITY}, -1}};
     const double good[TERMS] = {1, 1};
-    way_list_t ways = ways_present();
-    for (int way = 0; way < ways.count; way++) {
+    variant_list_t variants = variants_present();
+    for (int variant = 0; variant < variants.count; variant++) {
         sl_options opt = options_none();
-        several_t y = several_make(GEN_PATH, 30, 0, 1, NULL);
-        const double *const *v = several_values(&y);
+        matrix_pair_t y = matrix_pair_make(GEN_PATH, 30, 0, 1, NULL);
+        const double *const *v = matrix_pair_values(&y);
         sl_factor *F = NULL, *G = NULL;
-        way_take(&opt, &ways, way);
+        options_set_variant(&opt, &variants, variant);
         SL_CHECK(sl_factor_create_combination(&F, y.S, good, v, TERMS, &opt, NULL));
         for (int which = 0; which < 9; which++) {
             sl_int row = cases[which].row, column = row < 0 ? -1 : 14, at = 3;
@@ -135,9 +138,9 @@ static void what_is_not_finite_is_refused(void **state) {
                               ? sl_factor_refactor_combination(F, cases[which].c, v, TERMS, &stats)
                               : sl_factor_create_combination(&G, y.S, cases[which].c, v, TERMS,
                                                              &opt, &stats));
-                assert_true(stats.error_row == row && stats.error_column == column);
-                assert_true(stats.error_value - stats.error_value != 0.0);
-                assert_true(stats.positive >= 0 && stats.positive < y.n);
+                assert_true(stats.error.row == row && stats.error.column == column);
+                assert_true(stats.error.value - stats.error.value != 0.0);
+                assert_true(stats.factor.positive >= 0 && stats.factor.positive < y.n);
                 assert_null(G);
             }
             SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(F, &x, &at, 1, NULL, NULL));
@@ -149,15 +152,16 @@ static void what_is_not_finite_is_refused(void **state) {
             SL_CHECK(sl_inverse_diagonal(F, &x, &at, 1, NULL, NULL));
         }
         sl_factor_free(F);
-        several_free(&y);
+        matrix_pair_free(&y);
     }
 }
 
-/* Whatever order the rows are eliminated in: row and column are those of the lower triangle. */
-static void every_entry_that_is_not_finite_is_named(void **state) {
+/* Whatever the order of elimination, row and column are those of the entry in the lower
+ * triangle. */
+static void the_entry_that_is_not_finite_is_reported(void **state) {
     (void)state;
     const double c[TERMS] = {1, 1};
-    several_t y = several_make(GEN_GRID2, 49, 1, 0, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 49, 1, 0, NULL);
     sl_csc K = y.K.view;
     for (sl_int j = 0; j < y.n; j++) {
         for (sl_int p = K.p[j]; p < K.p[j + 1]; p++) {
@@ -165,18 +169,19 @@ static void every_entry_that_is_not_finite_is_named(void **state) {
             sl_stats stats;
             double keep = y.K.x[p];
             y.K.x[p] = NAN;
-            SL_CHECK(sl_symbolic_spread(y.S, y.values[1], &K, NULL));
-            SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create_combination(
-                                             &F, y.S, c, several_values(&y), TERMS, NULL, &stats));
-            assert_int_equal(stats.error_row, K.i[p]);
-            assert_int_equal(stats.error_column, j);
+            SL_CHECK(sl_symbolic_scatter(y.S, y.values[1], &K, NULL));
+            SL_EXPECT(SL_ERR_NOT_FINITE,
+                      sl_factor_create_combination(&F, y.S, c, matrix_pair_values(&y), TERMS, NULL,
+                                                   &stats));
+            assert_int_equal(stats.error.row, K.i[p]);
+            assert_int_equal(stats.error.column, j);
             y.K.x[p] = keep;
         }
     }
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-static void a_null_pivot_is_named(void **state) {
+static void a_null_pivot_is_reported(void **state) {
     (void)state;
     gen_list_t t = gen_make(GEN_SINGULAR, 49, 1, 1);
     gen_matrix_t A = gen_store(&t, gen_style(2), 1);
@@ -186,24 +191,25 @@ static void a_null_pivot_is_named(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     double *v = test_reals((size_t)sl_symbolic_entries(S)), c = 1;
     const double *values = v;
-    SL_CHECK(sl_symbolic_spread(S, v, &A.view, NULL));
+    SL_CHECK(sl_symbolic_scatter(S, v, &A.view, NULL));
     memset(&one, 0, sizeof one);
     memset(&other, 0, sizeof other);
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&plain, S, &A.view, NULL, &one));
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create_combination(&F, S, &c, &values, 1, NULL, &other));
-    assert_int_equal(one.error_row, other.error_row);
-    assert_true(one.error_value == other.error_value && one.positive == other.positive);
+    assert_int_equal(one.error.row, other.error.row);
+    assert_true(one.error.value == other.error.value &&
+                one.factor.positive == other.factor.positive);
     free(v);
     sl_symbolic_free(S);
     gen_matrix_free(&A);
     gen_list_free(&t);
 }
 
-static void wrong_calls_of_combinations(void **state) {
+static void invalid_arguments_are_refused(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 25, 0, 1, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 25, 0, 1, NULL);
     const double c[TERMS] = {1, 1}, *missing[TERMS] = {y.values[0], NULL};
-    const double *const *v = several_values(&y);
+    const double *const *v = matrix_pair_values(&y);
     sl_factor *F = (sl_factor *)(void *)&y;
     sl_options opt = options_none();
     double x = 0;
@@ -223,12 +229,13 @@ static void wrong_calls_of_combinations(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(NULL, c, v, TERMS, NULL));
     SL_CHECK(sl_factor_create_combination(&F, y.S, c, v, TERMS, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(F, c, missing, TERMS, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(F, &x, &row, 1, NULL, NULL));
+    SL_CHECK(sl_inverse_diagonal(F, &x, &row, 1, NULL, NULL)); /* F is as it was */
     sl_factor_free(F);
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-static sl_status sum_and_spread(several_t *y, const sl_options *opt, counter_t *counter) {
+static sl_status sum_scatter_and_factor(matrix_pair_t *y, const sl_options *opt,
+                                        counter_t *counter) {
     const double c[TERMS] = {1, 2};
     sl_matrix *A = (sl_matrix *)(void *)y;
     sl_symbolic *S = NULL;
@@ -238,22 +245,23 @@ static sl_status sum_and_spread(several_t *y, const sl_options *opt, counter_t *
     assert_true((A != NULL) == (status == SL_OK));
     if (status == SL_OK) {
         sl_csc view = sl_matrix_view(A);
-        status = sl_symbolic_create(&S, &view, opt, NULL);
+        status = sl_symbolic_create(&S, &view, FOR_ANALYSIS(opt), NULL);
     }
     if (status == SL_OK) {
         v[0] = 4321;
-        status = sl_symbolic_spread(S, v, &y->terms[1], NULL);
+        status = sl_symbolic_scatter(S, v, &y->terms[1], NULL);
         assert_true(status == SL_OK || v[0] == 4321);
     }
     if (status == SL_OK) {
         size_t live = counter->live_blocks;
-        status = sl_factor_create_combination(&F, S, c, several_values(y), TERMS, opt, NULL);
+        status = sl_factor_create_combination(&F, S, c, matrix_pair_values(y), TERMS,
+                                              FOR_FACTOR(opt), NULL);
         assert_true((F != NULL) == (status == SL_OK));
         assert_true(status == SL_OK || counter->live_blocks == live);
     }
     if (status == SL_OK) {
         size_t calls = counter->calls;
-        SL_CHECK(sl_factor_refactor_combination(F, c, several_values(y), TERMS, NULL));
+        SL_CHECK(sl_factor_refactor_combination(F, c, matrix_pair_values(y), TERMS, NULL));
         assert_int_equal(counter->calls, calls); /* allocates nothing */
     }
     sl_factor_free(F);
@@ -263,32 +271,32 @@ static sl_status sum_and_spread(several_t *y, const sl_options *opt, counter_t *
     return status;
 }
 
-static void memory_may_fail(void **state) {
+static void every_allocation_may_fail(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 100, 0, 2, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 100, 0, 2, NULL);
     sl_status status = SL_ERR_MEMORY;
     for (int64_t k = 0; status != SL_OK; k++) {
         counter_t counter = counter_make();
         sl_options opt = options_counted(&counter);
         counter.fail_at = k;
-        status = sum_and_spread(&y, &opt, &counter);
+        status = sum_scatter_and_factor(&y, &opt, &counter);
         assert_true(status == SL_OK || status == SL_ERR_MEMORY);
         assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
         COUNTER_CLEAN(&counter);
     }
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(combinations_are_factors_of_sums),
-        cmocka_unit_test(many_terms),
-        cmocka_unit_test(no_term_is_the_zero_matrix),
-        cmocka_unit_test(what_is_not_finite_is_refused),
-        cmocka_unit_test(every_entry_that_is_not_finite_is_named),
-        cmocka_unit_test(a_null_pivot_is_named),
-        cmocka_unit_test(wrong_calls_of_combinations),
-        cmocka_unit_test(memory_may_fail),
+        cmocka_unit_test(a_combination_has_the_bits_of_the_factored_sum),
+        cmocka_unit_test(a_combination_of_many_terms_has_the_same_bits),
+        cmocka_unit_test(a_combination_of_no_terms_is_the_zero_matrix),
+        cmocka_unit_test(values_that_are_not_finite_are_refused),
+        cmocka_unit_test(the_entry_that_is_not_finite_is_reported),
+        cmocka_unit_test(a_null_pivot_is_reported),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

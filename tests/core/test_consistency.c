@@ -1,22 +1,24 @@
-/* test_consistent.c: singular systems without weights: what is inconsistent is refused by every form of solve, and by how much told */
-#include "parallel_for.h"
-#include "problem.h"
-#include "singular.h"
+/* test_consistency.c: inconsistent right-hand sides of singular systems: refusal and defects */
+#include "tests/lib/parallel_for.h"
+#include "tests/lib/factored.h"
+#include "tests/lib/graph_laplacian.h"
 
 enum { N = 300, R = 19, NB = 40, NX = 30 };
 
-/* A singular system of several components, right-hand sides that have solutions, and room for those. */
+/* A singular system with several components, consistent right-hand sides, and room for the
+ * solutions. */
 typedef struct fixture_t {
     gen_matrix_t M;
-    sl_int of[N], bset[N], xset[N], components; /* of the sets NB and NX */
+    sl_int of[N], bset[N], xset[N], components; /* bset and xset have NB and NX rows */
     sl_symbolic *S;
     sl_plan *P;
-    double B[N * R];  /* consistent: sums over components are 0 within rounding */
+    double B[N * R];  /* consistent: the sum over each component is 0 up to rounding */
     double C[NB * R]; /* the same on bset */
     double X[N * R], before[N * R];
 } fixture_t;
 
-/* Takes from the rows of a set what the values sum up to in each component; lone rows get 0. */
+/* Subtracts from the rows of a set the mean of their values in each component; isolated rows become
+ * 0. */
 static void make_consistent(const fixture_t *f, double *b, const sl_int *set, sl_int count) {
     for (sl_int k = 0; k < count; k++) {
         sl_int c = f->of[set ? set[k] : k], last = -1;
@@ -56,9 +58,10 @@ static void fixture_free(fixture_t *f) {
     free(f);
 }
 
-/* All forms of solve on the first nrhs right-hand sides: each comes to `wanted`, and on error leaves X. */
-static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status wanted,
-                       sl_work *W) {
+/* Every kind of solve of the first nrhs right-hand sides returns `expected`, and on error does not
+ * write X. */
+static void assert_every_solve(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status expected,
+                               sl_work *W) {
     for (int form = 0; form < 8; form++) {
         double *X = f->X, *turned = test_reals((size_t)(N * R));
         sl_status status = SL_OK;
@@ -84,21 +87,23 @@ static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status 
             status =
                 sl_plan_solve_interleaved(f->P, F, X, (size_t)nrhs, turned, (size_t)nrhs, nrhs, W);
         } else if (form == 4) {
-            status = sl_local_solve(F, X, NX, f->xset, NX, f->C, NB, f->bset, NB, nrhs, W, NULL);
+            status = sl_local_solve(F, f->bset, NB, f->xset, NX, X, NX, f->C, NB, nrhs, W, NULL);
         } else if (form == 5) { /* in place */
             memcpy(turned, f->B, sizeof f->B);
             status = sl_factor_solve(F, turned, N, turned, N, nrhs, W);
             assert_int_equal(status != SL_OK, memcmp(turned, f->B, sizeof f->B) == 0);
         } else {
-            const sl_factor *own = form == 6 ? NULL : F; /* the call's factor, or the requests' */
-            const sl_request requests[2] = {{NULL, X, N, f->B, N, 0, nrhs / 2, own},
-                                            {f->P, X + N * (nrhs / 2), NX, f->C, NB, 0, nrhs, own}};
+            /* the factor of the call, or that of the requests */
+            const sl_factor *own = form == 6 ? NULL : F;
+            const sl_request requests[2] = {{NULL, X, N, f->B, N, nrhs / 2, own},
+                                            {f->P, X + N * (nrhs / 2), NX, f->C, NB, nrhs, own}};
             int calls = 0;
             sl_threads threads = {form == 6 ? 1 : 3, run_backwards, &calls};
-            status = sl_batch_solve(form == 6 ? F : NULL, requests, 2, &threads, NULL, &failed);
+            status =
+                sl_batch_solve(form == 6 ? F : NULL, requests, 2, THREADS(threads), NULL, &failed);
             assert_int_equal(failed, status == SL_OK ? -1 : 1);
         }
-        test_status(status, wanted, "a form of solve", __FILE__, __LINE__);
+        test_status(status, expected, "a kind of solve", __FILE__, __LINE__);
         if (status != SL_OK) {
             assert_memory_equal(X, f->before, sizeof f->before);
         }
@@ -107,14 +112,15 @@ static void every_form(fixture_t *f, const sl_factor *F, sl_int nrhs, sl_status 
     }
 }
 
-/* One value of the last right-hand side is off: by rounding it passes, by 1e-3 it does not. A NaN is not refused. */
-static void refused_by_every_form(void **state) {
+/* One value of the last right-hand side is perturbed: a perturbation at rounding level is accepted,
+ * 1e-3 is refused. A NaN is not refused. */
+static void every_solve_refuses_an_inconsistent_b(void **state) {
     (void)state;
     fixture_t *f = fixture_make();
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     static const sl_int counts[6] = {1, 2, 3, 8, 9, 19};
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         sl_factor *F = NULL;
         sl_work *W = NULL;
         SL_CHECK(sl_work_create(&W, NULL));
@@ -126,13 +132,13 @@ static void refused_by_every_form(void **state) {
                 double *b = f->B + N * last + 150, *p = f->C + NB * last + 11, b0 = *b, p0 = *p;
                 *b += off[m];
                 *p += off[m];
-                every_form(f, F, counts[c], m == 2 ? SL_ERR_INCONSISTENT : SL_OK, W);
+                assert_every_solve(f, F, counts[c], m == 2 ? SL_ERR_INCONSISTENT : SL_OK, W);
                 *b = b0;
                 *p = p0;
             }
         }
         sl_factor_free(F);
-        /* the tolerance is the caller's, and a negative one refuses nothing */
+        /* the caller sets the tolerance; a negative one refuses nothing */
         f->B[7] += 1e-3;
         for (int m = 0; m < 3; m++) {
             static const double tolerance[3] = {1e-1, 1e-9, -1.0};
@@ -150,13 +156,14 @@ static void refused_by_every_form(void **state) {
     fixture_free(f);
 }
 
-/* The defects are the sums over the components, and taken off the null rows they make any b consistent. */
-static void defects_are_told(void **state) {
+/* The defects are the sums over the components; subtracted in the null rows they make any b
+ * consistent. */
+static void defects_make_any_b_consistent(void **state) {
     (void)state;
     fixture_t *f = fixture_make();
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         sl_factor *F = NULL;
         sl_int rows[N], count = 0;
         SL_CHECK(sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
@@ -198,20 +205,22 @@ static void defects_are_told(void **state) {
     fixture_free(f);
 }
 
-/* A definite matrix has no defects and refuses nothing; several null vectors of one component are told apart. */
-static void none_and_several(void **state) {
+/* A definite matrix has no defects and refuses nothing; several null vectors of one component have
+ * separate defects. */
+static void matrices_with_no_and_with_several_null_vectors(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
-        problem_t y = problem_make(GEN_GRID2, 100, 1, 0, &opt);
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
+        factored_t y = factored_make(GEN_GRID2, 100, 1, 0, &opt);
         double b[100], x[100], one = 5.0;
         gen_reals(b, 100, 3);
         SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));
         SL_CHECK(sl_factor_defects(y.F, &one, 1, b, 100, 1, NULL));
         assert_true(one == 5.0);
-        problem_free(&y);
-        /* v v' with v = (1, 2, 3): null vectors (-2, 1, 0) and (-3, 0, 1) where row 0 comes first */
+        factored_free(&y);
+        /* v v' with v = (1, 2, 3): null vectors (-2, 1, 0) and (-3, 0, 1) if row 0 is eliminated
+         * first */
         const sl_int p[4] = {0, 3, 5, 6}, i[6] = {0, 1, 2, 1, 2, 2};
         const double a[6] = {1, 2, 3, 4, 6, 9}, good[3] = {2, 4, 6}, bad[3] = {2, 4, 7};
         const sl_csc A = {3, 3, p, i, a};
@@ -221,9 +230,9 @@ static void none_and_several(void **state) {
         double defects[2];
         memset(&stats, 0, sizeof stats);
         opt.ordering = SL_ORDERING_NATURAL;
-        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-        SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
-        assert_int_equal(stats.null, 2);
+        SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), &stats));
+        assert_int_equal(stats.factor.null, 2);
         SL_CHECK(sl_factor_solve(F, x, 3, good, 3, 1, NULL));
         BACKWARD_PASSES(&A, x, 3, good, 3, 1);
         SL_EXPECT(SL_ERR_INCONSISTENT, sl_factor_solve(F, x, 3, bad, 3, 1, NULL));
@@ -234,11 +243,12 @@ static void none_and_several(void **state) {
     }
 }
 
-/* Weights from 1e-6 to 1e6, exact in the diagonal: what A z rounds to is consistent. */
-static void weights_far_apart(void **state) {
+/* Weights from 1e-6 to 1e6 that sum exactly in the diagonal: A z computed in floating point is
+ * consistent. */
+static void widely_spread_weights_are_consistent(void **state) {
     (void)state;
     enum { SIDE = 20, COUNT = SIDE * SIDE };
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     uint64_t seed = 12;
     gen_list_t t = gen_list(COUNT);
     double *diagonal = test_reals(COUNT), *z = test_reals(COUNT), *b = test_reals(COUNT);
@@ -259,14 +269,14 @@ static void weights_far_apart(void **state) {
     gen_matrix_t M = gen_store(&t, gen_style(0), 1);
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         sl_factor *F = NULL;
         double *x = test_reals(COUNT);
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
-        assert_int_equal(stats.null, 1);
+        assert_int_equal(stats.factor.null, 1);
         for (uint64_t m = 0; m < 20; m++) {
             gen_reals(z, COUNT, m);
             SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, b, COUNT, z, COUNT, 1));
@@ -286,10 +296,10 @@ static void weights_far_apart(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refused_by_every_form),
-        cmocka_unit_test(defects_are_told),
-        cmocka_unit_test(none_and_several),
-        cmocka_unit_test(weights_far_apart),
+        cmocka_unit_test(every_solve_refuses_an_inconsistent_b),
+        cmocka_unit_test(defects_make_any_b_consistent),
+        cmocka_unit_test(matrices_with_no_and_with_several_null_vectors),
+        cmocka_unit_test(widely_spread_weights_are_consistent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

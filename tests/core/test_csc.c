@@ -1,9 +1,9 @@
-/* test_csc.c: compressed columns: checks, triangles, transpose and permutation */
-#include "check.h"
+/* test_csc.c: compressed columns: validation, triangle detection, transpose and permutation */
+#include "tests/lib/check_factor.h"
 
-/* ---- check ---- */
+/* ---- validation ---- */
 
-static void check_names_what_is_malformed(void **state) {
+static void check_reports_each_defect(void **state) {
     (void)state;
     const sl_int p[4] = {0, 2, 3, 4}, i[4] = {0, 2, 1, 2};
     const double x[4] = {1, 2, 3, 4};
@@ -29,35 +29,35 @@ static void check_names_what_is_malformed(void **state) {
     bad.n_cols = -1;
     assert_int_not_equal(sl_csc_check(&bad, &stats), SL_OK);
 
-    const sl_int starts_late[4] = {1, 2, 3, 4}, descends[4] = {0, 3, 2, 4},
+    const sl_int starts_late[4] = {1, 2, 3, 4}, decreases[4] = {0, 3, 2, 4},
                  negative[4] = {0, -1, 3, 4};
     const sl_int ends_negative[4] = {0, 0, 0, -4};
     bad = good;
     bad.p = starts_late;
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
-    bad.p = descends;
+    bad.p = decreases;
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
-    assert_int_equal(stats.error_column, 1);
+    assert_int_equal(stats.error.column, 1);
     bad.p = negative;
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
-    assert_int_equal(stats.error_column, 0);
+    assert_int_equal(stats.error.column, 0);
     bad.p = ends_negative;
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
-    assert_int_equal(stats.error_column, 2);
+    assert_int_equal(stats.error.column, 2);
 
     const sl_int too_big[4] = {0, 2, 3, 2}, below_zero[4] = {0, 2, 1, -7};
     bad = good;
     bad.i = too_big;
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
-    assert_int_equal(stats.error_row, 3);
-    assert_int_equal(stats.error_column, 1);
+    assert_int_equal(stats.error.row, 3);
+    assert_int_equal(stats.error.column, 1);
     bad.i = below_zero;
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, &stats));
-    assert_int_equal(stats.error_row, -7);
-    assert_int_equal(stats.error_column, 2);
+    assert_int_equal(stats.error.row, -7);
+    assert_int_equal(stats.error.column, 2);
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_check(&bad, NULL));
 
-    bad = good; /* the first size that is too large; p is not read */
+    bad = good; /* the smallest size that is too large; p is not read */
     bad.n_rows = INT32_MAX - 6;
     SL_EXPECT(SL_ERR_TOO_LARGE, sl_csc_check(&bad, &stats));
     bad.n_rows--;
@@ -68,14 +68,14 @@ static void check_names_what_is_malformed(void **state) {
     sl_symbolic *S = NULL;
     SL_EXPECT(SL_ERR_TOO_LARGE, sl_symbolic_create(&S, &bad, NULL, &stats));
 
-    bad = good; /* a rectangle is fine here */
+    bad = good; /* a rectangular matrix is valid here */
     bad.n_rows = 5;
     SL_CHECK(sl_csc_check(&bad, NULL));
 }
 
 /* ---- triangle ---- */
 
-static void triangle_of_every_style(void **state) {
+static void the_triangle_of_every_style_is_detected(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_KINDS; kind++) {
         gen_list_t t = gen_make((gen_kind_t)kind, 30, 0, 3);
@@ -95,23 +95,24 @@ static void triangle_of_every_style(void **state) {
     }
 }
 
-static void triangle_names_the_lonely_entry(void **state) {
+static void an_entry_without_mirror_image_is_reported(void **state) {
     (void)state;
-    /* (2,0) has no mirror image, while (1,0) has */
+    /* (2,0) has no entry at (0,2); (1,0) has one at (0,1) */
     const sl_int p[4] = {0, 2, 3, 3}, i[3] = {1, 2, 0};
     sl_csc A = {3, 3, p, i, NULL};
-    sl_triangle found = SL_TRIANGLE_UPPER; /* neither is, and so it stays */
+    /* neither triangle is complete: the output is unchanged */
+    sl_triangle found = SL_TRIANGLE_UPPER;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&A, &found, NULL, &stats));
-    assert_int_equal(stats.error_row, 2);
-    assert_int_equal(stats.error_column, 0);
-    /* the same above the diagonal: (0,2) alone */
+    assert_int_equal(stats.error.row, 2);
+    assert_int_equal(stats.error.column, 0);
+    /* the same above the diagonal: only (0,2) */
     const sl_int q[4] = {0, 1, 2, 3}, k[3] = {1, 0, 0};
     sl_csc B = {3, 3, q, k, NULL};
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&B, &found, NULL, &stats));
-    assert_int_equal(stats.error_row, 0);
-    assert_int_equal(stats.error_column, 2);
+    assert_int_equal(stats.error.row, 0);
+    assert_int_equal(stats.error.column, 2);
     SL_EXPECT(SL_ERR_PATTERN, sl_csc_triangle(&B, &found, NULL, NULL));
     A.n_rows = 4;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_triangle(&A, &found, NULL, NULL));
@@ -121,7 +122,7 @@ static void triangle_names_the_lonely_entry(void **state) {
     assert_int_equal(found, SL_TRIANGLE_UPPER);
 }
 
-static void triangle_random_against_dense(void **state) {
+static void triangle_detection_agrees_with_dense_patterns(void **state) {
     (void)state;
     uint64_t seed = 99;
     int symmetric = 0;
@@ -129,7 +130,7 @@ static void triangle_random_against_dense(void **state) {
         sl_int n = 1 + gen_below(&seed, 5), p[6] = {0}, i[64];
         char has[25] = {0};
         int lower = 0, upper = 0, mirrored = 1;
-        for (sl_int j = 0; j < n; j++) { /* with duplicates, rows in any order */
+        for (sl_int j = 0; j < n; j++) { /* with duplicates and rows in any order */
             p[j + 1] = p[j];
             for (sl_int k = gen_below(&seed, n + 1); k > 0; k--) {
                 sl_int row = gen_below(&seed, n);
@@ -156,7 +157,7 @@ static void triangle_random_against_dense(void **state) {
             symmetric += found == SL_TRIANGLE_BOTH;
         }
     }
-    assert_true(symmetric > 20); /* the case was met */
+    assert_true(symmetric > 20); /* symmetric patterns did occur */
 }
 
 /* ---- transpose and permute ---- */
@@ -177,7 +178,7 @@ static void transpose_keeps_every_entry(void **state) {
     const double Cx[6] = {2, 6, 4, 5, 1, 3};
     assert_memory_equal(C.p, Cp, sizeof Cp);
     assert_memory_equal(C.i, Ci, sizeof Ci);
-    SAME_VALUES(C.x, Cx, 6); /* duplicates in their order */
+    SAME_VALUES(C.x, Cx, 6); /* duplicates keep their order */
     SL_CHECK(sl_matrix_transpose(&back, &C, NULL));
     C = sl_matrix_view(back);
     const sl_int sorted[6] = {0, 1, 3, 3, 0, 2};
@@ -229,7 +230,7 @@ static void permute_is_a_symmetric_permutation(void **state) {
     }
 }
 
-static void permute_wrong_arguments(void **state) {
+static void invalid_arguments_of_permute_are_refused(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_PATH, 4, 1, 1);
     const sl_int good[4] = {3, 1, 0, 2}, twice[4] = {3, 1, 1, 2}, big[4] = {0, 1, 2, 4},
@@ -249,13 +250,13 @@ static void permute_wrong_arguments(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_names_what_is_malformed),
-        cmocka_unit_test(triangle_of_every_style),
-        cmocka_unit_test(triangle_names_the_lonely_entry),
-        cmocka_unit_test(triangle_random_against_dense),
+        cmocka_unit_test(check_reports_each_defect),
+        cmocka_unit_test(the_triangle_of_every_style_is_detected),
+        cmocka_unit_test(an_entry_without_mirror_image_is_reported),
+        cmocka_unit_test(triangle_detection_agrees_with_dense_patterns),
         cmocka_unit_test(transpose_keeps_every_entry),
         cmocka_unit_test(permute_is_a_symmetric_permutation),
-        cmocka_unit_test(permute_wrong_arguments),
+        cmocka_unit_test(invalid_arguments_of_permute_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

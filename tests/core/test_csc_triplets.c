@@ -1,5 +1,5 @@
-/* test_csc_triplets.c: owned matrices from triplets: sorting, sums, refusals, nothing */
-#include "check.h"
+/* test_csc_triplets.c: sl_matrix_from_triplets: sorting, summation, errors, empty matrices */
+#include "tests/lib/check_factor.h"
 
 static void triplets_are_sorted_and_summed(void **state) {
     (void)state;
@@ -14,7 +14,7 @@ static void triplets_are_sorted_and_summed(void **state) {
     assert_int_equal(A.n_rows, 3);
     assert_int_equal(A.n_cols, 2);
     assert_int_equal(A.p[1], 2);
-    assert_int_equal(A.p[2], 4); /* the sum 8 - 8 = 0 stays an entry */
+    assert_int_equal(A.p[2], 4); /* the sum 8 - 8 = 0 is kept as an entry */
     assert_int_equal(A.i[0], 0);
     assert_int_equal(A.i[1], 2);
     assert_int_equal(A.i[2], 0);
@@ -29,7 +29,7 @@ static void triplets_are_sorted_and_summed(void **state) {
     sl_matrix_free(M);
 }
 
-static void triplets_random(void **state) {
+static void random_triplets_equal_dense_sums(void **state) {
     (void)state;
     uint64_t seed = 7;
     for (int round = 0; round < 50; round++) {
@@ -55,7 +55,7 @@ static void triplets_random(void **state) {
             }
         }
         for (sl_int k = 0; k < rows * cols; k++) {
-            assert_true(dense[k] == 0); /* nothing was lost */
+            assert_true(dense[k] == 0); /* no entry was lost */
         }
         sl_matrix_free(M);
         free(i);
@@ -65,23 +65,23 @@ static void triplets_random(void **state) {
     }
 }
 
-static void triplets_wrong_arguments(void **state) {
+static void invalid_arguments_are_refused(void **state) {
     (void)state;
     const sl_int good[2] = {0, 1}, bad[2] = {0, 5}, negative[2] = {-1, 0};
     const double x[2] = {1, 1};
     sl_matrix *M = (sl_matrix *)(void *)&M;
-    counter_t counter = counter_make(); /* sizes are refused before memory is asked for */
+    counter_t counter = counter_make(); /* sizes are refused before memory is requested */
     sl_options no_memory = options_counted(&counter);
     counter.fail_at = 0;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, bad, good, x, NULL, &stats));
     assert_null(M);
-    assert_int_equal(stats.error_row, 5);
-    assert_int_equal(stats.error_column, 1);
+    assert_int_equal(stats.error.row, 5);
+    assert_int_equal(stats.error.column, 1);
     SL_EXPECT(SL_ERR_ARGUMENT,
               sl_matrix_from_triplets(&M, 2, 2, 2, good, negative, x, NULL, &stats));
-    assert_int_equal(stats.error_column, -1);
+    assert_int_equal(stats.error.column, -1);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, -1, 2, 0, good, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, -2, 0, good, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, -1, good, good, x, NULL, NULL));
@@ -99,7 +99,7 @@ static void triplets_wrong_arguments(void **state) {
     assert_null(M);
 }
 
-static void triplets_none(void **state) {
+static void no_triplets_give_an_empty_matrix(void **state) {
     (void)state;
     sl_matrix *M = NULL;
     SL_CHECK(sl_matrix_from_triplets(&M, 0, 0, 0, NULL, NULL, NULL, NULL, NULL));
@@ -122,9 +122,9 @@ static void triplets_none(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triplets_are_sorted_and_summed),
-        cmocka_unit_test(triplets_random),
-        cmocka_unit_test(triplets_wrong_arguments),
-        cmocka_unit_test(triplets_none),
+        cmocka_unit_test(random_triplets_equal_dense_sums),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(no_triplets_give_an_empty_matrix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

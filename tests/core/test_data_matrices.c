@@ -1,17 +1,19 @@
-/* test_data_matrices.c: real matrices of $SL_DATA are solved, or refused by a row; without them it skips */
-#include "data.h"
+/* test_data_matrices.c: real matrices of $SL_DATA are solved, or refused with a row */
+#include "tests/lib/real_data.h"
 
-#include "../tools/input.h"
-#include "../tools/matrix_file.h"
+#include "tools/io/input.h"
+#include "tools/io/matrix_file.h"
 
-/* Matrices that need no pivoting. Their inertia is that of dense eigenvalues, or above n = 2,600 of another LDL'. */
-typedef struct known_t {
+/* Matrices that need no pivoting. Their inertia is that of dense eigenvalues or, above n = 2600,
+ * that of another LDL' code. */
+typedef struct known_matrix_t {
     const char *name;
     sl_int positive, negative;
-    int is_steady; /* DATA_STEADY holds; else pass_figure: elements of L may grow */
-} known_t;
+    /* 1: the bound DATA_STABLE; 0: pass_figure, since entries of L may grow */
+    int is_stable;
+} known_matrix_t;
 
-static const known_t known[] = {
+static const known_matrix_t known[] = {
     {"LFAT5.mtx", 14, 0, 1},
     {"bcsstk01.rb", 48, 0, 1},
     {"k01up_cholmod.txt", 48, 0, 1},
@@ -29,7 +31,7 @@ static const known_t known[] = {
     {"bcsstm34.mtx.gz", 351, 237, 0},
 };
 
-static const known_t *known_as(const char *path) {
+static const known_matrix_t *known_as(const char *path) {
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         if (strcmp(dataset_basename(path), known[k].name) == 0) {
             return &known[k];
@@ -48,7 +50,7 @@ static sl_matrix *read_or_fail(const char *path) {
     return M;
 }
 
-/* The path of a file of that name, which the caller frees, or the test is skipped. */
+/* The path of the file called name, which the caller frees. Skips the test if there is none. */
 static char *path_or_skip(const char *name) {
     dataset d = data_or_skip("matrices");
     const char *path = data_find(&d, name);
@@ -58,7 +60,7 @@ static char *path_or_skip(const char *name) {
     }
     dataset_free(&d);
     if (!copy) {
-        print_message("SL_DATA has no %s: not tried\n", name);
+        print_message("SL_DATA has no %s: skipped\n", name);
         skip();
     }
     return copy;
@@ -71,109 +73,111 @@ static sl_matrix *read_or_skip(const char *name) {
     return M;
 }
 
-/* Both are there before either is read. */
+/* Reads both or skips the test. */
 static void read_both_or_skip(const char *one, sl_matrix **M, const char *other, sl_matrix **N) {
     free(path_or_skip(one));
     *N = read_or_skip(other);
     *M = read_or_skip(one);
 }
 
-/* ---- the regular ones ---- */
+/* ---- matrices that need no pivoting ---- */
 
-/* Local solves of 1 and 3 right-hand sides on random sets, from one row to many. */
-static void try_local(const sl_symbolic *S, const sl_factor *F, sl_int n, sl_work *W) {
+/* Local solves of 1 and 3 right-hand sides on random sets of one to many rows. */
+static void check_local_solves(const sl_symbolic *S, const sl_factor *F, sl_int n, sl_work *W) {
     const sl_int sizes[4][2] = {{1, 1}, {1, -1}, {n / 50 + 1, n / 10 + 1}, {n / 2, n / 200 + 2}};
     for (int k = 0; k < 4; k++) {
         for (sl_int nrhs = 1; nrhs <= 3; nrhs += 2) {
-            question_t q = ask(F, n, sizes[k][0], sizes[k][1], nrhs, (uint64_t)(17 * k + nrhs));
-            answer(S, F, &q, W);
-            forget(&q);
+            local_solve_t q =
+                local_solve_random(F, n, sizes[k][0], sizes[k][1], nrhs, (uint64_t)(17 * k + nrhs));
+            local_solve_check(S, F, &q, W);
+            local_solve_free(&q);
         }
     }
 }
 
-/* Returns the worst backward error of all instruction sets. */
-static double try_known(const known_t *is, const sl_csc *A, sl_ordering ordering, sl_work *W) {
+/* Returns the largest backward error over all instruction sets. */
+static double check_known(const known_matrix_t *reference, const sl_csc *A, sl_ordering ordering,
+                          sl_work *W) {
     isa_list_t isas = isas_present();
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     sl_int n = A->n_cols;
-    double allowed = is->is_steady ? DATA_STEADY : pass_figure(n), worst = 0.0;
+    double allowed = reference->is_stable ? DATA_STABLE : pass_figure(n), worst = 0.0;
     opt.ordering = ordering;
-    SL_CHECK(sl_symbolic_create(&S, A, &opt, NULL));
+    SL_CHECK(sl_symbolic_create(&S, A, FOR_ANALYSIS(&opt), NULL));
     for (int k = 0; k < isas.count; k++) {
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         opt.isa = isas.isa[k];
-        SL_CHECK(sl_factor_create(&F, S, A, &opt, &stats));
-        assert_int_equal(stats.isa, isas.isa[k]);
-        assert_int_equal(stats.positive, is->positive);
-        assert_int_equal(stats.negative, is->negative);
-        assert_int_equal(stats.null, 0);
+        SL_CHECK(sl_factor_create(&F, S, A, FOR_FACTOR(&opt), &stats));
+        assert_int_equal(stats.factor.isa, isas.isa[k]);
+        assert_int_equal(stats.factor.positive, reference->positive);
+        assert_int_equal(stats.factor.negative, reference->negative);
+        assert_int_equal(stats.factor.null, 0);
         for (sl_int nrhs = 1; nrhs <= 3; nrhs += 2) {
             worst = fmax(worst, data_solve(F, A, nrhs, allowed, W));
         }
-        try_local(S, F, n, W);
+        check_local_solves(S, F, n, W);
         sl_factor_free(F);
     }
     sl_symbolic_free(S);
     return worst;
 }
 
-static void known_matrices_are_solved(void **state) {
+static void known_matrices_are_solved_accurately(void **state) {
     (void)state;
     dataset d = data_or_skip("matrices");
-    double steady = 0.0;
+    double stable = 0.0;
     size_t count = 0;
     sl_work *W = NULL;
     SL_CHECK(sl_work_create(&W, NULL));
     for (size_t k = 0; k < d.count; k++) {
-        const known_t *is = known_as(d.paths[k]);
-        if (is) {
+        const known_matrix_t *reference = known_as(d.paths[k]);
+        if (reference) {
             sl_matrix *M = read_or_fail(d.paths[k]);
             sl_csc A = sl_matrix_view(M);
-            double worst = try_known(is, &A, SL_ORDERING_DEFAULT, W);
-            if (A.n_cols <= 2000) { /* the fill of the natural order is bearable */
-                worst = fmax(worst, try_known(is, &A, SL_ORDERING_NATURAL, W));
+            double worst = check_known(reference, &A, SL_ORDERING_ND, W);
+            if (A.n_cols <= 2000) { /* the fill of the natural order is acceptable */
+                worst = fmax(worst, check_known(reference, &A, SL_ORDERING_NATURAL, W));
             }
-            steady = is->is_steady ? fmax(steady, worst) : steady;
+            stable = reference->is_stable ? fmax(stable, worst) : stable;
             count++;
             sl_matrix_free(M);
         }
     }
-    print_message("%lu of %lu known matrices solved; backward error up to %.1f eps where steady\n",
+    print_message("%lu of %lu known matrices solved; backward error up to %.1f eps where stable\n",
                   (unsigned long)count, (unsigned long)(sizeof known / sizeof known[0]),
-                  steady / DBL_EPSILON);
+                  stable / DBL_EPSILON);
     sl_work_free(W);
     dataset_free(&d);
 }
 
-/* ---- those that pivoting may be needed for ---- */
+/* ---- matrices that may need pivoting ---- */
 
-/* Solved well, or refused with a row that exists; returns the status. */
+/* Solved accurately, or refused with a valid row; returns the status. */
 static sl_status solved_or_refused(const sl_csc *A, sl_ordering ordering) {
     isa_list_t isas = isas_present();
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     sl_status status = SL_OK;
     opt.ordering = ordering;
-    SL_CHECK(sl_symbolic_create(&S, A, &opt, NULL));
+    SL_CHECK(sl_symbolic_create(&S, A, FOR_ANALYSIS(&opt), NULL));
     for (int k = 0; k < isas.count; k++) {
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         opt.isa = isas.isa[k];
-        status = sl_factor_create(&F, S, A, &opt, &stats);
+        status = sl_factor_create(&F, S, A, FOR_FACTOR(&opt), &stats);
         if (status == SL_OK) {
             (void)data_solve(F, A, 3, pass_figure(A->n_cols), NULL);
-            assert_int_equal(stats.positive + stats.negative, A->n_cols);
+            assert_int_equal(stats.factor.positive + stats.factor.negative, A->n_cols);
         } else {
             assert_int_equal(status, SL_ERR_PIVOT);
             assert_null(F);
-            assert_int_equal(stats.null, 1);
-            assert_in_range(stats.error_row, 0, A->n_cols - 1);
-            assert_true(isfinite(stats.error_value));
+            assert_int_equal(stats.factor.null, 1);
+            assert_in_range(stats.error.row, 0, A->n_cols - 1);
+            assert_true(isfinite(stats.error.value));
         }
         sl_factor_free(F);
     }
@@ -181,7 +185,7 @@ static sl_status solved_or_refused(const sl_csc *A, sl_ordering ordering) {
     return status;
 }
 
-/* Every square symmetric file of the folder that is not known, whatever it is. */
+/* Every square symmetric file in the folder that is not in `known`. */
 static void other_matrices_are_solved_or_refused(void **state) {
     (void)state;
     dataset d = data_or_skip("matrices");
@@ -192,24 +196,26 @@ static void other_matrices_are_solved_or_refused(void **state) {
             sl_csc A = sl_matrix_view(M);
             sl_triangle triangle;
             if (A.n_rows == A.n_cols && sl_csc_triangle(&A, &triangle, NULL, NULL) == SL_OK) {
-                sl_status status = solved_or_refused(&A, SL_ORDERING_DEFAULT);
+                sl_status status = solved_or_refused(&A, SL_ORDERING_ND);
                 solved += status == SL_OK;
                 refused += status != SL_OK;
             }
             sl_matrix_free(M);
         }
     }
-    print_message("%lu others solved, %lu refused by a row\n", (unsigned long)solved,
+    print_message("%lu others solved, %lu refused with a row\n", (unsigned long)solved,
                   (unsigned long)refused);
     dataset_free(&d);
 }
 
-/* Singular: refused in any order, in the natural one at the row where exact elimination stops. */
+/* Singular matrices are refused in any order; in natural order at the row where exact elimination
+ * stops. */
 static void singular_matrices_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *name;
-        sl_int row; /* s4 is magic(4) + its transpose, rank 3; the other stores no entry (0, 0) */
+        /* s4 is magic(4) + its transpose, of rank 3; the other stores no entry (0, 0) */
+        sl_int row;
     } singular[] = {{"s4.rb", 3}, {"coordinate_hermitian_real_row_general_dup.mtx", 0}};
     for (size_t k = 0; k < sizeof singular / sizeof singular[0]; k++) {
         sl_matrix *M = read_or_skip(singular[k].name);
@@ -219,18 +225,19 @@ static void singular_matrices_are_refused(void **state) {
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        assert_int_equal(solved_or_refused(&A, SL_ORDERING_DEFAULT), SL_ERR_PIVOT);
+        assert_int_equal(solved_or_refused(&A, SL_ORDERING_ND), SL_ERR_PIVOT);
         opt.ordering = SL_ORDERING_NATURAL;
         SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, NULL, &stats));
-        assert_int_equal(stats.error_row, singular[k].row);
+        assert_int_equal(stats.error.row, singular[k].row);
         sl_symbolic_free(S);
         sl_matrix_free(M);
     }
 }
 
-/* Orders that are not the best for it: 122 zeros on one diagonal, rounding that eats small pivots in the other. */
-static void a_bad_order_gives_no_wrong_answer(void **state) {
+/* Natural orders that are bad: 122 zeros on the diagonal of one matrix, small pivots that are lost
+ * to rounding in the other. */
+static void a_bad_order_gives_no_wrong_solution(void **state) {
     (void)state;
     static const char *const names[2] = {"tumorAntiAngiogenesis_2.mtx", "cvxqp1_m_3x3_K_10.mtx.gz"};
     for (int k = 0; k < 2; k++) {
@@ -244,8 +251,9 @@ static void a_bad_order_gives_no_wrong_answer(void **state) {
 
 /* ---- one pattern, several matrices ---- */
 
-/* The first and the tenth iteration of an interior-point method: new values into an old factor, and back. */
-static void refactor_equals_a_fresh_factor(void **state) {
+/* Iterations 1 and 10 of an interior-point method: a refactor with the values of the other, and
+ * back. */
+static void refactor_equals_create(void **state) {
     (void)state;
     sl_matrix *M0 = NULL, *M10 = NULL;
     read_both_or_skip("cvxqp1_m_3x3_K_0.mtx.gz", &M0, "cvxqp1_m_3x3_K_10.mtx.gz", &M10);
@@ -271,9 +279,10 @@ static void refactor_equals_a_fresh_factor(void **state) {
             SL_CHECK(sl_factor_refactor(F, &A[round % 2], &now));
             sl_factor_stats(fresh[round % 2], &then);
             assert_same_bits(F, fresh[round % 2]);
-            assert_int_equal(now.positive, then.positive);
-            assert_int_equal(now.negative, then.negative);
-            assert_true(now.pivot_min == then.pivot_min && now.pivot_max == then.pivot_max);
+            assert_int_equal(now.factor.positive, then.factor.positive);
+            assert_int_equal(now.factor.negative, then.factor.negative);
+            assert_true(now.factor.pivot_min == then.factor.pivot_min &&
+                        now.factor.pivot_max == then.factor.pivot_max);
         }
         sl_factor_free(F);
         sl_factor_free(fresh[0]);
@@ -284,7 +293,7 @@ static void refactor_equals_a_fresh_factor(void **state) {
     sl_matrix_free(M10);
 }
 
-/* One matrix in two files: its upper triangle, and its lower one with values of 12 digits. */
+/* One matrix in two files: its upper triangle, and its lower triangle with values of 12 digits. */
 static void either_triangle_gives_the_same_solution(void **state) {
     (void)state;
     sl_matrix *lower = NULL, *upper = NULL, *turned = NULL;
@@ -302,8 +311,8 @@ static void either_triangle_gives_the_same_solution(void **state) {
     assert_same_bits(F[0], F[1]);
     gen_reals(B, 48, 3);
     SL_CHECK(sl_factor_solve(F[0], X, 48, B, 48, 1, NULL));
-    assert_true(worst_backward(&U, X, 48, B, 48, 1) <= DATA_STEADY);
-    assert_true(worst_backward(&L, X, 48, B, 48, 1) <= 1e-12); /* the digits */
+    assert_true(worst_backward(&U, X, 48, B, 48, 1) <= DATA_STABLE);
+    assert_true(worst_backward(&L, X, 48, B, 48, 1) <= 1e-12); /* precision of the file */
     for (int k = 0; k < 2; k++) {
         sl_factor_free(F[k]);
         sl_symbolic_free(S[k]);
@@ -313,8 +322,8 @@ static void either_triangle_gives_the_same_solution(void **state) {
     sl_matrix_free(turned);
 }
 
-/* A pattern without values is analysed like the same matrix of ones, and no factor is made of it. */
-static void a_pattern_is_analysed_only(void **state) {
+/* A pattern without values has the analysis of the same matrix of ones, and cannot be factored. */
+static void a_pattern_without_values_is_only_analyzed(void **state) {
     (void)state;
     char *path = path_or_skip("bcspwr10.mtx.gz");
     sl_matrix *ones = read_or_fail(path), *pattern = NULL;
@@ -331,9 +340,9 @@ static void a_pattern_is_analysed_only(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, &with));
     sl_symbolic_free(S);
     SL_CHECK(sl_symbolic_create(&S, &P, NULL, &without));
-    assert_int_equal(without.n, 5300);
-    assert_int_equal(without.nnz_a, 13571);
-    assert_int_equal(without.nnz_l, with.nnz_l);
+    assert_int_equal(without.symbolic.n, 5300);
+    assert_int_equal(without.symbolic.nnz_a, 13571);
+    assert_int_equal(without.symbolic.nnz_l, with.symbolic.nnz_l);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &P, NULL, NULL));
     assert_null(F);
     sl_symbolic_free(S);
@@ -345,13 +354,13 @@ static void a_pattern_is_analysed_only(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_matrices_are_solved),
+        cmocka_unit_test(known_matrices_are_solved_accurately),
         cmocka_unit_test(other_matrices_are_solved_or_refused),
         cmocka_unit_test(singular_matrices_are_refused),
-        cmocka_unit_test(a_bad_order_gives_no_wrong_answer),
-        cmocka_unit_test(refactor_equals_a_fresh_factor),
+        cmocka_unit_test(a_bad_order_gives_no_wrong_solution),
+        cmocka_unit_test(refactor_equals_create),
         cmocka_unit_test(either_triangle_gives_the_same_solution),
-        cmocka_unit_test(a_pattern_is_analysed_only),
+        cmocka_unit_test(a_pattern_without_values_is_only_analyzed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,9 @@
-/* test_exhaustive.c: every symmetric pattern of up to 5 rows, every set of known and of wanted rows, against the dense
- * reference and, bit for bit, against the full solve */
-#include "check.h"
+/* test_exhaustive.c: every pattern up to n = 5 with every b-set and x-set against dense solves */
+#include "tests/lib/check_factor.h"
 
 enum { MOST = 5 };
 
-/* members of a set as rows, ascending or descending: the order must not matter */
+/* the members of a set as rows, ascending or descending: the order must not matter */
 static sl_int members(unsigned set, sl_int n, sl_int *rows) {
     sl_int count = 0;
     for (sl_int k = 0; k < n; k++) {
@@ -18,12 +17,12 @@ static sl_int members(unsigned set, sl_int n, sl_int *rows) {
 
 typedef struct tally_t {
     long solves, wrong;
-    double worst; /* |x - reference| over the bound */
+    double worst; /* |x - reference| / bound */
 } tally_t;
 
 /* all pairs of sets for one factor */
-static void all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const double *Z,
-                     sl_work *W, tally_t *tally) {
+static void check_all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const double *Z,
+                           sl_work *W, tally_t *tally) {
     double values[MOST], largest = 0;
     gen_reals(values, MOST, 11);
     for (sl_int q = 0; q < n * n; q++) {
@@ -42,19 +41,20 @@ static void all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const d
         for (unsigned x = 0; x < 1u << n; x++) {
             sl_int xset[MOST], nx = members(x, n, xset);
             double X[MOST];
-            if ((b + x) % 8 ==
-                0) { /* by plan now and then: it is the same code below the surface */
+            /* with a plan for some: the code below is the same */
+            if ((b + x) % 8 == 0) {
                 sl_plan *P = NULL;
                 SL_CHECK(sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL));
                 SL_CHECK(sl_plan_solve(P, F, X, (size_t)n, B, (size_t)n, 1, W));
                 sl_plan_free(P);
             } else {
                 SL_CHECK(
-                    sl_local_solve(F, X, (size_t)n, xset, nx, B, (size_t)n, bset, nb, 1, W, NULL));
+                    sl_local_solve(F, bset, nb, xset, nx, X, (size_t)n, B, (size_t)n, 1, W, NULL));
             }
             tally->solves++;
             for (sl_int k = 0; k < nx; k++) {
-                /* condition: rows dominate by 1, so |A^-1| <= 1, |A| <= 10: 10 n n eps */
+                /* each row is dominant by 1, so |A^-1| <= 1, |A| <= 10, and the bound is 10 n n
+                 * eps */
                 double off =
                     fabs(X[k] - exact[xset[k]]) / (10.0 * (double)(n * n) * DBL_EPSILON * largest);
                 tally->worst = off > tally->worst ? off : tally->worst;
@@ -64,7 +64,7 @@ static void all_sets(const sl_symbolic *S, const sl_factor *F, sl_int n, const d
     }
 }
 
-static void every_pattern_and_every_set(void **state) {
+static void local_solves_are_right_for_every_pattern_and_every_set(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     const sl_isa tried[2] = {SL_ISA_SCALAR, isas.isa[isas.count - 1]};
@@ -80,18 +80,18 @@ static void every_pattern_and_every_set(void **state) {
                 sl_symbolic *S = NULL;
                 sl_factor *F = NULL;
                 opt.ordering =
-                    SL_ORDERING_NATURAL; /* every relabelling of a pattern is among the patterns */
+                    SL_ORDERING_NATURAL; /* all relabelings of a pattern are among the patterns */
                 opt.relaxation = which % 2 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
                 opt.isa = tried[which / 2];
-                SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-                SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+                SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
+                SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
                 if (which % 2) {
-                    sl_symbolic_view_t v = sl_symbolic_view(S);
+                    sl_symbolic_arrays v = sl_symbolic_view(S);
                     NOTHING_WRONG(check_supernodes(&v));
                     NOTHING_WRONG(check_structure(&v, &M.view, 1));
                     NOTHING_WRONG(check_factor(F, &M.view));
                 }
-                all_sets(S, F, n, Z, W, &tally);
+                check_all_sets(S, F, n, Z, W, &tally);
                 if (tally.wrong) {
                     print_error("n = %d, edges %u, %s, relaxation %d\n", (int)n, edges,
                                 isa_name(opt.isa), which % 2);
@@ -105,14 +105,13 @@ static void every_pattern_and_every_set(void **state) {
             gen_matrix_free(&M);
         }
     }
-    print_message("%ld local solves, largest error %.2g of what is allowed\n", tally.solves,
-                  tally.worst);
+    print_message("%ld local solves, largest error %.2g of the bound\n", tally.solves, tally.worst);
     sl_work_free(W);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pattern_and_every_set),
+        cmocka_unit_test(local_solves_are_right_for_every_pattern_and_every_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,56 +1,57 @@
-/* test_factor.c: P A P' = L D L' entrywise, inertia, determinant, refactorization, the same bits from every form */
-#include "problem.h"
+/* test_factor.c: P A P' = L D L' entrywise, inertia, determinant, refactor, equal bits */
+#include "tests/lib/factored.h"
 
-static void product_in_every_way_style_and_sign(void **state) {
+static void ldl_reproduces_a_for_every_method_style_and_sign(void **state) {
     (void)state;
     static const sl_int sizes[4] = {5, 9, 33, 90};
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int size = 0; size < 4; size++) {
             for (int which = size; which < GEN_STYLES; which += 4) {
-                for (int k = 0; k < ways.count; k++) {
+                for (int k = 0; k < variants.count; k++) {
                     sl_options opt = options_none();
-                    way_take(&opt, &ways, k);
+                    options_set_variant(&opt, &variants, k);
                     opt.relaxation = (sl_relaxation)(which / 2 % 2);
-                    opt.ordering = which % 3 ? SL_ORDERING_DEFAULT : SL_ORDERING_NATURAL;
-                    problem_t y =
-                        problem_make((gen_kind_t)kind, sizes[size], which % 3 - 1, which, &opt);
+                    opt.ordering = which % 3 ? SL_ORDERING_ND : SL_ORDERING_NATURAL;
+                    factored_t y =
+                        factored_make((gen_kind_t)kind, sizes[size], which % 3 - 1, which, &opt);
                     NOTHING_WRONG(check_factor(y.F, &y.M.view));
                     sl_stats stats;
                     memset(&stats, 0, sizeof stats);
                     sl_factor_stats(y.F, &stats);
-                    assert_int_equal(stats.isa, ways.way[k].isa);
-                    assert_int_equal(stats.method, ways.way[k].method);
-                    problem_free(&y);
+                    assert_int_equal(stats.factor.isa, variants.variant[k].isa);
+                    assert_int_equal(stats.factor.method, variants.variant[k].method);
+                    factored_free(&y);
                 }
             }
         }
     }
 }
 
-/* The widths of supernodes and heights of panels round every multiple of 8: dense and arrow matrices of each size. */
-static void every_small_shape(void **state) {
+/* Dense and arrow matrices of each size: supernode widths and panel heights around every multiple
+ * of 8. */
+static void every_small_supernode_is_factored(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
         sl_options opt = options_none();
-        way_take(&opt, &ways, k);
+        options_set_variant(&opt, &variants, k);
         opt.ordering = SL_ORDERING_NATURAL;
         for (sl_int n = 1; n <= 42; n++) {
             static const gen_kind_t kinds[4] = {GEN_DENSE, GEN_ARROW, GEN_STAR, GEN_KKT};
             for (int which = 0; which < 4; which++) {
-                problem_t y = problem_make(kinds[which], n, 0, 0, &opt);
+                factored_t y = factored_make(kinds[which], n, 0, 0, &opt);
                 NOTHING_WRONG(check_factor(y.F, &y.M.view));
-                problem_free(&y);
+                factored_free(&y);
             }
         }
     }
 }
 
-/* two supernodes: width w over height h, then a dense rest, for all small w and h */
-static void every_small_pair_of_supernodes(void **state) {
+/* Two supernodes: width w over height h, then a dense rest, for all small w and h. */
+static void every_small_pair_of_supernodes_is_factored(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     uint64_t seed = 8;
     for (sl_int w = 1; w <= 20; w++) {
         for (sl_int h = 1; h <= 20; h++) {
@@ -58,10 +59,10 @@ static void every_small_pair_of_supernodes(void **state) {
             for (sl_int j = 0; j < w; j++) {
                 for (sl_int i = j + 1; i < w + h; i++) {
                     gen_add(&t, i < w ? i : i + 3 * (i % 2), j,
-                            gen_real(&seed)); /* rows with gaps */
+                            gen_real(&seed)); /* with gaps between the rows */
                 }
             }
-            gen_list_t clean = gen_list(t.n); /* i + 3 (i % 2) may hit a row twice */
+            gen_list_t clean = gen_list(t.n); /* i + 3 (i % 2) may repeat a row */
             char *seen = (char *)test_array((size_t)t.n * (size_t)t.n, 1);
             for (sl_int j = w; j < t.n; j++) {
                 for (sl_int i = j + 1; i < t.n; i++) {
@@ -75,15 +76,15 @@ static void every_small_pair_of_supernodes(void **state) {
             }
             gen_dominate(&clean, 0, &seed);
             gen_matrix_t M = gen_store(&clean, gen_style(0), 1);
-            for (int k = 0; k < ways.count; k++) {
+            for (int k = 0; k < variants.count; k++) {
                 sl_options opt = options_none();
-                way_take(&opt, &ways, k);
+                options_set_variant(&opt, &variants, k);
                 opt.ordering = SL_ORDERING_NATURAL;
                 opt.relaxation = SL_RELAXATION_NONE;
                 sl_symbolic *S = NULL;
                 sl_factor *F = NULL;
-                SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-                SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+                SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
+                SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
                 NOTHING_WRONG(check_factor(F, &M.view));
                 sl_factor_free(F);
                 sl_symbolic_free(S);
@@ -96,20 +97,20 @@ static void every_small_pair_of_supernodes(void **state) {
     }
 }
 
-/* Against the dense reference: |L - L_ref| is small where the matrix is well conditioned. */
-static void equals_the_dense_reference(void **state) {
+/* |L - L_ref| is small if the matrix is well conditioned. */
+static void the_factor_equals_the_dense_reference(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         if (kind == GEN_SCALED || kind == GEN_KKT) {
             continue; /* entries of L vary too much for an absolute bound */
         }
-        for (int k = 0; k < ways.count; k++) {
+        for (int k = 0; k < variants.count; k++) {
             sl_options opt = options_none();
-            way_take(&opt, &ways, k);
-            problem_t y = problem_make((gen_kind_t)kind, 50, 0, 0, &opt);
-            sl_factor_view_t f = sl_factor_view(y.F);
-            sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+            options_set_variant(&opt, &variants, k);
+            factored_t y = factored_make((gen_kind_t)kind, 50, 0, 0, &opt);
+            sl_factor_arrays f = sl_factor_view(y.F);
+            sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
             sl_int n = v.n;
             const char *wrong = NULL;
             double *M = ref_dense(&y.M.view), *C = ref_permute(n, M, v.perm),
@@ -117,7 +118,8 @@ static void equals_the_dense_reference(void **state) {
             double *Lr = test_reals((size_t)n * (size_t)n), *Dr = test_reals((size_t)n);
             assert_null(wrong);
             ref_ldl(n, C, Lr, Dr);
-            /* rows dominate, so |L| has entries below 1 and the growth is at most 2: c n eps, c = 16 */
+            /* rows are dominant, so entries of L are below 1 and the pivot growth is at most 2: c n
+             * eps, c = 16 */
             for (sl_int j = 0; j < n; j++) {
                 assert_true(fabs(f.D[j] - Dr[j]) <= 16.0 * (double)n * DBL_EPSILON * fabs(Dr[j]));
                 for (sl_int i = j; i < n; i++) {
@@ -129,18 +131,18 @@ static void equals_the_dense_reference(void **state) {
             free(L);
             free(Lr);
             free(Dr);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-static void lower_is_the_same_matrix(void **state) {
+static void sl_factor_lower_returns_l(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int relaxation = 0; relaxation < 2; relaxation++) {
             sl_options opt = options_none();
             opt.relaxation = (sl_relaxation)relaxation;
-            problem_t y = problem_make((gen_kind_t)kind, 40, 0, 2, &opt);
+            factored_t y = factored_make((gen_kind_t)kind, 40, 0, 2, &opt);
             sl_matrix *lower = NULL;
             const char *wrong = NULL;
             double *L = check_expand(y.F, &wrong);
@@ -160,20 +162,20 @@ static void lower_is_the_same_matrix(void **state) {
                 }
             }
             for (size_t k = 0; k < (size_t)n * (size_t)n; k++) {
-                assert_true(L[k] == 0.0); /* every entry came out */
+                assert_true(L[k] == 0.0); /* every entry was returned */
             }
             free(L);
             sl_matrix_free(lower);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-static void inertia_and_determinant(void **state) {
+static void inertia_and_determinant_are_known(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int sign = -1; sign <= 1; sign++) {
-            problem_t y = problem_make((gen_kind_t)kind, 36, sign, 0, NULL);
+            factored_t y = factored_make((gen_kind_t)kind, 36, sign, 0, NULL);
             sl_int n = y.M.view.n_cols, negative = 0;
             sl_stats stats;
             double log_det = -1, det_sign = 0, wanted_log = 0, wanted_sign = 1, least = INFINITY,
@@ -189,21 +191,21 @@ static void inertia_and_determinant(void **state) {
                 least = fabs(d) < least ? fabs(d) : least;
                 most = fabs(d) > most ? fabs(d) : most;
             }
-            assert_int_equal(stats.negative, negative);
-            assert_int_equal(stats.positive, n - negative);
-            assert_int_equal(stats.null, 0);
+            assert_int_equal(stats.factor.negative, negative);
+            assert_int_equal(stats.factor.positive, n - negative);
+            assert_int_equal(stats.factor.null, 0);
             if (n > 0) {
-                assert_true(stats.pivot_min == least && stats.pivot_max == most);
+                assert_true(stats.factor.pivot_min == least && stats.factor.pivot_max == most);
             }
             if (kind == GEN_KKT) {
-                assert_int_equal(negative,
-                                 n / 3); /* Sylvester: as many as C has rows, in any order */
+                /* Sylvester: as many negative pivots as C has rows, in any order */
+                assert_int_equal(negative, n / 3);
             } else if (sign) {
                 assert_int_equal(negative, sign < 0 ? n : 0);
             }
             assert_true(fabs(log_det - wanted_log) <= 1e-12 * (1.0 + fabs(wanted_log)));
             assert_true(det_sign == wanted_sign);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
     /* 3 x 3 by hand: [2 1 0; 1 -3 1; 0 1 4], det = 2 (-12 - 1) - 1 (4) = -30 */
@@ -223,7 +225,7 @@ static void inertia_and_determinant(void **state) {
 }
 
 /* a determinant far outside the range of double */
-static void determinant_does_not_overflow(void **state) {
+static void the_logarithm_of_a_determinant_does_not_overflow(void **state) {
     (void)state;
     enum { N = 600 };
     sl_int p[N + 1], i[N];
@@ -247,18 +249,18 @@ static void determinant_does_not_overflow(void **state) {
 
 static void refactor_equals_create(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
-        for (int k = 0; k < ways.count; k++) {
+        for (int k = 0; k < variants.count; k++) {
             counter_t counter = counter_make();
             sl_options opt = options_counted(&counter);
-            way_take(&opt, &ways, k);
-            problem_t y = problem_make((gen_kind_t)kind, 60, 0, kind, &opt);
+            options_set_variant(&opt, &variants, k);
+            factored_t y = factored_make((gen_kind_t)kind, 60, 0, kind, &opt);
             sl_int nnz = y.M.p[y.M.view.n_cols];
             sl_factor *G = NULL, *H = NULL;
             sl_stats stats;
             memset(&stats, 0, sizeof stats);
-            /* other values of the same pattern, then back */
+            /* other values of the same pattern, then the first ones again */
             double *other = test_reals((size_t)nnz);
             for (sl_int q = 0; q < nnz; q++) {
                 other[q] = 3.0 * y.M.x[q];
@@ -276,36 +278,36 @@ static void refactor_equals_create(void **state) {
             free(other);
             sl_factor_free(G);
             sl_factor_free(H);
-            problem_free(&y);
+            factored_free(&y);
             COUNTER_CLEAN(&counter);
         }
     }
 }
 
-/* how A is stored must not show in the bits */
+/* The storage style of A does not affect the bits. */
 static void every_style_gives_the_same_bits(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
-        problem_t first = problem_make((gen_kind_t)kind, 40, 0, 0, NULL);
+        factored_t first = factored_make((gen_kind_t)kind, 40, 0, 0, NULL);
         for (int which = 1; which < GEN_STYLES; which++) {
-            problem_t y = problem_make((gen_kind_t)kind, 40, 0, which, NULL);
+            factored_t y = factored_make((gen_kind_t)kind, 40, 0, which, NULL);
             assert_same_bits(first.F, y.F);
-            problem_free(&y);
+            factored_free(&y);
         }
-        problem_free(&first);
+        factored_free(&first);
     }
 }
 
-static void isas_agree_to_rounding(void **state) {
+static void instruction_sets_agree_to_rounding(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         sl_options opt = options_none();
         opt.isa = SL_ISA_SCALAR;
-        problem_t scalar = problem_make((gen_kind_t)kind, 400, 1, 0, &opt);
+        factored_t scalar = factored_make((gen_kind_t)kind, 400, 1, 0, &opt);
         for (int k = 1; k < isas.count; k++) {
             opt.isa = isas.isa[k];
-            problem_t y = problem_make((gen_kind_t)kind, 400, 1, 0, &opt);
+            factored_t y = factored_make((gen_kind_t)kind, 400, 1, 0, &opt);
             sl_int n = y.M.view.n_cols;
             double worst = 0;
             for (sl_int j = 0; j < n; j++) {
@@ -313,43 +315,43 @@ static void isas_agree_to_rounding(void **state) {
                 worst = fabs(a - b) > worst * fabs(a) ? fabs(a - b) / fabs(a) : worst;
             }
             assert_true(worst <= 16.0 * (double)(n + 1) * DBL_EPSILON);
-            problem_free(&y);
+            factored_free(&y);
         }
-        problem_free(&scalar);
+        factored_free(&scalar);
     }
 }
 
-/* The default is the best that is there: the last of the list. */
-static void automatic_isa(void **state) {
+/* The default is the best one present, the last of the list. */
+static void the_default_instruction_set_is_the_best(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     assert_true(isas.count >= 1 && isas.isa[0] == SL_ISA_SCALAR);
-    problem_t y = problem_make(GEN_GRID2, 49, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 49, 1, 0, NULL);
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     sl_factor_stats(y.F, &stats);
-    assert_int_equal(stats.isa, isas.isa[isas.count - 1]);
+    assert_int_equal(stats.factor.isa, isas.isa[isas.count - 1]);
     print_message("instruction sets:");
     for (int k = 0; k < isas.count; k++) {
         print_message(" %s", isa_name(isas.isa[k]));
     }
     print_message("\n");
-    problem_free(&y);
+    factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(product_in_every_way_style_and_sign),
-        cmocka_unit_test(every_small_shape),
-        cmocka_unit_test(every_small_pair_of_supernodes),
-        cmocka_unit_test(equals_the_dense_reference),
-        cmocka_unit_test(lower_is_the_same_matrix),
-        cmocka_unit_test(inertia_and_determinant),
-        cmocka_unit_test(determinant_does_not_overflow),
+        cmocka_unit_test(ldl_reproduces_a_for_every_method_style_and_sign),
+        cmocka_unit_test(every_small_supernode_is_factored),
+        cmocka_unit_test(every_small_pair_of_supernodes_is_factored),
+        cmocka_unit_test(the_factor_equals_the_dense_reference),
+        cmocka_unit_test(sl_factor_lower_returns_l),
+        cmocka_unit_test(inertia_and_determinant_are_known),
+        cmocka_unit_test(the_logarithm_of_a_determinant_does_not_overflow),
         cmocka_unit_test(refactor_equals_create),
         cmocka_unit_test(every_style_gives_the_same_bits),
-        cmocka_unit_test(isas_agree_to_rounding),
-        cmocka_unit_test(automatic_isa),
+        cmocka_unit_test(instruction_sets_agree_to_rounding),
+        cmocka_unit_test(the_default_instruction_set_is_the_best),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

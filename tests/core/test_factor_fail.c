@@ -1,5 +1,5 @@
-/* test_factor_fail.c: factorizations that fail: null pivots, NaN and infinity, their rows, factors that then refuse */
-#include "problem.h"
+/* test_factor_fail.c: null pivots, values that are not finite, the rows reported, failed factors */
+#include "tests/lib/factored.h"
 
 static void assert_refuses(sl_factor *F, const sl_symbolic *S) {
     double one[1] = {7}, log_det = 7, sign = 7;
@@ -14,7 +14,7 @@ static void assert_refuses(sl_factor *F, const sl_symbolic *S) {
     SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, X, (size_t)n, B, (size_t)n, 0, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_factor_logdet(F, &log_det, &sign));
     SL_EXPECT(SL_ERR_STATE, sl_factor_lower(&lower, F, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_local_solve(F, one, 1, row, 1, one, 1, row, 1, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_local_solve(F, row, 1, row, 1, one, 1, one, 1, 1, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, S, row, 1, row, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, F, one, 1, one, 1, 1, NULL));
     assert_true(one[0] == 7 && X[0] == first && log_det == 7 && sign == 7);
@@ -26,12 +26,12 @@ static void assert_refuses(sl_factor *F, const sl_symbolic *S) {
 
 static void a_failed_refactor_refuses_until_one_succeeds(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
         counter_t counter = counter_make();
         sl_options opt = options_counted(&counter);
-        way_take(&opt, &ways, k);
-        problem_t y = problem_make(GEN_GRID2, 400, 1, 0, &opt);
+        options_set_variant(&opt, &variants, k);
+        factored_t y = factored_make(GEN_GRID2, 400, 1, 0, &opt);
         sl_int n = y.M.view.n_cols, nnz = y.M.p[n];
         sl_factor *G = NULL;
         sl_stats stats;
@@ -45,15 +45,15 @@ static void a_failed_refactor_refuses_until_one_succeeds(void **state) {
         N.x = poison;
         size_t calls = counter.calls;
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(G, &Z, &stats));
-        assert_int_equal(stats.null, 1);
-        assert_in_range(stats.error_row, 0, n - 1);
-        assert_true(stats.error_value == 0.0);
+        assert_int_equal(stats.factor.null, 1);
+        assert_in_range(stats.error.row, 0, n - 1);
+        assert_true(stats.error.value == 0.0);
         assert_int_equal(counter.calls, calls);
         assert_refuses(G, y.S);
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(G, &N, &stats));
         assert_refuses(G, y.S);
         SL_CHECK(sl_factor_refactor(G, &y.M.view, &stats));
-        assert_same_bits(G, y.F); /* nothing of the failure is left */
+        assert_same_bits(G, y.F); /* the failure leaves no trace */
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(G, &N, NULL));
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(G, &Z, NULL));
         SL_CHECK(sl_factor_refactor(G, &y.M.view, NULL));
@@ -61,21 +61,21 @@ static void a_failed_refactor_refuses_until_one_succeeds(void **state) {
         free(zeros);
         free(poison);
         sl_factor_free(G);
-        problem_free(&y);
+        factored_free(&y);
         COUNTER_CLEAN(&counter);
     }
 }
 
-/* The only null pivot of diag(1 .. 1, 0, 1 .. 1) is where the zero stands, under any ordering. */
-static void a_null_pivot_is_named_in_the_callers_row(void **state) {
+/* The only null pivot of diag(1 .. 1, 0, 1 .. 1) is the zero, in any ordering. */
+static void a_null_pivot_is_reported_in_the_callers_row(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (sl_int zero = 0; zero < 20; zero++) {
         gen_list_t t = gen_list(20);
         for (sl_int k = 0; k < 20; k++) {
             gen_add(&t, k, k, k == zero ? 0.0 : 1.0 + k);
         }
-        /* ties between the others */
+        /* ties between the other rows */
         for (sl_int k = 0; k + 2 < 20; k++) {
             if (k != zero && k + 2 != zero) {
                 gen_add(&t, k + 2, k, 0.25);
@@ -85,19 +85,19 @@ static void a_null_pivot_is_named_in_the_callers_row(void **state) {
             gen_matrix_t M = gen_store(&t, gen_style(which), 3);
             sl_symbolic *S = NULL;
             SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-            for (int k = 0; k < ways.count; k++) {
+            for (int k = 0; k < variants.count; k++) {
                 sl_options opt = options_none();
-                way_take(&opt, &ways, k);
+                options_set_variant(&opt, &variants, k);
                 sl_factor *F = (sl_factor *)(void *)&t;
                 sl_stats stats;
                 memset(&stats, 0, sizeof stats);
                 SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
                 assert_null(F);
-                assert_int_equal(stats.error_row, zero);
-                assert_int_equal(stats.null, 1);
-                assert_true(stats.error_value == 0.0);
+                assert_int_equal(stats.error.row, zero);
+                assert_int_equal(stats.factor.null, 1);
+                assert_true(stats.error.value == 0.0);
                 SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, NULL));
-                /* only exact zeros are null: this one is */
+                /* only exact zeros are null, and this is one */
                 opt.null_tolerance = -1.0;
                 SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, NULL));
             }
@@ -108,37 +108,37 @@ static void a_null_pivot_is_named_in_the_callers_row(void **state) {
     }
 }
 
-/* A Laplacian is singular: the last pivot of the order is null up to rounding, and d == 0.0 would not see it. */
+/* The last pivot of a Laplacian is 0 up to rounding; a test for d == 0.0 would miss it. */
 static void a_laplacian_is_singular(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (sl_int size = 4; size < 1000; size = size * 3 / 2 + 1) {
         gen_matrix_t M = gen_matrix(GEN_SINGULAR, size, 1, 1);
-        /* thirds are not exact, so the last pivot comes out near 1e-17 and not 0 */
+        /* thirds are inexact: the last pivot is about 1e-17, not 0 */
         for (sl_int q = 0; q < M.p[M.view.n_cols]; q++) {
             M.x[q] /= 3.0;
         }
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-        sl_symbolic_view_t v = sl_symbolic_view(S);
-        for (int k = 0; k < ways.count; k++) {
+        sl_symbolic_arrays v = sl_symbolic_view(S);
+        for (int k = 0; k < variants.count; k++) {
             sl_options opt = options_none();
             sl_stats stats;
             sl_factor *F = NULL;
             memset(&stats, 0, sizeof stats);
-            way_take(&opt, &ways, k);
+            options_set_variant(&opt, &variants, k);
             SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
-            assert_int_equal(stats.error_row, v.perm[v.n - 1]);
-            assert_true(fabs(stats.error_value) < 1e-12);
+            assert_int_equal(stats.error.row, v.perm[v.n - 1]);
+            assert_true(fabs(stats.error.value) < 1e-12);
         }
         sl_symbolic_free(S);
         gen_matrix_free(&M);
     }
 }
 
-static void null_tolerance_is_obeyed(void **state) {
+static void null_tolerance_decides_what_is_null(void **state) {
     (void)state;
-    /* [1 1; 1 1 + e]: second pivot e, made of magnitudes of about 2 */
+    /* [1 1; 1 1 + e]: the second pivot is e, computed from magnitudes of sum about 2 */
     const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
     double x[3] = {1, 1, 1};
     sl_csc A = {2, 2, p, i, x};
@@ -146,13 +146,13 @@ static void null_tolerance_is_obeyed(void **state) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
     x[2] = 1.0 + 4.0 * DBL_EPSILON;
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, &opt, NULL)); /* 64 eps */
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL)); /* 64 eps */
     opt.null_tolerance = -1.0;
-    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
     assert_true(sl_factor_view(F).D[1] == 4.0 * DBL_EPSILON);
-    /* a refactor keeps the tolerance it was made with */
+    /* a refactor keeps the tolerance of the factor */
     x[2] = 1.0 + DBL_EPSILON;
     SL_CHECK(sl_factor_refactor(F, &A, NULL));
     x[2] = 1.0;
@@ -160,20 +160,20 @@ static void null_tolerance_is_obeyed(void **state) {
     sl_factor_free(F);
     opt.null_tolerance = 1e-3;
     x[2] = 1.0 + 1e-3;
-    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
     x[2] = 1.0 + 1e-2;
-    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
     sl_factor_free(F);
     opt.null_tolerance = NAN;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
     assert_null(F);
     sl_symbolic_free(S);
 }
 
-/* Every entry in turn becomes a NaN or an infinity. */
-static void not_finite_entries_are_named(void **state) {
+/* Each entry in turn becomes a NaN or an infinity. */
+static void entries_that_are_not_finite_are_reported(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     static const double bad[3] = {NAN, INFINITY, -INFINITY};
     for (int which = 0; which < 6; which++) {
         gen_list_t t = gen_make(GEN_GRID2, 25, 0, 2);
@@ -188,17 +188,17 @@ static void not_finite_entries_are_named(void **state) {
                 sl_stats stats;
                 sl_factor *F = NULL;
                 memset(&stats, 0, sizeof stats);
-                way_take(&opt, &ways, q % ways.count);
+                options_set_variant(&opt, &variants, q % variants.count);
                 M.x[q] = bad[q % 3];
                 sl_status status = sl_factor_create(&F, S, &M.view, &opt, &stats);
                 if (gen_style(which).triangle == SL_TRIANGLE_BOTH && M.i[q] < j) {
-                    assert_int_equal(status, SL_OK); /* not read */
+                    assert_int_equal(status, SL_OK); /* the entry is not read */
                 } else {
                     assert_int_equal(status, SL_ERR_NOT_FINITE);
                     assert_null(F);
-                    assert_int_equal(stats.error_row, M.i[q]);
-                    assert_int_equal(stats.error_column, j);
-                    assert_true(!isfinite(stats.error_value));
+                    assert_int_equal(stats.error.row, M.i[q]);
+                    assert_int_equal(stats.error.column, j);
+                    assert_true(!isfinite(stats.error.value));
                 }
                 sl_factor_free(F);
                 M.x[q] = keep;
@@ -210,55 +210,55 @@ static void not_finite_entries_are_named(void **state) {
     }
 }
 
-/* finite values whose products are not: 1e300^2 / 1 */
-static void an_overflow_on_the_way_is_named(void **state) {
+/* finite values whose products overflow: 1e300^2 / 1 */
+static void an_overflow_in_elimination_is_reported(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
     const double x[3] = {1, 1e300, 1};
     sl_csc A = {2, 2, p, i, x};
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    for (int k = 0; k < ways.count; k++) {
+    SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+    for (int k = 0; k < variants.count; k++) {
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
-        way_take(&opt, &ways, k);
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &A, &opt, &stats));
+        options_set_variant(&opt, &variants, k);
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), &stats));
         assert_null(F);
-        assert_int_equal(stats.error_row, 1);
-        assert_int_equal(stats.error_column, -1);
+        assert_int_equal(stats.error.row, 1);
+        assert_int_equal(stats.error.column, -1);
     }
     sl_symbolic_free(S);
 }
 
-/* 1e308 - 1e308 + 1e308: the magnitudes overflow, the pivot does not, and nothing of it was lost */
+/* 1e308 - 1e308 + 1e308: the sum of magnitudes overflows, the pivot does not and is exact */
 static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 2, 1, 2, 2};
     const double x[5] = {1, 1e154, -1, 1e154, 1e308};
     sl_csc A = {3, 3, p, i, x};
     sl_options opt = options_none();
     sl_symbolic *S = NULL;
     opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    for (int k = 0; k < ways.count; k++) {
+    SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+    for (int k = 0; k < variants.count; k++) {
         sl_factor *F = NULL;
-        way_take(&opt, &ways, k);
-        SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+        options_set_variant(&opt, &variants, k);
+        SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
         assert_true(fabs(sl_factor_view(F).D[2] - 1e308) <= 1e293);
         sl_factor_free(F);
     }
     sl_symbolic_free(S);
 }
 
-/* subnormal and huge scales: finite answers or a status, never a NaN inside a factor that claims to be good */
-static void extreme_scales(void **state) {
+/* Subnormal and huge scales: finite results or an error, never a NaN inside a factor. */
+static void extreme_scales_leave_no_nan(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     static const int powers[6] = {-1060, -1020, -500, 500, 1000, 1015};
     for (int which = 0; which < 6; which++) {
         gen_matrix_t M = gen_matrix(GEN_GRID2, 49, 0, 3);
@@ -267,13 +267,13 @@ static void extreme_scales(void **state) {
         }
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-        for (int k = 0; k < ways.count; k++) {
+        for (int k = 0; k < variants.count; k++) {
             sl_options opt = options_none();
-            way_take(&opt, &ways, k);
+            options_set_variant(&opt, &variants, k);
             sl_factor *F = NULL;
             sl_status status = sl_factor_create(&F, S, &M.view, &opt, NULL);
             if (status == SL_OK) {
-                sl_factor_view_t f = sl_factor_view(F);
+                sl_factor_arrays f = sl_factor_view(F);
                 for (sl_off q = 0; q < panel_doubles(F); q++) {
                     assert_true(isfinite(f.L[q]));
                 }
@@ -293,9 +293,9 @@ static void extreme_scales(void **state) {
     }
 }
 
-static void wrong_arguments(void **state) {
+static void invalid_arguments_are_refused(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL);
     gen_matrix_t other = gen_matrix(GEN_GRID2, 36, 1, 1), path = gen_matrix(GEN_PATH, 25, 1, 1);
     sl_factor *F = NULL;
     sl_options opt = options_none();
@@ -320,11 +320,12 @@ static void wrong_arguments(void **state) {
     sl_factor_free(NULL);
     gen_matrix_free(&other);
     gen_matrix_free(&path);
-    problem_free(&y);
+    factored_free(&y);
 }
 
-/* sl_symbolic is borrowed by several factors, and a stats struct travels through all calls */
-static void stats_travel(void **state) {
+/* Several factors share one analysis, and one stats struct collects the results of several
+ * calls. */
+static void one_stats_struct_collects_several_calls(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_GRID2, 100, 1, 1);
     sl_stats stats;
@@ -334,13 +335,13 @@ static void stats_travel(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, &stats));
     sl_stats before = stats;
     SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, &stats));
-    assert_int_equal(stats.nnz_l, before.nnz_l);
-    assert_int_equal(stats.supernodes, before.supernodes);
-    assert_true(stats.flops == before.flops);
-    assert_int_equal(stats.positive, 100);
-    assert_true(stats.bytes_factor >= (size_t)stats.nnz_panels * sizeof(double));
-    assert_int_equal(stats.error_row, -1);
-    assert_int_equal(stats.error_column, -1);
+    assert_int_equal(stats.symbolic.nnz_l, before.symbolic.nnz_l);
+    assert_int_equal(stats.symbolic.supernodes, before.symbolic.supernodes);
+    assert_true(stats.symbolic.flops == before.symbolic.flops);
+    assert_int_equal(stats.factor.positive, 100);
+    assert_true(stats.factor.bytes >= (size_t)stats.symbolic.nnz_panels * sizeof(double));
+    assert_int_equal(stats.error.row, -1);
+    assert_int_equal(stats.error.column, -1);
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&M);
@@ -349,15 +350,15 @@ static void stats_travel(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_failed_refactor_refuses_until_one_succeeds),
-        cmocka_unit_test(a_null_pivot_is_named_in_the_callers_row),
+        cmocka_unit_test(a_null_pivot_is_reported_in_the_callers_row),
         cmocka_unit_test(a_laplacian_is_singular),
-        cmocka_unit_test(null_tolerance_is_obeyed),
-        cmocka_unit_test(not_finite_entries_are_named),
-        cmocka_unit_test(an_overflow_on_the_way_is_named),
+        cmocka_unit_test(null_tolerance_decides_what_is_null),
+        cmocka_unit_test(entries_that_are_not_finite_are_reported),
+        cmocka_unit_test(an_overflow_in_elimination_is_reported),
         cmocka_unit_test(an_overflow_of_magnitudes_is_no_null_pivot),
-        cmocka_unit_test(extreme_scales),
-        cmocka_unit_test(wrong_arguments),
-        cmocka_unit_test(stats_travel),
+        cmocka_unit_test(extreme_scales_leave_no_nan),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(one_stats_struct_collects_several_calls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

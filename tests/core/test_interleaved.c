@@ -1,10 +1,11 @@
-/* test_interleaved.c: right-hand sides interleaved give the bits of the column-major calls, full and local */
-#include "problem.h"
+/* test_interleaved.c: interleaved right-hand sides give the bits of column-major ones */
+#include "tests/lib/factored.h"
 
 enum { MOST = 17, GUARD = 4 };
 
-/* rows x nrhs, column-major with leading dimension rows, to rows of ld elements that hold `rest` elsewhere */
-static double *rows_of(const double *M, size_t rows, size_t nrhs, size_t ld, double rest) {
+/* copies rows x nrhs, column-major with leading dimension rows, to rows of ld elements; the other
+ * elements are `rest` */
+static double *to_rows(const double *M, size_t rows, size_t nrhs, size_t ld, double rest) {
     double *R = test_reals(rows * ld + 1);
     for (size_t q = 0; q < rows * ld; q++) {
         R[q] = q % ld < nrhs ? M[q / ld + q % ld * rows] : rest;
@@ -12,7 +13,7 @@ static double *rows_of(const double *M, size_t rows, size_t nrhs, size_t ld, dou
     return R;
 }
 
-/* the rows of R hold the columns of M, and beside them nothing was written */
+/* the rows of R hold the columns of M, and the other elements are unchanged */
 static void assert_rows(const double *R, size_t ld, const double *M, size_t rows, size_t nrhs,
                         double rest) {
     for (size_t k = 0; k < rows; k++) {
@@ -26,21 +27,21 @@ static void assert_rows(const double *R, size_t ld, const double *M, size_t rows
     }
 }
 
-static void full_solves_have_the_same_bits(void **state) {
+static void full_solves_of_both_layouts_have_the_same_bits(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_KKT, GEN_ONE, GEN_GRID3};
     for (int k = 0; k < 4 * isas.count; k++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[k / 4];
-        problem_t y = problem_make(kinds[k % 4], 90, 1, 0, &opt);
+        factored_t y = factored_make(kinds[k % 4], 90, 1, 0, &opt);
         size_t n = (size_t)y.M.view.n_cols;
         for (sl_int nrhs = 0; nrhs <= MOST; nrhs++) {
             size_t cols = (size_t)nrhs, ldb = cols + GUARD, ldx = cols + (nrhs % 2 ? 0 : GUARD);
             double *B = test_reals(n * MOST), *X = test_reals(n * MOST);
             gen_reals(B, n * MOST, 6);
             SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, NULL));
-            double *Bi = rows_of(B, n, cols, ldb, 77.0), *Xi = rows_of(B, n, 0, ldx, 1234.5);
+            double *Bi = to_rows(B, n, cols, ldb, 77.0), *Xi = to_rows(B, n, 0, ldx, 1234.5);
             SL_CHECK(sl_factor_solve_interleaved(y.F, Xi, ldx, Bi, ldb, nrhs, NULL));
             assert_rows(Xi, ldx, X, n, cols, 1234.5);
             assert_rows(Bi, ldb, B, n, cols, 77.0);
@@ -51,17 +52,17 @@ static void full_solves_have_the_same_bits(void **state) {
             free(Bi);
             free(Xi);
         }
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-static void plans_have_the_same_bits(void **state) {
+static void plan_solves_of_both_layouts_have_the_same_bits(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[k];
-        problem_t y = problem_make(GEN_GRID2, 200, 1, 0, &opt);
+        factored_t y = factored_make(GEN_GRID2, 200, 1, 0, &opt);
         sl_int bset[30], xset[45];
         for (sl_int q = 0; q < 30; q++) {
             bset[q] = 5 * (29 - q) + 3;
@@ -76,11 +77,11 @@ static void plans_have_the_same_bits(void **state) {
             double B[30 * MOST], X[45 * MOST];
             gen_reals(B, 30 * MOST, 9);
             SL_CHECK(sl_plan_solve(P, y.F, X, 45, B, 30, nrhs, NULL));
-            double *Bi = rows_of(B, 30, cols, ld, 77.0), *Xi = rows_of(B, 45, 0, ld, 1234.5);
+            double *Bi = to_rows(B, 30, cols, ld, 77.0), *Xi = to_rows(B, 45, 0, ld, 1234.5);
             SL_CHECK(sl_plan_solve_interleaved(P, y.F, Xi, ld, Bi, ld, nrhs, NULL));
             assert_rows(Xi, ld, X, 45, cols, 1234.5);
             assert_rows(Bi, ld, B, 30, cols, 77.0);
-            memcpy(Xi, Bi, 30 * ld * sizeof *Bi); /* in place, with more rows out than in */
+            memcpy(Xi, Bi, 30 * ld * sizeof *Bi); /* in place, with more rows of X than of B */
             SL_CHECK(sl_plan_solve_interleaved(P, y.F, Xi, ld, Xi, ld, nrhs, NULL));
             for (size_t q = 0; q < 45; q++) {
                 for (size_t r = 0; r < cols; r++) {
@@ -91,14 +92,14 @@ static void plans_have_the_same_bits(void **state) {
             free(Xi);
         }
         sl_plan_free(P);
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-static void wrong_arguments(void **state) {
+static void invalid_arguments_are_refused(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_PATH, 6, 1, 0, NULL);
-    problem_t z = problem_make(GEN_PATH, 6, 1, 0, NULL);
+    factored_t y = factored_make(GEN_PATH, 6, 1, 0, NULL);
+    factored_t z = factored_make(GEN_PATH, 6, 1, 0, NULL);
     const sl_int set[2] = {1, 4};
     double X[18] = {1, 2}, B[18] = {3, 4};
     sl_plan *P = NULL;
@@ -109,8 +110,8 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 2, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 2, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 3, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_factor_solve_interleaved(y.F, X, 3, X, 2, 2, NULL)); /* in place, two strides */
+    /* in place with different strides */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, X, 2, 2, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(NULL, y.F, X, 3, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, NULL, X, 3, B, 3, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 2, B, 3, 3, NULL));
@@ -118,17 +119,18 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_STATE,
               sl_plan_solve_interleaved(P, z.F, X, 3, B, 3, 3, NULL)); /* of another analysis */
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
-    SL_CHECK(sl_factor_solve_interleaved(y.F, X, 1, B, 1, 1, NULL)); /* shorter than a column */
+    /* a leading dimension below n */
+    SL_CHECK(sl_factor_solve_interleaved(y.F, X, 1, B, 1, 1, NULL));
     sl_plan_free(P);
-    problem_free(&y);
-    problem_free(&z);
+    factored_free(&y);
+    factored_free(&z);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(full_solves_have_the_same_bits),
-        cmocka_unit_test(plans_have_the_same_bits),
-        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(full_solves_of_both_layouts_have_the_same_bits),
+        cmocka_unit_test(plan_solves_of_both_layouts_have_the_same_bits),
+        cmocka_unit_test(invalid_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

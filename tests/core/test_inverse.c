@@ -1,9 +1,10 @@
-/* test_inverse.c: entries, blocks and bilinear forms of the inverse against dense inverses and full solves */
-#include "inverse_checks.h"
+/* test_inverse.c: entries, blocks and bilinear forms of the inverse against dense inverses */
+#include "tests/lib/check_inverse.h"
 
-/* An entry passes with |z - Z(i,j)| <= c n eps times a norm of the inverse around it: sqrt(|Z(i,i) Z(j,j)|), which
- * bounds the terms y(k) z(k) / d(k) where the matrix is definite, or the largest entry where it is not. c is
- * 100: PASS_C as for a solve, and 10 for the conditions of the generated matrices, their rows scaled. */
+/* Error bound of an entry: |z - Z(i,j)| <= c n eps times a norm of the inverse around it. For a
+ * definite matrix this is sqrt(|Z(i,i) Z(j,j)|), which bounds the terms y(k) z(k) / d(k); otherwise
+ * it is the largest entry. c = 100: PASS_C as for a solve, times 10 for the condition of the
+ * generated matrices, whose rows are scaled. */
 static double allowed(sl_int n, const double *Z, sl_int i, sl_int j, int is_definite) {
     double largest = 0;
     for (sl_int k = 0; !is_definite && k < n * n; k++) {
@@ -13,20 +14,21 @@ static double allowed(sl_int n, const double *Z, sl_int i, sl_int j, int is_defi
            (is_definite ? sqrt(fabs(AT(Z, i, i)) * fabs(AT(Z, j, j))) : largest);
 }
 
-#define IS_NEAR(n, Z, i, j, is_definite, value)                                                    \
-    do {                                                                                           \
-        double error_ = fabs((value)-AT(Z, i, j)),                                                 \
-               allowed_ = allowed((n), (Z), (i), (j), (is_definite));                              \
-        if (!(error_ <= allowed_)) {                                                               \
-            print_error("(%ld, %ld): %.17g, should be %.17g; error %.3g, allowed %.3g\n",          \
-                        (long)(i), (long)(j), (value), AT(Z, i, j), error_, allowed_);             \
-            fail();                                                                                \
-        }                                                                                          \
+#define IS_NEAR(n, Z, i, j, is_definite, value) \
+    do { \
+        double error_ = fabs((value)-AT(Z, i, j)), \
+               allowed_ = allowed((n), (Z), (i), (j), (is_definite)); \
+        if (!(error_ <= allowed_)) { \
+            print_error("(%ld, %ld): %.17g, should be %.17g; error %.3g, allowed %.3g\n", \
+                        (long)(i), (long)(j), (value), AT(Z, i, j), error_, allowed_); \
+            fail(); \
+        } \
     } while (0)
 
-/* Every call on random rows, unsorted and repeated, in numbers 0 .. 20 and more than one group of a block holds. */
-static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int count,
-                      uint64_t *seed, sl_work *W) {
+/* Every call on random rows, unsorted and repeated: 0 .. 20 rows, and more than one group of a
+ * block holds. */
+static void check_all_calls(const sl_factor *F, sl_int n, const double *Z, int definite,
+                            sl_int count, uint64_t *seed, sl_work *W) {
     sl_int *rows = test_ints((size_t)count), *columns = test_ints((size_t)count),
            nc = count / 2 + 1;
     size_t ldz = (size_t)count + 1;
@@ -45,7 +47,8 @@ static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definit
     for (sl_int k = 0; k < count; k++) {
         IS_NEAR(n, Z, rows[k], columns[k], definite, out[k]);
     }
-    SL_CHECK(sl_inverse_pairs(F, out, columns, rows, count, W, NULL)); /* swapped */
+    /* rows and columns exchanged */
+    SL_CHECK(sl_inverse_pairs(F, out, columns, rows, count, W, NULL));
     for (sl_int k = 0; k < count; k++) {
         IS_NEAR(n, Z, rows[k], columns[k], definite, out[k]);
     }
@@ -76,9 +79,9 @@ static void all_calls(const sl_factor *F, sl_int n, const double *Z, int definit
     free(block);
 }
 
-/* c' A^-1 b for random sparse values, a row now and then twice; NULL sets: all rows. */
-static void forms(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int nc, sl_int nb,
-                  uint64_t *seed, sl_work *W) {
+/* c' A^-1 b for random sparse vectors with some rows repeated; NULL sets: all rows. */
+static void check_forms(const sl_factor *F, sl_int n, const double *Z, int definite, sl_int nc,
+                        sl_int nb, uint64_t *seed, sl_work *W) {
     sl_int mc = nc < 0 ? n : nc, mb = nb < 0 ? n : nb;
     sl_int *cset = nc < 0 ? NULL : test_ints((size_t)nc),
            *bset = nb < 0 ? NULL : test_ints((size_t)nb);
@@ -99,11 +102,11 @@ static void forms(const sl_factor *F, sl_int n, const double *Z, int definite, s
             bound += fabs(c[i] * b[j]) * allowed(n, Z, row, column, definite);
         }
     }
-    SL_CHECK(sl_inverse_bilinear(F, &out, cset, c, nc, bset, b, nb, W, NULL));
-    assert_true(fabs(out - sum) <= bound);
     SL_CHECK(sl_inverse_bilinear(F, &out, bset, b, nb, cset, c, nc, W, NULL));
     assert_true(fabs(out - sum) <= bound);
-    sum = bound = 0; /* of one vector with itself */
+    SL_CHECK(sl_inverse_bilinear(F, &out, cset, c, nc, bset, b, nb, W, NULL));
+    assert_true(fabs(out - sum) <= bound);
+    sum = bound = 0; /* both vectors are the same */
     for (sl_int i = 0; i < mb; i++) {
         for (sl_int j = 0; j < mb; j++) {
             sl_int row = bset ? bset[i] : i, column = bset ? bset[j] : j;
@@ -119,7 +122,7 @@ static void forms(const sl_factor *F, sl_int n, const double *Z, int definite, s
     free(b);
 }
 
-static void every_kind_on_every_instruction_set(void **state) {
+static void entries_equal_dense_inverses(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     uint64_t seed = 5;
@@ -129,28 +132,29 @@ static void every_kind_on_every_instruction_set(void **state) {
                 sl_options opt = options_none();
                 sl_work *W = NULL;
                 opt.isa = isas.isa[which];
-                opt.ordering = round ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
-                problem_t y = problem_make((gen_kind_t)kind, 60, round ? -1 : 1, 0, &opt);
+                opt.ordering = round ? SL_ORDERING_NATURAL : SL_ORDERING_ND;
+                factored_t y = factored_make((gen_kind_t)kind, 60, round ? -1 : 1, 0, &opt);
                 sl_int n = y.M.view.n_cols;
                 int definite = kind != GEN_KKT;
                 double *M = ref_dense(&y.M.view), *Z = ref_scaled_inverse(n, M),
                        *all = test_reals((size_t)n);
                 SL_CHECK(sl_work_create(&W, NULL));
                 for (sl_int count = 0; count <= 20; count++) {
-                    all_calls(y.F, n, Z, definite, count, &seed, count % 3 ? W : NULL);
+                    check_all_calls(y.F, n, Z, definite, count, &seed, count % 3 ? W : NULL);
                 }
-                all_calls(y.F, n, Z, definite, 150, &seed, W);
+                check_all_calls(y.F, n, Z, definite, 150, &seed, W);
                 SL_CHECK(sl_inverse_diagonal(y.F, all, NULL, -7, W,
                                              NULL)); /* all rows; count is not read */
                 for (sl_int k = 0; k < n; k++) {
                     IS_NEAR(n, Z, k, k, definite, all[k]);
                 }
                 for (sl_int count = -1; count <= 12; count++) {
-                    forms(y.F, n, Z, definite, count, 1 + count / 2, &seed, count % 3 ? W : NULL);
-                    forms(y.F, n, Z, definite, count, -1, &seed, W);
+                    check_forms(y.F, n, Z, definite, count, 1 + count / 2, &seed,
+                                count % 3 ? W : NULL);
+                    check_forms(y.F, n, Z, definite, count, -1, &seed, W);
                 }
                 sl_work_free(W);
-                problem_free(&y);
+                factored_free(&y);
                 free(M);
                 free(Z);
                 free(all);
@@ -159,11 +163,12 @@ static void every_kind_on_every_instruction_set(void **state) {
     }
 }
 
-/* Against full solves where paths have many supernodes; blocks of more groups than are kept at once. */
-static void a_larger_grid_equals_full_solves(void **state) {
+/* Against full solves where paths have many supernodes; blocks with more groups than are kept at a
+ * time. */
+static void entries_equal_full_solves_on_a_larger_grid(void **state) {
     (void)state;
     enum { COUNT = 300 };
-    problem_t y = problem_make(GEN_GRID2, 10000, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 10000, 1, 0, NULL);
     sl_int n = y.M.view.n_cols, rows[COUNT], columns[COUNT];
     double *X = test_reals((size_t)n * 12), *Z = test_reals(COUNT * COUNT),
            *S = test_reals(COUNT * COUNT);
@@ -179,10 +184,11 @@ static void a_larger_grid_equals_full_solves(void **state) {
     }
     SL_CHECK(sl_factor_solve(y.F, X, (size_t)n, X, (size_t)n, 12, NULL));
     for (int k = 0; k < 12; k++) {
-        rows[25 * k + 1] = columns[25 * k]; /* what is largest */
+        rows[25 * k + 1] = columns[25 * k]; /* the largest entries */
     }
     SL_CHECK(sl_inverse_block(y.F, Z, COUNT, rows, COUNT, columns, COUNT, NULL, &stats));
-    assert_true(stats.b_entries > 0 && stats.b_columns > 0 && stats.x_entries == 0);
+    assert_int_equal(stats.inverse.method, SL_INVERSE_FORWARD);
+    assert_true(stats.inverse.entries > 0 && stats.inverse.columns > 0);
     SL_CHECK(sl_inverse_block(y.F, S, COUNT, rows, COUNT, rows, COUNT, NULL, NULL));
     SL_CHECK(sl_inverse_pairs(y.F, pairs, rows, columns, COUNT, NULL, NULL));
     SL_CHECK(sl_inverse_pairs(y.F, swapped, columns, rows, COUNT, NULL, NULL));
@@ -212,11 +218,11 @@ static void a_larger_grid_equals_full_solves(void **state) {
     free(pairs);
     free(swapped);
     free(diagonal);
-    problem_free(&y);
+    factored_free(&y);
 }
 
-/* Pivots whose reciprocal is out of range. */
-static void pivots_of_any_size(void **state) {
+/* Pivots whose reciprocals overflow or underflow. */
+static void pivots_with_extreme_reciprocals_are_inverted(void **state) {
     (void)state;
     static const double sizes[4] = {1e-310, 1e308, 3e-308, 1e300};
     const sl_int p[5] = {0, 1, 2, 3, 4}, i[4] = {0, 1, 2, 3}, rows[4] = {0, 1, 2, 3};
@@ -228,7 +234,7 @@ static void pivots_of_any_size(void **state) {
     for (int k = 0; k < 4; k++) {
         const double c[2] = {sqrt(sizes[k]), -sqrt(sizes[k])};
         double form = 0;
-        SL_CHECK(sl_inverse_bilinear(F, &form, rows + k, &c[0], 1, rows + k, &c[1], 1, NULL, NULL));
+        SL_CHECK(sl_inverse_bilinear(F, &form, rows + k, &c[1], 1, rows + k, &c[0], 1, NULL, NULL));
         assert_true(fabs(form + 1) <= 8 * DBL_EPSILON);
     }
     sl_factor_free(F);
@@ -237,9 +243,9 @@ static void pivots_of_any_size(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_on_every_instruction_set),
-        cmocka_unit_test(a_larger_grid_equals_full_solves),
-        cmocka_unit_test(pivots_of_any_size),
+        cmocka_unit_test(entries_equal_dense_inverses),
+        cmocka_unit_test(entries_equal_full_solves_on_a_larger_grid),
+        cmocka_unit_test(pivots_with_extreme_reciprocals_are_inverted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,30 +1,30 @@
-/* test_inverse_threads.c: the selected inverse and the diagonal by several workers: the same bits, their memory */
-#include "inverse_checks.h"
-#include "parallel_for.h"
+/* test_inverse_threads.c: the selected inverse and the diagonal with threads: bits and memory */
+#include "tests/lib/check_inverse.h"
+#include "tests/lib/parallel_for.h"
 
 static const sl_parallel_for runs[2] = {run_threads, run_backwards};
 
-static sl_options options_threads(int way, sl_int count, int *calls) {
+static sl_options options_threads(int run, sl_int count, int *calls) {
     sl_options opt = options_none();
     opt.method = SL_METHOD_SUPERNODAL;
     opt.threads.count = count;
-    opt.threads.run = runs[way];
+    opt.threads.run = runs[run];
     opt.threads.context = calls;
     return opt;
 }
 
 static void assert_same_panels(const sl_selected *Z, const sl_selected *Y) {
-    sl_selected_view_t z = sl_selected_view(Z), y = sl_selected_view(Y);
+    sl_selected_arrays z = sl_selected_view(Z), y = sl_selected_view(Y);
     assert_int_equal(z.count, y.count);
-    if (z.count >
-        0) { /* above the diagonal of a tile anything may stand, but it too is computed alike */
-        sl_symbolic_view_t v = sl_symbolic_view(z.symbolic);
+    /* values above the diagonal of a tile are arbitrary, but computed in the same way */
+    if (z.count > 0) {
+        sl_symbolic_arrays v = sl_symbolic_view(z.symbolic);
         for (sl_int k = 0; k < z.count; k++) {
             sl_int s = z.supers[k], width = ref_width(&v, s), height = ref_height(&v, s);
             assert_int_equal(s, y.supers[k]);
             for (sl_int c = 0; c < width; c++) {
                 for (sl_int q = c; q < height; q++) {
-                    sl_off at = z.begin[k] + ref_place(width, q, c);
+                    sl_off at = z.begin[k] + ref_position(width, q, c);
                     assert_true(z.Z[at] == y.Z[at]);
                 }
             }
@@ -32,42 +32,43 @@ static void assert_same_panels(const sl_selected *Z, const sl_selected *Y) {
     }
 }
 
-/* With the options' threads, and with those that the factor keeps; created and refilled; all and on a set's reach.
- * Returns how often 4 threads were called upon to create all. */
-static int same_bits(gen_kind_t kind, sl_int size, sl_isa isa) {
+/* With the threads of the options and with those that the factor keeps; created and refactored; all
+ * supernodes and the reach of a set. Returns how often 4 threads were used to create all. */
+static int assert_same_bits_for_all_threads(gen_kind_t kind, sl_int size, sl_isa isa) {
     sl_options opt = options_none();
     uint64_t seed = 17;
     int most = 0;
     opt.isa = isa;
     opt.method = SL_METHOD_SUPERNODAL;
-    problem_t y = problem_make(kind, size, 0, 0, &opt);
+    factored_t y = factored_make(kind, size, 0, 0, &opt);
     sl_int n = y.M.view.n_cols, half = (n + 1) / 2, *set = test_ints((size_t)n);
     double *one = test_reals((size_t)n), *many = test_reals((size_t)n);
     gen_set(set, half, n, gen_bits(&seed));
-    for (int whole = 0; whole < 2; whole++) {
+    for (int is_full = 0; is_full < 2; is_full++) {
         sl_selected *Z = NULL;
-        SL_CHECK(sl_selected_create(&Z, y.F, whole ? NULL : set, half, NULL, NULL));
-        SL_CHECK(sl_inverse_diagonal(y.F, one, whole ? NULL : set, half, NULL, NULL));
-        for (int way = 0; way < 2; way++) {
+        SL_CHECK(sl_selected_create(&Z, y.F, is_full ? NULL : set, half, NULL, NULL));
+        SL_CHECK(sl_inverse_diagonal(y.F, one, is_full ? NULL : set, half, NULL, NULL));
+        for (int run = 0; run < 2; run++) {
             for (sl_int count = 1; count <= 4; count++) {
                 int calls = 0;
                 sl_factor *F = NULL;
                 sl_selected *own = NULL, *factors = NULL;
                 sl_work *W = NULL;
-                opt = options_threads(way, count, &calls);
+                opt = options_threads(run, count, &calls);
                 opt.isa = isa;
-                SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+                SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
                 SL_CHECK(sl_work_create(&W, NULL));
                 calls = 0;
-                SL_CHECK(sl_selected_create(&own, y.F, whole ? NULL : set, half, &opt, NULL));
+                SL_CHECK(sl_selected_create(&own, y.F, is_full ? NULL : set, half, FOR_OTHERS(&opt),
+                                            NULL));
                 assert_int_equal(calls > 0, count > 1 && sl_selected_view(own).count > 1);
-                most = whole && count == 4 ? calls : most;
+                most = is_full && count == 4 ? calls : most;
                 assert_same_panels(own, Z);
-                SL_CHECK(sl_selected_create(&factors, F, whole ? NULL : set, half, NULL, NULL));
-                SL_CHECK(sl_selected_refill(factors, F, W));
+                SL_CHECK(sl_selected_create(&factors, F, is_full ? NULL : set, half, NULL, NULL));
+                SL_CHECK(sl_selected_refactor(factors, F, W));
                 assert_same_panels(factors, Z);
-                SL_CHECK(sl_inverse_diagonal(F, many, whole ? NULL : set, half, W, NULL));
-                SAME_VALUES(one, many, (size_t)(whole ? n : half));
+                SL_CHECK(sl_inverse_diagonal(F, many, is_full ? NULL : set, half, W, NULL));
+                SAME_VALUES(one, many, (size_t)(is_full ? n : half));
                 sl_work_free(W);
                 sl_selected_free(own);
                 sl_selected_free(factors);
@@ -79,35 +80,36 @@ static int same_bits(gen_kind_t kind, sl_int size, sl_isa isa) {
     free(set);
     free(one);
     free(many);
-    problem_free(&y);
+    factored_free(&y);
     return most;
 }
 
-static void bits_do_not_depend_on_their_number(void **state) {
+static void bits_do_not_depend_on_the_number_of_threads(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
         for (int kind = 0; kind < GEN_REGULAR; kind++) {
-            (void)same_bits((gen_kind_t)kind, 200, isas.isa[k]);
+            (void)assert_same_bits_for_all_threads((gen_kind_t)kind, 200, isas.isa[k]);
         }
     }
 }
 
-/* Fronts above SLI_SHARED_FLOPS are shared out, in 7 steps a front or more: the separators of a 3D grid, whose rows below
- * share a tile with their columns. */
-static void large_fronts_are_shared(void **state) {
+/* Fronts above SLI_SHARED_FLOPS are divided among threads, in 7 steps or more for each front. The
+ * separators of a 3D grid have such fronts, and their rows below share a tile with their
+ * columns. */
+static void large_fronts_are_divided_among_threads(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
-        assert_true(same_bits(GEN_GRID3, 15 * 15 * 15, isas.isa[k]) > 14);
+        assert_true(assert_same_bits_for_all_threads(GEN_GRID3, 15 * 15 * 15, isas.isa[k]) > 14);
     }
 }
 
 static void every_allocation_may_fail(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 400, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
     const sl_int set[3] = {17, 380, 200};
-    for (int whole = 0; whole < 2; whole++) {
+    for (int is_full = 0; is_full < 2; is_full++) {
         sl_status status = SL_ERR_MEMORY;
         for (int64_t k = 0; status != SL_OK; k++) {
             counter_t counter = counter_make();
@@ -116,7 +118,7 @@ static void every_allocation_may_fail(void **state) {
             sl_selected *Z = (sl_selected *)(void *)&counter;
             opt.allocator = options_counted(&counter).allocator;
             counter.fail_at = k;
-            status = sl_selected_create(&Z, y.F, whole ? NULL : set, 3, &opt, NULL);
+            status = sl_selected_create(&Z, y.F, is_full ? NULL : set, 3, FOR_OTHERS(&opt), NULL);
             assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
             assert_true((Z != NULL) == (status == SL_OK));
             sl_selected_free(Z);
@@ -124,36 +126,36 @@ static void every_allocation_may_fail(void **state) {
             assert_in_range(k, 0, 100);
         }
     }
-    problem_free(&y);
+    factored_free(&y);
 }
 
-static void senseless_numbers(void **state) {
+static void extreme_numbers_of_threads_are_handled(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 100, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     int calls = 0;
     sl_selected *Z = NULL, *one = NULL;
     sl_options opt = options_threads(1, -1, &calls);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&Z, y.F, NULL, 0, &opt, NULL));
-    opt.threads.count = INT32_MAX; /* no more workers than supernodes */
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&Z, y.F, NULL, 0, FOR_OTHERS(&opt), NULL));
+    opt.threads.count = INT32_MAX; /* more workers than supernodes */
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, FOR_OTHERS(&opt), NULL));
     SL_CHECK(sl_selected_create(&one, y.F, NULL, 0, NULL, NULL));
     assert_same_panels(Z, one);
     sl_selected_free(Z);
-    opt.threads.count = 2; /* nobody to run them: one after the other, or OpenMP */
+    opt.threads.count = 2; /* no callback: OpenMP or serial */
     opt.threads.run = NULL;
-    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, &opt, NULL));
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, FOR_OTHERS(&opt), NULL));
     assert_same_panels(Z, one);
     sl_selected_free(Z);
     sl_selected_free(one);
-    problem_free(&y);
+    factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_do_not_depend_on_their_number),
-        cmocka_unit_test(large_fronts_are_shared),
+        cmocka_unit_test(bits_do_not_depend_on_the_number_of_threads),
+        cmocka_unit_test(large_fronts_are_divided_among_threads),
         cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(senseless_numbers),
+        cmocka_unit_test(extreme_numbers_of_threads_are_handled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* test_inverse_use.c: entries, blocks and forms of the inverse: their memory, wrong use, nothing asked for */
-#include "inverse_checks.h"
+/* test_inverse_use.c: entries, blocks and forms of the inverse: memory, invalid arguments */
+#include "tests/lib/check_inverse.h"
 
 /* ---- memory ---- */
 
@@ -22,7 +22,7 @@ static sl_status run_call(call_t *q, int which, sl_int count, sl_work *W) {
     case 3:
         return sl_inverse_block(q->F, q->out, 40, q->rows, count, q->rows, count, W, NULL);
     default:
-        return sl_inverse_bilinear(q->F, q->out, q->rows, q->values, count, q->columns, q->values,
+        return sl_inverse_bilinear(q->F, q->out, q->columns, q->values, count, q->rows, q->values,
                                    count, W, NULL);
     }
 }
@@ -37,9 +37,9 @@ static call_t *call_make(const sl_factor *F, sl_int n) {
     return q;
 }
 
-static void nothing_is_allocated_once_grown(void **state) {
+static void a_grown_workspace_allocates_nothing(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 2500, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 2500, 1, 0, NULL);
     call_t *q = call_make(y.F, 2500);
     for (int which = 0; which < CALLS; which++) {
         counter_t counter = counter_make();
@@ -57,7 +57,7 @@ static void nothing_is_allocated_once_grown(void **state) {
         COUNTER_CLEAN(&counter);
     }
     free(q);
-    problem_free(&y);
+    factored_free(&y);
 }
 
 static void every_allocation_may_fail(void **state) {
@@ -66,7 +66,7 @@ static void every_allocation_may_fail(void **state) {
         for (int which = 0; which < CALLS; which++) {
             counter_t counter = counter_make();
             sl_options opt = options_counted(&counter);
-            problem_t y = problem_make(GEN_GRID2, 400, 1, 0, &opt);
+            factored_t y = factored_make(GEN_GRID2, 400, 1, 0, &opt);
             call_t *q = call_make(y.F, 400);
             sl_status status = SL_ERR_MEMORY;
             int failures = 0;
@@ -84,22 +84,23 @@ static void every_allocation_may_fail(void **state) {
                 assert_true(status == SL_OK || status == SL_ERR_MEMORY);
                 failures += status != SL_OK;
                 for (int i = 0; i < 40 * 40 && status != SL_OK; i++) {
-                    assert_true(q->out[i] == 4321.5); /* untouched */
+                    assert_true(q->out[i] == 4321.5); /* unchanged */
                 }
                 if (status != SL_OK && W) {
-                    SL_CHECK(run_call(q, which, 40, W)); /* usable as before */
+                    SL_CHECK(run_call(q, which, 40, W)); /* the workspace is still usable */
                 }
                 sl_work_free(W);
             }
             assert_in_range(failures, 1, 4);
             free(q);
-            problem_free(&y);
+            factored_free(&y);
             COUNTER_CLEAN(&counter);
         }
     }
 }
 
-/* Bytes for a fixed patch near a corner, over the columns of its reach, which grow like sqrt n on grids. */
+/* Bytes of a workspace for a fixed patch near a corner, per column of its reach, which grows like
+ * sqrt(n) on grids. */
 static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
     sl_int n = side * side, count = 0, *perm = test_ints((size_t)n);
     gen_list_t t = gen_list(n);
@@ -115,23 +116,23 @@ static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
     opt.ordering = SL_ORDERING_GIVEN;
     opt.perm = perm;
     assert_int_equal(gen_dissect(perm, 0, side, 0, side, 0, side), n);
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
     call_t *q = call_make(F, n);
     for (sl_int k = 0; k < 40; k++) {
         q->rows[k] = 10 + k % 7 + side * (10 + k / 7);
         q->columns[count++] = 12 + k % 8 + side * (10 + k / 8);
     }
-    SL_CHECK(sl_inverse_bilinear(F, q->out, q->rows, q->values, 40, q->columns, q->values, 40, NULL,
+    SL_CHECK(sl_inverse_bilinear(F, q->out, q->columns, q->values, 40, q->rows, q->values, 40, NULL,
                                  &stats));
-    *reach = stats.b_columns;
+    *reach = stats.inverse.columns;
     for (int which = 0; which < CALLS; which++) {
         counter_t counter = counter_make();
         sl_work *W = NULL;
         opt = options_counted(&counter);
         SL_CHECK(sl_work_create(&W, &opt));
         SL_CHECK(run_call(q, which, 40, W));
-        bytes[which] = (double)counter.total_bytes / (double)stats.b_columns;
+        bytes[which] = (double)counter.total_bytes / (double)stats.inverse.columns;
         sl_work_free(W);
         COUNTER_CLEAN(&counter);
     }
@@ -143,7 +144,7 @@ static void bytes_of_a_patch(sl_int side, double bytes[CALLS], sl_int *reach) {
     free(perm);
 }
 
-static void nothing_grows_with_n(void **state) {
+static void memory_does_not_grow_with_n(void **state) {
     (void)state;
     double first[CALLS], now[CALLS];
     sl_int reach_first, reach;
@@ -152,19 +153,20 @@ static void nothing_grows_with_n(void **state) {
         bytes_of_a_patch(side, now, &reach);
         assert_true(reach < reach_first * (side == 200 ? 3 : 6));
         for (int which = 0; which < CALLS; which++) {
-            print_message("n = %ld, call %d: %.0f bytes a column of the reach, %.0f at 1e4\n",
+            print_message("n = %ld, call %d: %.0f bytes per column of the reach, %.0f at 1e4\n",
                           (long)(side * side), which, now[which], first[which]);
-            /* anything of n bytes would be 4 times as much a column; twice, where the best group has more lanes */
+            /* arrays of n elements would need 4 times as much for each column; 2 allows for a
+             * kernel with more lanes */
             assert_true(now[which] <= 2.0 * first[which]);
         }
     }
 }
 
-/* ---- wrong use ---- */
+/* ---- invalid arguments ---- */
 
-static void wrong_use_is_refused(void **state) {
+static void invalid_arguments_are_refused(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL);
     const sl_int good[3] = {3, 24, 0}, low[3] = {3, -1, 0}, high[3] = {3, 0, 25};
     double out[9], one[3] = {1, 1, 1};
     sl_stats stats;
@@ -178,20 +180,20 @@ static void wrong_use_is_refused(void **state) {
     REFUSED(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, out, good, -1, NULL, NULL));
     REFUSED(sl_inverse_diagonal(y.F, out, low, 3, NULL, &stats));
-    assert_int_equal(stats.error_row, -1);
+    assert_int_equal(stats.error.row, -1);
     REFUSED(sl_inverse_diagonal(y.F, out, high, 3, NULL, &stats));
-    assert_int_equal(stats.error_row, 25);
+    assert_int_equal(stats.error.row, 25);
     REFUSED(sl_inverse_pairs(NULL, out, good, good, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, NULL, good, good, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, NULL, good, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, good, NULL, 3, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, good, good, -1, NULL, NULL));
     REFUSED(sl_inverse_pairs(y.F, out, high, good, 3, NULL, &stats));
-    assert_int_equal(stats.error_row, 25);
-    assert_int_equal(stats.error_column, -1);
+    assert_int_equal(stats.error.row, 25);
+    assert_int_equal(stats.error.column, -1);
     REFUSED(sl_inverse_pairs(y.F, out, good, high, 3, NULL, &stats));
-    assert_int_equal(stats.error_row, -1);
-    assert_int_equal(stats.error_column, 25);
+    assert_int_equal(stats.error.row, -1);
+    assert_int_equal(stats.error.column, 25);
     REFUSED(sl_inverse_block(NULL, out, 3, good, 3, good, 3, NULL, NULL));
     REFUSED(sl_inverse_block(y.F, NULL, 3, good, 3, good, 3, NULL, NULL));
     REFUSED(sl_inverse_block(y.F, out, 2, good, 3, good, 3, NULL, NULL));
@@ -201,30 +203,31 @@ static void wrong_use_is_refused(void **state) {
     REFUSED(sl_inverse_block(y.F, out, 3, good, 3, good, -3, NULL, NULL));
     REFUSED(sl_inverse_block(y.F, out, 3, low, 3, good, 3, NULL, NULL));
     REFUSED(sl_inverse_block(y.F, out, 3, good, 3, high, 3, NULL, &stats));
-    assert_int_equal(stats.error_column, 25);
+    assert_int_equal(stats.error.column, 25);
     REFUSED(sl_inverse_bilinear(NULL, out, good, one, 3, good, one, 3, NULL, NULL));
     REFUSED(sl_inverse_bilinear(y.F, NULL, good, one, 3, good, one, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, NULL, 3, good, one, 3, NULL, NULL));
     REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, NULL, 3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, good, one, -3, good, one, 3, NULL, NULL));
+    REFUSED(sl_inverse_bilinear(y.F, out, good, NULL, 3, good, one, 3, NULL, NULL));
     REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, good, one, -3, NULL, NULL));
-    REFUSED(sl_inverse_bilinear(y.F, out, high, one, 3, good, one, 3, NULL, &stats));
-    assert_int_equal(stats.error_row, 25);
+    REFUSED(sl_inverse_bilinear(y.F, out, good, one, -3, good, one, 3, NULL, NULL));
     REFUSED(sl_inverse_bilinear(y.F, out, good, one, 3, high, one, 3, NULL, &stats));
-    assert_int_equal(stats.error_column, 25);
-    /* so many that they cannot be numbered: seen before anything is read */
+    assert_int_equal(stats.error.row, 25);
+    REFUSED(sl_inverse_bilinear(y.F, out, high, one, 3, good, one, 3, NULL, &stats));
+    assert_int_equal(stats.error.column, 25);
+    /* more rows than can be numbered: refused before anything is read */
     SL_EXPECT(SL_ERR_TOO_LARGE,
-              sl_inverse_bilinear(y.F, out, good, one, INT32_MAX, good, one, 1, NULL, NULL));
+              sl_inverse_bilinear(y.F, out, good, one, 1, good, one, INT32_MAX, NULL, NULL));
     for (int k = 0; k < 9; k++) {
         assert_true(out[k] == 4321.5);
     }
-    /* nothing asked for */
+    /* empty requests */
     SL_CHECK(sl_inverse_diagonal(y.F, NULL, good, 0, NULL, NULL));
     SL_CHECK(sl_inverse_pairs(y.F, NULL, NULL, NULL, 0, NULL, NULL));
     SL_CHECK(sl_inverse_block(y.F, NULL, 0, NULL, 0, good, 3, NULL, NULL));
     SL_CHECK(sl_inverse_block(y.F, NULL, 0, good, 3, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_inverse_bilinear(y.F, out, good, NULL, 0, good, one, 3, NULL, &stats));
-    assert_true(out[0] == 0 && stats.b_entries == 0);
+    SL_CHECK(sl_inverse_bilinear(y.F, out, good, one, 3, good, NULL, 0, NULL, &stats));
+    assert_true(out[0] == 0 && stats.inverse.entries == 0);
+    assert_int_equal(stats.inverse.method, SL_INVERSE_NONE);
     /* a failed factor */
     y.M.x[0] = NAN;
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
@@ -235,12 +238,12 @@ static void wrong_use_is_refused(void **state) {
     SL_EXPECT(SL_ERR_STATE, sl_inverse_bilinear(y.F, out, good, one, 3, good, one, 3, NULL, NULL));
     assert_true(out[0] == 4321.5);
 #undef REFUSED
-    problem_free(&y);
+    factored_free(&y);
 }
 
-static void n_may_be_0(void **state) {
+static void an_empty_matrix_has_an_empty_inverse(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_NONE, 0, 1, 0, NULL);
+    factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
     const sl_int row = 0;
     double out = 4321.5, one = 1;
     SL_CHECK(sl_inverse_diagonal(y.F, NULL, NULL, 0, NULL, NULL));
@@ -250,16 +253,16 @@ static void n_may_be_0(void **state) {
     assert_true(out == 4321.5);
     SL_CHECK(sl_inverse_bilinear(y.F, &out, NULL, &one, 5, NULL, &one, 5, NULL, NULL));
     assert_true(out == 0);
-    problem_free(&y);
+    factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_is_allocated_once_grown),
+        cmocka_unit_test(a_grown_workspace_allocates_nothing),
         cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(nothing_grows_with_n),
-        cmocka_unit_test(wrong_use_is_refused),
-        cmocka_unit_test(n_may_be_0),
+        cmocka_unit_test(memory_does_not_grow_with_n),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(an_empty_matrix_has_an_empty_inverse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

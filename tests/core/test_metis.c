@@ -1,15 +1,15 @@
-/* test_metis.c: what METIS is asked: options handed on or refused, nothing printed */
+/* test_metis.c: METIS options are passed on or refused, and METIS prints nothing */
 #define _POSIX_C_SOURCE 200809L
-#include "files.h"
+#include "tests/lib/temporary_files.h"
 
-#include "check.h"
+#include "tests/lib/check_factor.h"
 
-#if defined(SL_NO_METIS)
+#if !defined(SL_METIS) || defined(SL_NO_METIS)
 
 static void metis_is_unsupported(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 2);
-    static const sl_ordering orderings[2] = {SL_ORDERING_METIS, SL_ORDERING_QUALITY};
+    static const sl_ordering orderings[2] = {SL_ORDERING_METIS, SL_ORDERING_METIS_REFINED};
     for (int k = 0; k < 2; k++) {
         sl_options opt = options_none();
         sl_symbolic *S = (sl_symbolic *)(void *)&M;
@@ -44,17 +44,17 @@ static void metis_options_are_handed_on(void **state) {
     memset(&stats, 0, sizeof stats);
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
-    /* METIS on a 30 x 30 grid must beat the natural order, whose L has about 30 n entries */
-    assert_true(stats.nnz_l < 15 * (sl_off)stats.n);
+    /* METIS must beat the natural order, in which L of a 30 x 30 grid has about 30 n entries. */
+    assert_true(stats.symbolic.nnz_l < 15 * (sl_off)stats.symbolic.n);
     sl_int metis[METIS_NOPTIONS];
-    all_default(metis); /* the same as none */
+    all_default(metis); /* the same as no options */
     opt.metis_options = metis;
     sl_symbolic *T = NULL;
     SL_CHECK(sl_symbolic_create(&T, &M.view, &opt, NULL));
-    sl_symbolic_view_t v = sl_symbolic_view(S), w = sl_symbolic_view(T);
+    sl_symbolic_arrays v = sl_symbolic_view(S), w = sl_symbolic_view(T);
     assert_memory_equal(v.perm, w.perm, (size_t)v.n * sizeof(sl_int));
     sl_symbolic_free(T);
-    /* some other seed: still right, and another order */
+    /* Another seed gives another valid order. */
     metis[METIS_OPTION_SEED] = 4711;
     SL_CHECK(sl_symbolic_create(&T, &M.view, &opt, NULL));
     w = sl_symbolic_view(T);
@@ -65,7 +65,8 @@ static void metis_options_are_handed_on(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Bytes that standard output and standard error get during an analysis of a grid, which is to give a status. */
+/* Analyses a grid, expects a status, and returns how many bytes were printed to stdout and
+ * stderr. */
 static long bytes_printed(const sl_int *metis, sl_status wanted) {
     gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 2);
     sl_options opt = options_none();
@@ -102,7 +103,7 @@ static void nothing_is_printed(void **state) {
     assert_int_equal(bytes_printed(metis, SL_OK), 0);
     metis[METIS_OPTION_DBGLVL] = 0x7FF;
     assert_int_equal(bytes_printed(metis, SL_OK), 0);
-    metis[METIS_OPTION_NUMBERING] = 1; /* would read one place beside each array */
+    metis[METIS_OPTION_NUMBERING] = 1; /* METIS would read one entry beyond each array */
     assert_int_equal(bytes_printed(metis, SL_OK), 0);
 }
 
@@ -110,7 +111,7 @@ static void options_out_of_range_are_refused(void **state) {
     (void)state;
     static const struct {
         int option;
-        sl_int low, high; /* the range that the manual gives for METIS_NodeND */
+        sl_int low, high; /* the range in METIS's manual, for METIS_NodeND */
     } ranges[] = {
         {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
         {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},

@@ -1,9 +1,10 @@
-/* test_semidefinite.c: null pivots skipped: their number and rows, solutions of consistent systems, the residual of others */
-#include "parallel_for.h"
-#include "problem.h"
-#include "singular.h"
+/* test_null_pivots.c: skipped null pivots: their number and rows, solutions of consistent systems,
+ * residuals of others */
+#include "tests/lib/parallel_for.h"
+#include "tests/lib/factored.h"
+#include "tests/lib/graph_laplacian.h"
 
-/* Solves A x = A z, which is consistent, and A x = e_k + A z, which is not. */
+/* Solves A x = A z, which is consistent, and A x = e_0 + A z, which is not. */
 static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
     sl_int n = A->n_cols, count = 0, *rows = test_ints((size_t)n + 1);
     double *z = test_reals((size_t)n), *b = test_reals((size_t)n), *x = test_reals((size_t)n);
@@ -17,7 +18,7 @@ static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
     for (sl_int k = 0; k < count; k++) {
         assert_true(fabs(x[rows[k]]) < 1e-290);
     }
-    /* a source in row 0: the residual is in the null row of its component alone */
+    /* With a source in row 0 the residual is only in the null row of its component. */
     b[0] += 1.0;
     SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
     SL_CHECK(sl_csc_residual(A, r, (size_t)n, &eta, x, (size_t)n, b, (size_t)n, 1));
@@ -40,10 +41,10 @@ static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
     free(r);
 }
 
-static void a_null_pivot_for_each_component(void **state) {
+static void each_component_has_one_null_pivot(void **state) {
     (void)state;
     static const sl_int sizes[3] = {12, 90, 700};
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < LAPLACIAN_KINDS; kind++) {
         for (int size = 0; size < 3; size++) {
             sl_int components = 0;
@@ -51,32 +52,32 @@ static void a_null_pivot_for_each_component(void **state) {
                 laplacian(laplacian_kinds[kind], sizes[size], kind % GEN_STYLES, &components);
             sl_symbolic *S = NULL;
             SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-            for (int k = 0; k < ways.count; k++) {
-                sl_options opt = options_semidefinite(&ways, k);
-                opt.consistency_tolerance = -1.0; /* what is inconsistent is solved, too */
+            for (int k = 0; k < variants.count; k++) {
+                sl_options opt = options_skip_null(&variants, k);
+                opt.consistency_tolerance = -1.0; /* inconsistent systems are solved too */
                 sl_factor *F = NULL;
                 sl_stats stats;
                 double log_det, sign;
                 memset(&stats, 0, sizeof stats);
-                SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
-                assert_int_equal(stats.null, components);
-                assert_int_equal(stats.positive, M.view.n_cols - components);
-                assert_int_equal(stats.negative, 0);
-                assert_true(stats.pivot_max < 1e300);
+                SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+                assert_int_equal(stats.factor.null, components);
+                assert_int_equal(stats.factor.positive, M.view.n_cols - components);
+                assert_int_equal(stats.factor.negative, 0);
+                assert_true(stats.factor.pivot_max < 1e300);
                 SL_CHECK(sl_factor_logdet(F, &log_det, &sign));
                 assert_true(isfinite(log_det) && sign == 1.0);
                 assert_solves(&M.view, F, components);
                 SL_CHECK(sl_factor_refactor(F, &M.view, &stats));
-                assert_int_equal(stats.null, components);
+                assert_int_equal(stats.factor.null, components);
                 const sl_int all[1] = {0};
                 SL_CHECK(sl_factor_refactor_changed(F, &M.view, all, 1, &stats));
-                assert_int_equal(stats.null, components);
+                assert_int_equal(stats.factor.null, components);
                 assert_solves(&M.view, F, components);
                 sl_factor_free(F);
-                /* without the wish it is refused */
-                opt.definiteness = SL_DEFINITE;
-                SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, &opt, &stats));
-                assert_int_equal(stats.null, 1);
+                /* Without the option the matrix is refused. */
+                opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+                SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+                assert_int_equal(stats.factor.null, 1);
             }
             sl_symbolic_free(S);
             gen_matrix_free(&M);
@@ -84,13 +85,13 @@ static void a_null_pivot_for_each_component(void **state) {
     }
 }
 
-/* Local solves are the full ones' bits here as well, and threads change none. */
-static void local_and_threads_as_ever(void **state) {
+/* Local solves give the bits of the full solve here too, and threads change no bits. */
+static void local_solves_and_threads_give_the_same_bits(void **state) {
     (void)state;
     sl_int components = 0;
     gen_matrix_t M = laplacian(GEN_COMPONENTS, 600, 0, &components);
     sl_int n = M.view.n_cols, *bset = test_ints((size_t)n), *xset = test_ints((size_t)n);
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_symbolic *S = NULL;
     sl_plan *P = NULL;
     uint64_t seed = 3;
@@ -98,20 +99,20 @@ static void local_and_threads_as_ever(void **state) {
     gen_set(xset, 30, n, gen_bits(&seed));
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, S, bset, 20, xset, 30, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
+    for (int k = 0; k < variants.count; k++) {
         for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
-            sl_options opt = options_semidefinite(&ways, k);
+            sl_options opt = options_skip_null(&variants, k);
             sl_factor *F = NULL, *G = NULL;
             int calls = 0;
             opt.consistency_tolerance = -1.0;
             double *B = test_reals((size_t)(20 * nrhs)), *X = test_reals((size_t)(30 * nrhs));
             double *full = test_reals((size_t)(n * nrhs)),
                    *wanted = test_reals((size_t)(30 * nrhs));
-            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+            SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
             opt.threads.count = 3;
             opt.threads.run = run_backwards;
             opt.threads.context = &calls;
-            SL_CHECK(sl_factor_create(&G, S, &M.view, &opt, NULL));
+            SL_CHECK(sl_factor_create(&G, S, &M.view, FOR_FACTOR(&opt), NULL));
             assert_same_bits(F, G);
             gen_reals(B, (size_t)(20 * nrhs), 8);
             for (sl_int r = 0; r < nrhs; r++) {
@@ -142,23 +143,23 @@ static void local_and_threads_as_ever(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Entries of the inverse are those of the one that solves apply: x = 0 in the null rows. */
-static void entries_of_the_inverse(void **state) {
+/* Entries of the inverse belong to the inverse that solves apply: x = 0 in the null rows. */
+static void inverse_entries_match_solves(void **state) {
     (void)state;
     sl_int components = 0;
     gen_matrix_t M = laplacian(GEN_COMPONENTS, 120, 0, &components);
     size_t n = (size_t)M.view.n_cols;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         opt.consistency_tolerance = -1.0;
         sl_factor *F = NULL;
         sl_selected *Z = NULL;
         double *X = test_reals(n * n), *diagonal = test_reals(n), *selected = test_reals(n),
                most = 0.0;
-        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
         for (size_t i = 0; i < n; i++) {
             X[i + n * i] = 1.0;
         }
@@ -167,7 +168,7 @@ static void entries_of_the_inverse(void **state) {
             most = fmax(most, fabs(X[i + n * i]));
         }
         SL_CHECK(sl_inverse_diagonal(F, diagonal, NULL, 0, NULL, NULL));
-        SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &opt, NULL));
+        SL_CHECK(sl_selected_create(&Z, F, NULL, 0, FOR_OTHERS(&opt), NULL));
         SL_CHECK(sl_selected_diagonal(Z, selected, NULL, 0, NULL));
         for (size_t i = 0; i < n; i++) {
             assert_true(fabs(diagonal[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);
@@ -183,18 +184,18 @@ static void entries_of_the_inverse(void **state) {
     gen_matrix_free(&M);
 }
 
-/* A definite matrix has the same bits with the wish and without, and a NaN stays an error. */
-static void definite_matrices_and_failures(void **state) {
+/* A definite matrix gives the same bits with the option and without it. A NaN is still an error. */
+static void definite_matrices_keep_their_bits_and_nan_fails(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
         sl_options opt = options_none();
-        way_take(&opt, &ways, k);
-        problem_t y = problem_make(GEN_GRID2, 300, 0, 0, &opt);
+        options_set_variant(&opt, &variants, k);
+        factored_t y = factored_make(GEN_GRID2, 300, 1, 0, &opt);
         sl_factor *F = NULL;
         sl_int count = 7, one[1];
-        opt = options_semidefinite(&ways, k);
-        SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+        opt = options_skip_null(&variants, k);
+        SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
         assert_same_bits(F, y.F);
         SL_CHECK(sl_factor_null_rows(F, NULL, 0, &count));
         assert_int_equal(count, 0);
@@ -206,18 +207,18 @@ static void definite_matrices_and_failures(void **state) {
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &y.M.view, NULL));
         SL_EXPECT(SL_ERR_STATE, sl_factor_null_rows(F, one, 1, &count));
         sl_factor_free(F);
-        opt.definiteness = (sl_definiteness)2;
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-        problem_free(&y);
+        opt.null_pivots = (sl_null_pivots)2;
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
+        factored_free(&y);
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_null_pivot_for_each_component),
-        cmocka_unit_test(local_and_threads_as_ever),
-        cmocka_unit_test(entries_of_the_inverse),
-        cmocka_unit_test(definite_matrices_and_failures),
+        cmocka_unit_test(each_component_has_one_null_pivot),
+        cmocka_unit_test(local_solves_and_threads_give_the_same_bits),
+        cmocka_unit_test(inverse_entries_match_solves),
+        cmocka_unit_test(definite_matrices_keep_their_bits_and_nan_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,96 +1,167 @@
-/* test_options.c: wishes that make no sense: half an allocator and unknown enum values, refused by who reads them */
-#include "problem.h"
+/* test_options.c: options that are malformed: sizes, reserved fields, allocators, enum values */
+#include "tests/lib/option_calls.h"
 
-#define GARBAGE(type) ((type *)(void *)&y)
-
-/* Each call that takes options, with one function of an allocator alone. */
-static void half_an_allocator_is_refused(void **state) {
-    (void)state;
-    problem_t y = problem_make(GEN_GRID2, 25, 1, GEN_STYLES - 1, NULL);
-    const sl_int row[1] = {0};
-    const double one[1] = {1};
-    const char text[] = "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n";
-    counter_t counter = counter_make();
-    sl_int perm[25];
-    gen_permutation(perm, 25, 1);
-    for (int half = 0; half < 2; half++) {
-        sl_options opt = options_counted(&counter);
-        if (half) {
-            opt.allocator.allocate = NULL;
-        } else {
-            opt.allocator.release = NULL;
-        }
-        sl_matrix *M = GARBAGE(sl_matrix);
-        sl_symbolic *S = GARBAGE(sl_symbolic);
-        sl_factor *F = GARBAGE(sl_factor);
-        sl_plan *P = GARBAGE(sl_plan);
-        sl_work *W = GARBAGE(sl_work);
-        sl_triangle triangle = SL_TRIANGLE_NONE;
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 1, 1, 1, row, row, one, &opt, NULL));
-        assert_null(M);
-        M = GARBAGE(sl_matrix);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_parse(&M, text, strlen(text), &opt, NULL));
-        assert_null(M);
-        M = GARBAGE(sl_matrix);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_read(&M, "no_such_file.mtx", &opt, NULL));
-        assert_null(M);
-        M = GARBAGE(sl_matrix);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_transpose(&M, &y.M.view, &opt));
-        assert_null(M);
-        M = GARBAGE(sl_matrix);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&M, &y.M.view, perm, &opt));
-        assert_null(M);
-        M = GARBAGE(sl_matrix);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_lower(&M, y.F, &opt));
-        assert_null(M);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_triangle(&y.M.view, &triangle, &opt, NULL));
-        assert_int_equal(triangle, SL_TRIANGLE_NONE);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &y.M.view, &opt, NULL));
-        assert_null(S);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-        assert_null(F);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_create(&P, y.S, row, 1, row, 1, &opt, NULL));
-        assert_null(P);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_work_create(&W, &opt));
-        assert_null(W);
+static void assert_refused_by_every_call(option_fixture_t *f, const sl_options *opt) {
+    for (int k = 0; k < OPTION_CALLS; k++) {
+        assert_option_call(f, k, opt, SL_ERR_ARGUMENT);
     }
-    assert_int_equal(counter.calls, 0);
-    problem_free(&y);
 }
 
-static void unknown_values_are_refused(void **state) {
-    (void)state;
-    problem_t y = problem_make(GEN_GRID2, 25, 1, 0, NULL);
-    static const int unknown[3] = {-1, SL_ORDERING_QUALITY + 1, 1000};
-    double X[25] = {1}, Y[25] = {7};
-    for (int k = 0; k < 3; k++) {
-        sl_options opt = options_none();
-        sl_symbolic *S = GARBAGE(sl_symbolic);
-        opt.ordering = (sl_ordering)unknown[k];
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &y.M.view, &opt, NULL));
-        assert_null(S);
-        opt = options_none();
-        opt.relaxation = (sl_relaxation)unknown[k];
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &y.M.view, &opt, NULL));
-        assert_null(S);
-        SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_csc_multiply(&y.M.view, (sl_reading)unknown[k], Y, 25, X, 25, 1));
-        assert_true(Y[0] == 7);
-        SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_csc_write(&y.M.view, (sl_reading)unknown[k], "no/such/folder/file.mtx"));
-        sl_factor *F = GARBAGE(sl_factor);
-        opt = options_none();
-        opt.isa = (sl_isa)(unknown[k] + 100); /* as one that this processor has not */
-        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-        assert_null(F);
+static void assert_accepted_by_every_call(option_fixture_t *f, const sl_options *opt) {
+    for (int k = 0; k < OPTION_CALLS; k++) {
+        assert_option_call(f, k, opt, SL_OK);
     }
-    problem_free(&y);
+}
+
+static void default_options_are_accepted_by_every_call(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    sl_options opt = options_none();
+    assert_accepted_by_every_call(f, NULL);
+    assert_accepted_by_every_call(f, &opt);
+    sl_options_init(&opt, sizeof opt);
+    assert_int_equal(opt.size, sizeof opt);
+    assert_accepted_by_every_call(f, &opt);
+    option_fixture_free(f);
+}
+
+static void another_size_is_refused_by_every_call(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    const size_t sizes[5] = {1, sizeof(sl_options) - 1, sizeof(sl_options) + 1,
+                             sizeof(sl_options) + sizeof(void *), SIZE_MAX};
+    for (int k = 0; k < 5; k++) {
+        sl_options opt = options_none();
+        opt.size = sizes[k];
+        assert_refused_by_every_call(f, &opt);
+    }
+    option_fixture_free(f);
+}
+
+static void a_reserved_field_is_refused_by_every_call(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    for (size_t k = 0; k < sizeof((sl_options *)0)->reserved / sizeof(void *); k++) {
+        sl_options opt;
+        sl_options_init(&opt, sizeof opt);
+        opt.reserved[k] = &opt;
+        assert_refused_by_every_call(f, &opt);
+    }
+    option_fixture_free(f);
+}
+
+static void a_negative_number_of_threads_is_refused_by_every_call(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    sl_options opt = options_none();
+    opt.threads.count = -1;
+    assert_refused_by_every_call(f, &opt);
+    option_fixture_free(f);
+}
+
+static void half_an_allocator_is_refused_by_every_call(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    opt.allocator.allocate = NULL;
+    assert_refused_by_every_call(f, &opt);
+    opt = options_counted(&counter);
+    opt.allocator.release = NULL;
+    assert_refused_by_every_call(f, &opt);
+    assert_int_equal(counter.calls, 0);
+    option_fixture_free(f);
+}
+
+/* A binding that was compiled for another sl_options: init clears exactly its bytes. */
+static void init_clears_the_size_that_the_caller_has(void **state) {
+    (void)state;
+    const size_t sizes[4] = {sizeof(size_t), sizeof(sl_options) - 16, sizeof(sl_options),
+                             sizeof(sl_options) + 64};
+    union {
+        sl_options opt;
+        unsigned char bytes[sizeof(sl_options) + 128];
+    } u;
+    for (int k = 0; k < 4; k++) {
+        memset(u.bytes, 0xA5, sizeof u.bytes);
+        sl_options_init(&u.opt, sizes[k]);
+        assert_int_equal(u.opt.size, sizes[k]);
+        for (size_t q = sizeof(size_t); q < sizeof u.bytes; q++) {
+            assert_int_equal(u.bytes[q], q < sizes[k] ? 0 : 0xA5);
+        }
+    }
+    memset(u.bytes, 0xA5, sizeof u.bytes);
+    sl_options_init(&u.opt, sizeof(size_t) - 1);
+    for (size_t q = 0; q < sizeof u.bytes; q++) {
+        assert_int_equal(u.bytes[q], 0xA5);
+    }
+    sl_options_init(NULL, sizeof(sl_options));
+}
+
+static void the_library_reports_its_version_and_sizes(void **state) {
+    (void)state;
+    assert_int_equal(sl_version(), SL_VERSION);
+    assert_int_equal(sl_version(),
+                     10000 * SL_VERSION_MAJOR + 100 * SL_VERSION_MINOR + SL_VERSION_PATCH);
+    assert_int_equal(sl_stats_size(), sizeof(sl_stats));
+}
+
+/* The k-th value that is none of an enum whose last value is `last`. */
+static int unknown(int k, int last) {
+    return k == 0 ? -1 : k == 1 ? last + 1 : 1000;
+}
+
+static void unknown_enum_values_are_refused(void **state) {
+    (void)state;
+    option_fixture_t *f = option_fixture_make();
+    double X[25] = {1}, Y[25] = {7};
+    assert_int_equal(f->pair.n, 25);
+    for (int k = 0; k < 3; k++) {
+        const sl_reading reading = (sl_reading)unknown(k, SL_AS_STORED);
+        sl_options opt = options_none();
+        opt.perm = f->perm;
+        opt.ordering = (sl_ordering)unknown(k, SL_ORDERING_NATURAL);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
+        opt = options_none();
+        opt.relaxation = (sl_relaxation)unknown(k, SL_RELAXATION_NONE);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
+        opt = options_none();
+        opt.triangle = (sl_triangle)unknown(k, SL_TRIANGLE_BOTH);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_triangle(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_sum(f, &opt));
+        opt = options_none();
+        opt.method = (sl_method)unknown(k, SL_METHOD_SUPERNODAL);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
+        opt = options_none();
+        opt.null_pivots = (sl_null_pivots)unknown(k, SL_NULL_PIVOT_SKIP);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
+        opt = options_none();
+        opt.isa = (sl_isa)unknown(k, SL_ISA_NEON); /* like one that this processor does not have */
+        SL_EXPECT(SL_ERR_UNSUPPORTED, option_factor(f, &opt));
+        SL_EXPECT(SL_ERR_UNSUPPORTED, option_combination(f, &opt));
+        SL_EXPECT(SL_ERR_UNSUPPORTED, option_batch_factor(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&f->U, reading, Y, 25, X, 25, 1));
+        assert_true(Y[0] == 7);
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_write(&f->U, reading, "no/such/folder/file.mtx"));
+    }
+    option_fixture_free(f);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_an_allocator_is_refused),
-        cmocka_unit_test(unknown_values_are_refused),
+        cmocka_unit_test(default_options_are_accepted_by_every_call),
+        cmocka_unit_test(another_size_is_refused_by_every_call),
+        cmocka_unit_test(a_reserved_field_is_refused_by_every_call),
+        cmocka_unit_test(a_negative_number_of_threads_is_refused_by_every_call),
+        cmocka_unit_test(half_an_allocator_is_refused_by_every_call),
+        cmocka_unit_test(init_clears_the_size_that_the_caller_has),
+        cmocka_unit_test(the_library_reports_its_version_and_sizes),
+        cmocka_unit_test(unknown_enum_values_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-/* test_memory.c: every function that allocates, with its k-th allocation failing for k = 0, 1, ... until it succeeds */
-#include "problem.h"
+/* test_out_of_memory.c: each allocation of every function fails in turn */
+#include "tests/lib/factored.h"
 
 typedef struct fixture_t {
-    problem_t y; /* a grid, made with malloc */
+    factored_t y; /* a grid, allocated by malloc */
     sl_plan *P;
     sl_int bset[225], xset[225], perm[225];
     double B[225 * 3], X[225 * 3], before[225 * 3];
@@ -10,20 +10,20 @@ typedef struct fixture_t {
     size_t length;
 } fixture_t;
 
-/* Runs one function with the allocator of opt. It checks by itself that an object is NULL after an error, and frees
- * what it made. */
+/* Runs one function with the allocator of opt. Checks that the object is NULL after an error, and
+ * frees what it created. */
 typedef sl_status (*scenario_t)(fixture_t *f, const sl_options *opt);
 
 #define MADE_OR_NULL(status, object) assert_true(((object) != NULL) == ((status) == SL_OK))
 
-/* M by its address: the call that makes it is an argument beside it. */
+/* Takes the address of M because the call that sets M is the other argument. */
 static sl_status end_matrix(sl_status status, sl_matrix **M) {
     MADE_OR_NULL(status, *M);
     sl_matrix_free(*M);
     return status;
 }
 
-/* a pointer that is not NULL, to see that it becomes so */
+/* a pointer that is not NULL, to see that the call sets it to NULL */
 #define GARBAGE(type) ((type *)(void *)f)
 
 static sl_status from_triplets(fixture_t *f, const sl_options *opt) {
@@ -62,18 +62,18 @@ static sl_status triangle(fixture_t *f, const sl_options *opt) {
 }
 
 static sl_status symbolic_with(fixture_t *f, const sl_options *opt, sl_ordering ordering) {
-    sl_options wish = *opt;
+    sl_options wanted = *opt;
     sl_symbolic *S = GARBAGE(sl_symbolic);
-    wish.ordering = ordering;
-    wish.perm = f->perm;
-    sl_status status = sl_symbolic_create(&S, &f->y.M.view, &wish, NULL);
+    wanted.ordering = ordering;
+    wanted.perm = f->perm;
+    sl_status status = sl_symbolic_create(&S, &f->y.M.view, &wanted, NULL);
     MADE_OR_NULL(status, S);
     sl_symbolic_free(S);
     return status;
 }
 
 static sl_status symbolic_default(fixture_t *f, const sl_options *opt) {
-    return symbolic_with(f, opt, SL_ORDERING_DEFAULT);
+    return symbolic_with(f, opt, SL_ORDERING_ND);
 }
 
 static sl_status symbolic_metis(fixture_t *f, const sl_options *opt) {
@@ -81,10 +81,10 @@ static sl_status symbolic_metis(fixture_t *f, const sl_options *opt) {
         f, opt, ordering_is_present(SL_ORDERING_METIS) ? SL_ORDERING_METIS : SL_ORDERING_NATURAL);
 }
 
-static sl_status symbolic_quality(fixture_t *f, const sl_options *opt) {
+static sl_status symbolic_metis_refined(fixture_t *f, const sl_options *opt) {
     return symbolic_with(f, opt,
-                         ordering_is_present(SL_ORDERING_QUALITY) ? SL_ORDERING_QUALITY
-                                                                  : SL_ORDERING_NATURAL);
+                         ordering_is_present(SL_ORDERING_METIS_REFINED) ? SL_ORDERING_METIS_REFINED
+                                                                        : SL_ORDERING_NATURAL);
 }
 
 static sl_status symbolic_natural(fixture_t *f, const sl_options *opt) {
@@ -124,7 +124,7 @@ static sl_status work(fixture_t *f, const sl_options *opt) {
     return status;
 }
 
-/* A workspace that could not grow stays usable: the rest of a scenario is tried on the same one. */
+/* A workspace that failed to grow stays usable: all calls of a scenario use the same one. */
 typedef sl_status (*use_t)(fixture_t *f, sl_work *W);
 
 static sl_status in_work(fixture_t *f, const sl_options *opt, use_t use) {
@@ -138,7 +138,7 @@ static sl_status in_work(fixture_t *f, const sl_options *opt, use_t use) {
     memcpy(f->X, f->before, sizeof f->X);
     status = use(f, W);
     if (status != SL_OK) {
-        assert_memory_equal(f->X, f->before, sizeof f->X); /* on error untouched */
+        assert_memory_equal(f->X, f->before, sizeof f->X); /* unchanged on error */
         int64_t keep = counter->fail_at;
         counter->fail_at = -1;
         SL_CHECK(use(f, W));
@@ -157,7 +157,7 @@ static sl_status use_plan(fixture_t *f, sl_work *W) {
 }
 
 static sl_status use_local(fixture_t *f, sl_work *W) {
-    return sl_local_solve(f->y.F, f->X, 30, f->xset, 30, f->B, 20, f->bset, 20, 3, W, NULL);
+    return sl_local_solve(f->y.F, f->bset, 20, f->xset, 30, f->X, 30, f->B, 20, 3, W, NULL);
 }
 
 static sl_status use_reserve_factor(fixture_t *f, sl_work *W) {
@@ -168,10 +168,10 @@ static sl_status use_reserve_plan(fixture_t *f, sl_work *W) {
     return sl_work_reserve_plan(W, f->P, 3);
 }
 
-/* grown by a small solve first, then it has to grow again */
+/* A small solve first, then a larger one that has to grow the workspace. */
 static sl_status use_growing(fixture_t *f, sl_work *W) {
     double one[1];
-    sl_status status = sl_local_solve(f->y.F, one, 1, f->xset, 1, f->B, 1, f->bset, 1, 1, W, NULL);
+    sl_status status = sl_local_solve(f->y.F, f->bset, 1, f->xset, 1, one, 1, f->B, 1, 1, W, NULL);
     return status != SL_OK ? status : use_full(f, W);
 }
 
@@ -199,7 +199,7 @@ static sl_status growing(fixture_t *f, const sl_options *opt) {
     return in_work(f, opt, use_growing);
 }
 
-/* W == NULL: the scratch of one call comes from the allocator of the factor */
+/* W == NULL: the scratch of one call comes from the allocator of the factor. */
 static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
     sl_factor *F = NULL;
     sl_status status = sl_factor_create(&F, f->y.S, &f->y.M.view, opt, NULL);
@@ -208,7 +208,7 @@ static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
         status = sl_factor_solve(F, f->X, 225, f->B, 225, 3, NULL);
         status = status != SL_OK ? status : sl_plan_solve(f->P, F, f->X, 30, f->B, 20, 3, NULL);
         status = status != SL_OK ? status
-                                 : sl_local_solve(F, f->X, 30, f->xset, 30, f->B, 20, f->bset, 20,
+                                 : sl_local_solve(F, f->bset, 20, f->xset, 30, f->X, 30, f->B, 20,
                                                   3, NULL, NULL);
     }
     sl_factor_free(F);
@@ -226,7 +226,7 @@ static int64_t run(fixture_t *f, scenario_t scenario) {
         status = scenario(f, &opt);
         assert_true(status == SL_OK || status == SL_ERR_MEMORY);
         assert_int_equal(status == SL_ERR_MEMORY,
-                         counter.calls > (size_t)k); /* no failure is passed over */
+                         counter.calls > (size_t)k); /* no failure is ignored */
         COUNTER_CLEAN(&counter);
         assert_in_range(k, 0, 10000);
     }
@@ -235,7 +235,7 @@ static int64_t run(fixture_t *f, scenario_t scenario) {
 
 static void fixture_make(fixture_t *f, int style) {
     uint64_t seed = 2;
-    f->y = problem_make(GEN_GRID2, 225, 1, style, NULL);
+    f->y = factored_make(GEN_GRID2, 225, 1, style, NULL);
     gen_set(f->bset, 20, 225, gen_bits(&seed));
     gen_set(f->xset, 30, 225, gen_bits(&seed));
     gen_permutation(f->perm, 225, gen_bits(&seed));
@@ -246,7 +246,7 @@ static void fixture_make(fixture_t *f, int style) {
 
 static void fixture_free(fixture_t *f) {
     sl_plan_free(f->P);
-    problem_free(&f->y);
+    factored_free(&f->y);
 }
 
 static void every_allocation_may_fail(void **state) {
@@ -261,7 +261,7 @@ static void every_allocation_may_fail(void **state) {
         {"sl_csc_triangle", triangle},
         {"sl_symbolic_create, default", symbolic_default},
         {"sl_symbolic_create, METIS", symbolic_metis},
-        {"sl_symbolic_create, quality", symbolic_quality},
+        {"sl_symbolic_create, quality", symbolic_metis_refined},
         {"sl_symbolic_create, natural", symbolic_natural},
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},
@@ -276,7 +276,7 @@ static void every_allocation_may_fail(void **state) {
         {"a workspace that grows", growing},
         {"solves without a workspace", solve_without_work},
     };
-    static const int styles[3] = {0, 1, 11}; /* lower; upper; both, unsorted, duplicated */
+    static const int styles[3] = {0, 1, 11}; /* lower; upper; both, unsorted, with duplicates */
     for (int s = 0; s < 3; s++) {
         fixture_t *f = (fixture_t *)test_array(1, sizeof *f);
         fixture_make(f, styles[s]);
@@ -294,7 +294,7 @@ static void every_allocation_may_fail(void **state) {
             }
             assert_true(count > 0 || all[k].scenario == triangle);
         }
-        /* the inputs are as they were */
+        /* the inputs are unchanged */
         assert_memory_equal(p, A->p, ((size_t)A->n_cols + 1) * sizeof *p);
         assert_memory_equal(i, A->i, (size_t)nnz * sizeof *i);
         assert_memory_equal(x, A->x, (size_t)nnz * sizeof *x);
@@ -306,7 +306,7 @@ static void every_allocation_may_fail(void **state) {
     }
 }
 
-static void reading_may_fail(void **state) {
+static void every_allocation_of_the_reader_may_fail(void **state) {
     (void)state;
     static const char *const texts[2] = {
         "%%MatrixMarket matrix coordinate real symmetric\n3 3 4\n1 1 1\n2 2 3\n3 1 -1\n3 3 4\n",
@@ -318,12 +318,12 @@ static void reading_may_fail(void **state) {
         assert_true(run(f, parse) > 0);
     }
     const char *folder = getenv("TMPDIR");
-    snprintf(f->text, sizeof f->text, "%s/sparse_local_test_memory.mtx",
+    snprintf(f->text, sizeof f->text, "%s/sparse_local_out_of_memory.mtx",
              folder && *folder ? folder : ".");
     FILE *file = fopen(f->text, "wb");
     assert_non_null(file);
     fputs(texts[0], file);
-    for (int k = 0; k < 3000; k++) { /* longer than what is read at once: the text has to move */
+    for (int k = 0; k < 3000; k++) { /* longer than one read: the text has to move */
         fputs("% a comment of some length, one of many that follow each other here\n", file);
     }
     fclose(file);
@@ -332,13 +332,13 @@ static void reading_may_fail(void **state) {
     free(f);
 }
 
-/* A failing allocator in the middle of a life: objects made before it broke are released well. (sl_csc_write takes no
- * options, so nothing can be made to fail there.) */
-static void objects_outlive_a_broken_allocator(void **state) {
+/* Objects made before an allocator fails are released properly. (sl_csc_write takes no options, so
+ * no allocation of it can be made to fail.) */
+static void objects_outlive_a_failing_allocator(void **state) {
     (void)state;
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
-    problem_t y = problem_make(GEN_GRID2, 100, 1, 0, &opt);
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, &opt);
     sl_int row = 5;
     sl_plan *P = NULL, *Q = NULL;
     double one = 1;
@@ -349,14 +349,14 @@ static void objects_outlive_a_broken_allocator(void **state) {
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_plan_solve(P, y.F, &one, 1, &one, 1, 1, NULL));
     assert_true(one == 1);
-    SL_CHECK(sl_plan_solve(P, y.F, &one, 1, &one, 1, 1, NULL)); /* the next one is served */
+    SL_CHECK(sl_plan_solve(P, y.F, &one, 1, &one, 1, 1, NULL)); /* the next call succeeds */
     assert_true(one != 1);
     sl_plan_free(P);
-    problem_free(&y);
+    factored_free(&y);
     COUNTER_CLEAN(&counter);
 }
 
-/* Refuses what no test needs and remembers it. */
+/* Refuses large blocks and remembers the largest request. */
 static void *allocate_little(void *context, size_t bytes) {
     size_t *refused = (size_t *)context;
     if (bytes < (size_t)1 << 28) {
@@ -371,9 +371,10 @@ static void release_little(void *context, void *block) {
     free(block);
 }
 
-/* A star eliminated from its centre: L is dense, and its count of doubles, 2^32 + 194624, has 194624 in its lower 32
- * bits. Where a size_t has no more than those, the factor is refused and not made that small. */
-static void a_count_beyond_32_bits_is_not_cut(void **state) {
+/* A star eliminated from its center: L is dense, and its number of doubles, 2^32 + 194624, is
+ * 194624 modulo 2^32. Where size_t has 32 bits, the factor must be refused instead of allocated at
+ * that size. */
+static void a_size_beyond_32_bits_is_not_truncated(void **state) {
     (void)state;
     size_t refused = 0;
     sl_options opt = options_none();
@@ -389,12 +390,12 @@ static void a_count_beyond_32_bits_is_not_cut(void **state) {
     opt.allocator.context = &refused;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
     assert_int_equal(refused, 0);
-    assert_true(stats.nnz_panels == ((sl_off)1 << 32) + 194624);
+    assert_true(stats.symbolic.nnz_panels == ((sl_off)1 << 32) + 194624);
 #if SIZE_MAX > 0xFFFFFFFFu
-    SL_EXPECT(SL_ERR_MEMORY, sl_factor_create(&F, S, &M.view, &opt, NULL));
-    assert_true(refused / sizeof(double) >= (size_t)stats.nnz_panels);
+    SL_EXPECT(SL_ERR_MEMORY, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
+    assert_true(refused / sizeof(double) >= (size_t)stats.symbolic.nnz_panels);
 #else
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_factor_create(&F, S, &M.view, &opt, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
     assert_int_equal(refused, 0);
 #endif
     assert_null(F);
@@ -406,9 +407,9 @@ static void a_count_beyond_32_bits_is_not_cut(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(reading_may_fail),
-        cmocka_unit_test(objects_outlive_a_broken_allocator),
-        cmocka_unit_test(a_count_beyond_32_bits_is_not_cut),
+        cmocka_unit_test(every_allocation_of_the_reader_may_fail),
+        cmocka_unit_test(objects_outlive_a_failing_allocator),
+        cmocka_unit_test(a_size_beyond_32_bits_is_not_truncated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,13 @@
-/* test_refine.c: sl_factor_refine: any start, a factor of another matrix, regularized systems; what it reports and leaves alone */
-#include "kkt.h"
-#include "problem.h"
-#include "singular.h"
+/* test_refine.c: sl_factor_refine: any start, nearby factors, regularized, singular systems */
+#include "tests/lib/kkt.h"
+#include "tests/lib/factored.h"
+#include "tests/lib/graph_laplacian.h"
 
-/* What refinement must come down to, row by row: the residual itself is rounded, 2 (k + 2) eps for rows of k entries, and
- * so is x. */
-#define ROW_MOST(A) (2.0 * (3.0 + longest((A))) * DBL_EPSILON)
+/* The componentwise backward error that refinement must reach. The residual itself is rounded, by
+ * 2 (k + 2) eps for rows of k entries, and so is x. */
+#define ROW_ERROR_MAX(A) (2.0 * (3.0 + longest_row((A))) * DBL_EPSILON)
 
-static double longest(const sl_csc *A) {
+static double longest_row(const sl_csc *A) {
     sl_int n = A->n_cols, *count = test_ints((size_t)n), most = 0;
     for (sl_int j = 0; j < n; j++) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
@@ -21,7 +21,7 @@ static double longest(const sl_csc *A) {
     return (double)most;
 }
 
-/* max |b - A x| / (|A| |x| + |b|) over rows and columns, from the dense matrix. */
+/* max |b - A x| / (|A| |x| + |b|) over all rows and columns, computed from the dense matrix. */
 static double row_error(const sl_csc *A, const double *X, const double *B, sl_int nrhs) {
     sl_int n = A->n_cols;
     double *M = ref_dense(A), worst = 0.0;
@@ -40,29 +40,30 @@ static double row_error(const sl_csc *A, const double *X, const double *B, sl_in
     return worst;
 }
 
-/* Refines from a start of its own and checks what is told: no more steps than allowed, the error that is there. */
-static sl_stats refine(const sl_factor *F, const sl_csc *A, double *X, const double *B, sl_int nrhs,
-                       sl_int steps, sl_work *W) {
+/* Refines X and checks the stats: at most the allowed number of steps, and the backward error that
+ * X really has. Returns the stats. */
+static sl_stats refine_checked(const sl_factor *F, const sl_csc *A, double *X, const double *B,
+                               sl_int nrhs, sl_int steps, sl_work *W) {
     size_t n = (size_t)A->n_cols;
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    stats.n = 77; /* another group: left alone */
+    stats.symbolic.n = 77; /* another group, which the call must not touch */
     SL_CHECK(sl_factor_refine(F, A, X, n, B, n, nrhs, steps, W, &stats));
-    assert_int_equal(stats.n, 77);
-    assert_in_range(stats.refine_steps, 0, steps);
-    double is = row_error(A, X, B, nrhs); /* summed in another order */
-    assert_true(fabs(stats.backward_error - is) <= ROW_MOST(A) + 1e-9 * is);
+    assert_int_equal(stats.symbolic.n, 77);
+    assert_in_range(stats.refine.steps, 0, steps);
+    double expected = row_error(A, X, B, nrhs); /* summed in another order */
+    assert_true(fabs(stats.refine.backward_error - expected) <= ROW_ERROR_MAX(A) + 1e-9 * expected);
     return stats;
 }
 
-static void from_any_start(void **state) {
+static void refinement_converges_from_any_start(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
-        for (int k = 0; k < ways.count; k++) {
+        for (int k = 0; k < variants.count; k++) {
             sl_options opt = options_none();
-            way_take(&opt, &ways, k);
-            problem_t y = problem_make((gen_kind_t)kind, 90, 1, kind % GEN_STYLES, &opt);
+            options_set_variant(&opt, &variants, k);
+            factored_t y = factored_make((gen_kind_t)kind, 90, 1, kind % GEN_STYLES, &opt);
             size_t n = (size_t)y.M.view.n_cols;
             static const sl_int counts[4] = {1, 3, 8, 11};
             sl_work *W = NULL;
@@ -72,38 +73,39 @@ static void from_any_start(void **state) {
                 double *B = test_reals(n * 11), *X = test_reals(n * 11),
                        *start = test_reals(n * 11);
                 gen_reals(B, n * 11, 4);
-                gen_reals(start, n * 11, 5); /* nothing to do with the solution */
+                gen_reals(start, n * 11, 5); /* unrelated to the solution */
                 memcpy(X, start, n * 11 * sizeof *X);
-                sl_stats none = refine(y.F, &y.M.view, X, B, nrhs, 0, W);
-                assert_int_equal(none.refine_steps, 0);
-                SAME_VALUES(X, start, n * 11); /* no step: only measured */
-                sl_stats stats = refine(y.F, &y.M.view, X, B, nrhs, 20, W);
-                assert_true(stats.backward_error <= ROW_MOST(&y.M.view));
-                assert_true(stats.refine_steps >= 1);
+                sl_stats none = refine_checked(y.F, &y.M.view, X, B, nrhs, 0, W);
+                assert_int_equal(none.refine.steps, 0);
+                SAME_VALUES(X, start, n * 11); /* no step: X is only measured */
+                sl_stats stats = refine_checked(y.F, &y.M.view, X, B, nrhs, 20, W);
+                assert_true(stats.refine.backward_error <= ROW_ERROR_MAX(&y.M.view));
+                assert_true(stats.refine.steps >= 1);
                 SAME_VALUES(X + n * (size_t)nrhs, start + n * (size_t)nrhs,
                             n * (size_t)(11 - nrhs));
-                /* what is as good as it gets stays, and a second call finds the same */
+                /* A second call finds at least the same accuracy. */
                 memcpy(start, X, n * 11 * sizeof *X);
-                sl_stats again = refine(y.F, &y.M.view, X, B, nrhs, 20, NULL);
-                assert_true(again.backward_error <= stats.backward_error);
+                sl_stats again = refine_checked(y.F, &y.M.view, X, B, nrhs, 20, NULL);
+                assert_true(again.refine.backward_error <= stats.refine.backward_error);
                 free(B);
                 free(X);
                 free(start);
             }
             sl_work_free(W);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-/* A factor of a matrix near A solves A x = b; one of a matrix far away makes nothing worse. */
-static void factor_of_another_matrix(void **state) {
+/* With the factor of a matrix near A, refinement solves A x = b. With that of a distant matrix it
+ * makes nothing worse. */
+static void a_nearby_factor_converges_a_distant_one_does_no_harm(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
         sl_options opt = options_none();
-        way_take(&opt, &ways, k);
-        problem_t y = problem_make(GEN_GRID2, 200, 1, 0, &opt);
+        options_set_variant(&opt, &variants, k);
+        factored_t y = factored_make(GEN_GRID2, 200, 1, 0, &opt);
         size_t n = (size_t)y.M.view.n_cols;
         double *b = test_reals(n), *x = test_reals(n);
         uint64_t seed = 3;
@@ -113,53 +115,55 @@ static void factor_of_another_matrix(void **state) {
             for (sl_int p = 0; p < y.M.p[n]; p++) {
                 y.M.x[p] *= far ? -40.0 : 1.0 + 1e-3 * gen_real(&seed);
             }
-            sl_stats before = refine(y.F, &y.M.view, x, b, 1, 0, NULL);
-            sl_stats after = refine(y.F, &y.M.view, x, b, 1, 30, NULL);
+            sl_stats before = refine_checked(y.F, &y.M.view, x, b, 1, 0, NULL);
+            sl_stats after = refine_checked(y.F, &y.M.view, x, b, 1, 30, NULL);
             if (far) {
-                assert_true(after.backward_error <= before.backward_error);
+                assert_true(after.refine.backward_error <= before.refine.backward_error);
             } else {
-                assert_true(before.backward_error > 1e-6);
-                assert_true(after.backward_error <= ROW_MOST(&y.M.view));
-                assert_in_range(after.refine_steps, 2, 8);
+                assert_true(before.refine.backward_error > 1e-6);
+                assert_true(after.refine.backward_error <= ROW_ERROR_MAX(&y.M.view));
+                assert_in_range(after.refine.steps, 2, 8);
             }
         }
         free(b);
         free(x);
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-/* Dependent constraints, regularized. After what they constrain, those too many get a multiplier of 0, and E x = 0;
- * before it their zeros on the diagonal are changed, and the plain solve leaves that in x: refinement takes it away. */
-static void regularized_systems(void **state) {
+/* Dependent constraints, regularized. In natural order the constraints follow the rows they
+ * constrain: a redundant one gets a multiplier of 0, so E x = 0. In the other order zeros on the
+ * diagonal are shifted before they fill in, the plain solve leaves that error in x, and refinement
+ * removes it. */
+static void refinement_removes_the_effect_of_regularization(void **state) {
     (void)state;
     enum { R = 9 };
-    static const sl_ordering orderings[2] = {SL_ORDERING_NATURAL, SL_ORDERING_DEFAULT};
-    way_list_t ways = ways_present();
+    static const sl_ordering orderings[2] = {SL_ORDERING_NATURAL, SL_ORDERING_ND};
+    variant_list_t variants = variants_present();
     for (int o = 0; o < 2; o++) {
         kkt_t y = kkt_make(240, 20, orderings[o]);
         size_t n = (size_t)y.n;
         double *B = test_reals(n * R), *X = test_reals(n * R);
         kkt_consistent(&y, B, R, 6);
-        for (int k = 0; k < ways.count; k++) {
+        for (int k = 0; k < variants.count; k++) {
             sl_options opt = options_none();
             sl_factor *F = NULL;
             sl_stats stats;
             memset(&stats, 0, sizeof stats);
-            way_take(&opt, &ways, k);
+            options_set_variant(&opt, &variants, k);
             opt.regularization = 1e-8;
             opt.signs = y.signs;
             SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, &stats));
-            sl_int changed = stats.regularized;
+            sl_int changed = stats.factor.regularized;
             assert_true(changed >= 20);
             SL_CHECK(sl_factor_solve(F, X, n, B, n, R, NULL));
-            sl_stats plain = refine(F, &y.M.view, X, B, R, 0, NULL);
-            stats = refine(F, &y.M.view, X, B, R, 30, NULL);
+            sl_stats plain = refine_checked(F, &y.M.view, X, B, R, 0, NULL);
+            stats = refine_checked(F, &y.M.view, X, B, R, 30, NULL);
             print_message("%d regularized: backward error %.1e, after %d steps %.1f eps\n",
-                          (int)changed, plain.backward_error, (int)stats.refine_steps,
-                          stats.backward_error / DBL_EPSILON);
-            assert_true(o == 0 || plain.backward_error > 1e-12);
-            assert_true(stats.backward_error <= ROW_MOST(&y.M.view));
+                          (int)changed, plain.refine.backward_error, (int)stats.refine.steps,
+                          stats.refine.backward_error / DBL_EPSILON);
+            assert_true(o == 0 || plain.refine.backward_error > 1e-12);
+            assert_true(stats.refine.backward_error <= ROW_ERROR_MAX(&y.M.view));
             sl_factor_free(F);
         }
         free(B);
@@ -168,10 +172,10 @@ static void regularized_systems(void **state) {
     }
 }
 
-/* Singular systems: the null rows stay 0, the weighted mean stays 0. */
-static void singular_systems(void **state) {
+/* Singular systems: x stays 0 in the null rows, or its weighted mean stays 0. */
+static void null_rows_and_means_stay_zero(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_int components = 0;
     gen_matrix_t M = laplacian(GEN_GRID2, 400, 0, &components);
     size_t n = (size_t)M.view.n_cols;
@@ -183,15 +187,15 @@ static void singular_systems(void **state) {
     }
     SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, b, n, x, n, 1));
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < 2 * ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k / 2);
+    for (int k = 0; k < 2 * variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k / 2);
         sl_factor *F = NULL;
         sl_int row, count;
         opt.mass = k % 2 ? m : NULL;
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
         SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
-        double before = refine(F, &M.view, x, b, 1, 0, NULL).backward_error;
-        assert_true(refine(F, &M.view, x, b, 1, 5, NULL).backward_error <= before);
+        double before = refine_checked(F, &M.view, x, b, 1, 0, NULL).refine.backward_error;
+        assert_true(refine_checked(F, &M.view, x, b, 1, 5, NULL).refine.backward_error <= before);
         SL_CHECK(sl_factor_null_rows(F, &row, 1, &count));
         for (size_t i = 0; i < n; i++) {
             sum = i > 0 ? sum + x[i] : x[i];
@@ -208,10 +212,11 @@ static void singular_systems(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Wrong arguments, memory that fails at every point, and none asked for once the workspace has grown. */
-static void errors_and_memory(void **state) {
+/* Wrong arguments and failed allocations leave X as it was. A workspace that has grown allocates
+ * nothing. */
+static void bad_arguments_and_failed_allocations_change_nothing(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 100, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     gen_matrix_t other = gen_matrix(GEN_PATH, 100, 1, 1), empty = gen_matrix(GEN_NONE, 0, 1, 1);
     double B[300], X[300], keep[300];
     sl_stats stats;
@@ -232,7 +237,7 @@ static void errors_and_memory(void **state) {
               sl_factor_refine(y.F, &other.view, X, 100, B, 100, 3, 1, NULL, &stats));
     assert_memory_equal(X, keep, sizeof X);
     SL_CHECK(sl_factor_refine(y.F, A, NULL, 0, NULL, 0, 0, 5, NULL, &stats));
-    assert_true(stats.refine_steps == 0 && stats.backward_error == 0.0);
+    assert_true(stats.refine.steps == 0 && stats.refine.backward_error == 0.0);
     for (int64_t k = 0, done = 0; !done; k++) {
         counter_t counter = counter_make();
         sl_options opt = options_counted(&counter);
@@ -253,26 +258,28 @@ static void errors_and_memory(void **state) {
         sl_work_free(W);
         COUNTER_CLEAN(&counter);
     }
-    /* a factor that failed, and no rows at all */
+    /* A failed factor, then a matrix of no rows. */
     double spoiled = y.M.x[4];
     y.M.x[4] = NAN;
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, A, NULL));
     y.M.x[4] = spoiled;
     SL_EXPECT(SL_ERR_STATE, sl_factor_refine(y.F, A, X, 100, B, 100, 3, 1, NULL, &stats));
-    problem_free(&y);
-    y = problem_make(GEN_NONE, 0, 1, 0, NULL);
+    factored_free(&y);
+    y = factored_make(GEN_NONE, 0, 1, 0, NULL);
     SL_CHECK(sl_factor_refine(y.F, &empty.view, X, 1, B, 1, 3, 5, NULL, &stats));
-    assert_true(stats.backward_error == 0.0);
-    problem_free(&y);
+    assert_true(stats.refine.backward_error == 0.0);
+    factored_free(&y);
     gen_matrix_free(&other);
     gen_matrix_free(&empty);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(from_any_start),      cmocka_unit_test(factor_of_another_matrix),
-        cmocka_unit_test(regularized_systems), cmocka_unit_test(singular_systems),
-        cmocka_unit_test(errors_and_memory),
+        cmocka_unit_test(refinement_converges_from_any_start),
+        cmocka_unit_test(a_nearby_factor_converges_a_distant_one_does_no_harm),
+        cmocka_unit_test(refinement_removes_the_effect_of_regularization),
+        cmocka_unit_test(null_rows_and_means_stay_zero),
+        cmocka_unit_test(bad_arguments_and_failed_allocations_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

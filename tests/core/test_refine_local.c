@@ -1,18 +1,19 @@
-/* test_refine_local.c: sl_plan_solve_refined: regularized systems on a few rows, against full refinement and dense solutions */
-#include "kkt.h"
-#include "problem.h"
+/* test_refine_local.c: sl_plan_solve_refined: regularized systems on a few rows */
+#include "tests/lib/kkt.h"
+#include "tests/lib/factored.h"
 
 enum { N = 240, NB = 12, NX = 15, R = 11 };
 
-/* A regularized factor of a regular saddle-point system, a plan around its changed rows, and one of all rows. */
+/* A regularized factor of a nonsingular saddle-point system, a plan that holds its regularized
+ * rows, and a plan of all rows. */
 typedef struct fixture_t {
     kkt_t y;
     sl_factor *F;
-    sl_int count, rows[N], bset[N], xset[N], nb,
-        nx; /* the changed rows stand at the end of both sets */
+    /* Both sets end with the regularized rows. */
+    sl_int count, rows[N], bset[N], xset[N], nb, nx;
     sl_plan *P, *all;
-    double *B;    /* nb x R: 0 in the changed rows that are not in b */
-    double *full; /* N x R, the same */
+    double *B;    /* nb x R, 0 in the regularized rows that b is not on */
+    double *full; /* N x R, the same right-hand sides on all rows */
 } fixture_t;
 
 static int contains(const sl_int *set, sl_int count, sl_int row) {
@@ -24,11 +25,11 @@ static int contains(const sl_int *set, sl_int count, sl_int row) {
     return 0;
 }
 
-static fixture_t *fixture_make(const way_list_t *ways, int k) {
+static fixture_t *fixture_make(const variant_list_t *variants, int k) {
     fixture_t *f = (fixture_t *)test_array(1, sizeof *f);
     sl_options opt = options_none();
-    way_take(&opt, ways, k);
-    f->y = kkt_make(N, 0, SL_ORDERING_DEFAULT);
+    options_set_variant(&opt, variants, k);
+    f->y = kkt_make(N, 0, SL_ORDERING_ND);
     opt.regularization = 1e-7;
     opt.signs = f->y.signs;
     SL_CHECK(sl_factor_create(&f->F, f->y.S, &f->y.M.view, &opt, NULL));
@@ -69,7 +70,8 @@ static void fixture_free(fixture_t *f) {
     free(f);
 }
 
-/* Dense: x of A x = b, and the bound n eps ||A^-1|| ||A|| on its relative error. */
+/* Replaces the R columns of X by the dense solutions of A X = B. Returns n eps ||A^-1|| ||A||, a
+ * bound on their relative error. */
 static double dense_bound(const sl_csc *A, double *X) {
     double *M = ref_dense(A), condition = ref_condition(A->n_cols, M);
     ref_solve(A->n_cols, M, X, R);
@@ -77,11 +79,11 @@ static double dense_bound(const sl_csc *A, double *X) {
     return A->n_cols * DBL_EPSILON * condition;
 }
 
-static void local_and_full_and_dense(void **state) {
+static void local_refinement_matches_full_and_dense(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
-        fixture_t *f = fixture_make(&ways, k);
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        fixture_t *f = fixture_make(&variants, k);
         size_t nx = (size_t)f->nx, nb = (size_t)f->nb;
         double *X = test_reals(nx * R), *all = test_reals(N * R), *exact = test_reals(N * R);
         double *plain = test_reals(nx * R);
@@ -95,34 +97,34 @@ static void local_and_full_and_dense(void **state) {
             SL_CHECK(
                 sl_plan_solve_refined(f->all, f->F, all, N, f->full, N, nrhs, 20, NULL, &whole));
             SL_CHECK(sl_plan_solve(f->P, f->F, plain, nx, f->B, nb, nrhs, NULL));
-            assert_in_range(stats.refine_steps, 1, 6);
-            assert_int_equal(stats.refine_steps, whole.refine_steps);
-            assert_true(stats.backward_error == whole.backward_error);
-            /* rounding of E x, which may be larger than b; regularization alone left 1e-5 */
-            assert_true(stats.backward_error <= 100.0 * DBL_EPSILON);
-            double off = 0.0, was = 0.0, most = 0.0;
+            assert_in_range(stats.refine.steps, 1, 6);
+            assert_int_equal(stats.refine.steps, whole.refine.steps);
+            assert_true(stats.refine.backward_error == whole.refine.backward_error);
+            /* Rounding of E x, which may be larger than b. Without refinement it is 1e-5. */
+            assert_true(stats.refine.backward_error <= 100.0 * DBL_EPSILON);
+            double error = 0.0, plain_error = 0.0, largest = 0.0;
             for (sl_int r = 0; r < nrhs; r++) {
                 for (sl_int i = 0; i < f->nx; i++) {
                     double x = X[i + f->nx * r], right = exact[f->xset[i] + N * r];
                     assert_true(same_value(x, all[f->xset[i] + N * r]));
-                    off = fmax(off, fabs(x - right));
-                    was = fmax(was, fabs(plain[i + f->nx * r] - right));
-                    most = fmax(most, fabs(right));
+                    error = fmax(error, fabs(x - right));
+                    plain_error = fmax(plain_error, fabs(plain[i + f->nx * r] - right));
+                    largest = fmax(largest, fabs(right));
                 }
             }
-            assert_true(was > 1e-10 * most); /* there was something to better */
-            assert_true(off <= bound * most);
+            assert_true(plain_error > 1e-10 * largest); /* there was an error to remove */
+            assert_true(error <= bound * largest);
             if (nrhs == 1 && k == 0) {
                 print_message(
-                    "%d of %d rows regularized: off by %.1e, refined by %.1e, bound %.1e\n",
-                    (int)f->count, N, was / most, off / most, bound);
+                    "%d of %d rows regularized: plain error %.1e, refined %.1e, bound %.1e\n",
+                    (int)f->count, N, plain_error / largest, error / largest, bound);
             }
         }
-        /* no step is the plain solve */
+        /* Zero steps are the plain solve. */
         SL_CHECK(sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, 3, 0, NULL, NULL));
         SL_CHECK(sl_plan_solve(f->P, f->F, plain, nx, f->B, nb, 3, NULL));
         SAME_VALUES(X, plain, 3 * nx);
-        /* in place: the plan of all rows */
+        /* In place, with the plan of all rows. */
         SL_CHECK(sl_plan_solve_refined(f->all, f->F, f->full, N, f->full, N, R, 20, NULL, NULL));
         SAME_VALUES(f->full, all, N * R);
         free(X);
@@ -133,20 +135,21 @@ static void local_and_full_and_dense(void **state) {
     }
 }
 
-/* Where a changed row is missing, that is told; where none was changed it is a plain solve; sets may be empty. */
-static void what_a_plan_must_hold(void **state) {
+/* A plan that lacks a regularized row is refused and the row reported. A factor without regularized
+ * rows is solved plainly. Sets may be empty. */
+static void a_plan_must_hold_the_regularized_rows(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
-        fixture_t *f = fixture_make(&ways, k);
-        sl_symbolic_view_t v = sl_symbolic_view(f->y.S);
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        fixture_t *f = fixture_make(&variants, k);
+        sl_symbolic_arrays v = sl_symbolic_view(f->y.S);
         double x[N], before[N];
         sl_plan *P = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         gen_reals(before, N, 2);
         memcpy(x, before, sizeof x);
-        /* the root of a tree alone: its reach is itself */
+        /* Only a root of the elimination tree: its reach is itself. */
         sl_int root = v.iperm[f->rows[0]];
         while (v.parent[root] != -1) {
             root = v.parent[root];
@@ -157,13 +160,13 @@ static void what_a_plan_must_hold(void **state) {
                                     side ? &top : f->xset, side ? 1 : f->nx, NULL, NULL));
             SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_refined(P, f->F, x, N, f->B, (size_t)f->nb, 1,
                                                              5, NULL, &stats));
-            assert_true(contains(f->rows, f->count, stats.error_row));
+            assert_true(contains(f->rows, f->count, stats.error.row));
             assert_memory_equal(x, before, sizeof x);
             sl_plan_free(P);
         }
         SL_CHECK(sl_plan_create(&P, f->y.S, &top, 0, &top, 1, NULL, NULL)); /* b = 0 */
         SL_CHECK(sl_plan_solve_refined(P, f->F, x, 1, NULL, 0, 1, 5, NULL, &stats));
-        assert_true(x[0] == 0.0 && stats.backward_error == 0.0);
+        assert_true(x[0] == 0.0 && stats.refine.backward_error == 0.0);
         sl_plan_free(P);
         SL_CHECK(sl_plan_create(&P, f->y.S, f->bset, f->nb, &top, 0, NULL, NULL));
         SL_CHECK(sl_plan_solve_refined(P, f->F, NULL, 0, f->B, (size_t)f->nb, 1, 5, NULL, &stats));
@@ -180,10 +183,10 @@ static void what_a_plan_must_hold(void **state) {
                   sl_plan_solve_refined(f->P, f->F, x, N, f->B, N, -1, 5, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT,
                   sl_plan_solve_refined(f->P, f->F, x, N, f->B, N, 1, -5, NULL, NULL));
-        /* another analysis, a factor without changed rows, a failed one */
+        /* A factor of another analysis, a factor without regularized rows, a failed factor. */
         sl_options opt = options_none();
-        way_take(&opt, &ways, k);
-        problem_t y = problem_make(GEN_GRID2, 225, 1, 0, &opt);
+        options_set_variant(&opt, &variants, k);
+        factored_t y = factored_make(GEN_GRID2, 225, 1, 0, &opt);
         SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(f->P, y.F, x, N, f->B, N, 1, 5, NULL, NULL));
         sl_int set[3] = {3, 50, 200};
         double b[3] = {1, -2, 3}, plain[3];
@@ -191,9 +194,9 @@ static void what_a_plan_must_hold(void **state) {
         SL_CHECK(sl_plan_solve_refined(P, y.F, x, 3, b, 3, 1, 5, NULL, &stats));
         SL_CHECK(sl_plan_solve(P, y.F, plain, 3, b, 3, 1, NULL));
         SAME_VALUES(x, plain, 3);
-        assert_int_equal(stats.refine_steps, 0);
+        assert_int_equal(stats.refine.steps, 0);
         sl_plan_free(P);
-        problem_free(&y);
+        factored_free(&y);
         f->y.M.x[0] = NAN;
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(f->F, &f->y.M.view, NULL));
         SL_EXPECT(SL_ERR_STATE,
@@ -202,8 +205,8 @@ static void what_a_plan_must_hold(void **state) {
     }
 }
 
-/* Changed rows of components that b is not in need not be in the plan. */
-static void other_components(void **state) {
+/* Regularized rows of components that b does not touch need not be in the plan. */
+static void rows_of_other_components_may_be_missing(void **state) {
     (void)state;
     enum { SIZE = 30 };
     kkt_t y = kkt_make(SIZE, 2, SL_ORDERING_NATURAL);
@@ -228,8 +231,8 @@ static void other_components(void **state) {
     opt.ordering = SL_ORDERING_NATURAL;
     opt.regularization = 1e-7;
     opt.signs = signs;
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
     SL_CHECK(sl_factor_regularized_rows(F, rows, NULL, 2 * SIZE, &count));
     assert_int_equal(count, 4);
     assert_true(rows[1] < SIZE && rows[2] >= SIZE);
@@ -244,11 +247,11 @@ static void other_components(void **state) {
     kkt_free(&y);
 }
 
-/* Memory that fails at every point, and none asked for once the workspace has grown. */
-static void memory(void **state) {
+/* Failed allocations leave X as it was, and a workspace that has grown allocates nothing. */
+static void failed_allocations_change_nothing(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    fixture_t *f = fixture_make(&ways, 0);
+    variant_list_t variants = variants_present();
+    fixture_t *f = fixture_make(&variants, 0);
     size_t nx = (size_t)f->nx, nb = (size_t)f->nb;
     double *X = test_reals(nx * R), *keep = test_reals(nx * R);
     gen_reals(keep, nx * R, 1);
@@ -280,10 +283,10 @@ static void memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(local_and_full_and_dense),
-        cmocka_unit_test(what_a_plan_must_hold),
-        cmocka_unit_test(other_components),
-        cmocka_unit_test(memory),
+        cmocka_unit_test(local_refinement_matches_full_and_dense),
+        cmocka_unit_test(a_plan_must_hold_the_regularized_rows),
+        cmocka_unit_test(rows_of_other_components_may_be_missing),
+        cmocka_unit_test(failed_allocations_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

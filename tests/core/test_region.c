@@ -1,11 +1,11 @@
-/* test_region.c: solves in regions against dense inverses and against full solves */
-#include "region.h"
+/* test_region.c: solves in regions against dense inverses and full solves */
+#include "tests/lib/check_region.h"
 
 enum { MOST = 5 };
 
-/* Bytes of a region that has so many rows in its boundary, at most one subtree a row, and a bit more: so that the
- * bound asks for boundaries of that length or less. */
-static size_t bytes_for(const sl_factor *F, sl_int boundary) {
+/* Bytes of a region of `boundary` rows. As options.region_bytes they limit boundaries to about that
+ * many rows. */
+static size_t bytes_for_boundary(const sl_factor *F, sl_int boundary) {
     const sl_symbolic *S = sl_factor_view(F).symbolic;
     sl_int n = sl_symbolic_view(S).n, *rows = test_ints((size_t)n);
     sl_region *R = NULL;
@@ -17,15 +17,16 @@ static size_t bytes_for(const sl_factor *F, sl_int boundary) {
     SL_CHECK(sl_region_create(&R, F, rows, boundary, NULL, NULL, &stats));
     sl_region_free(R);
     free(rows);
-    return stats.bytes_region;
+    return stats.region.bytes;
 }
 
-/* Every pattern of up to 5 rows without relaxation, every set, every bound that makes another boundary; then every b-set
- * and x-set inside for up to 3 rows, else all of what is inside. */
-static void every_small_pattern(void **state) {
+/* Every pattern of up to 5 rows without relaxation, every set, every byte limit that gives another
+ * boundary. Each region solves on all rows inside; for n <= 3 also on every b-set and x-set of
+ * them. */
+static void every_small_pattern_matches_the_dense_inverse(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
-    long in_both = 0, regions = 0;
+    long with_both = 0, regions = 0;
     for (sl_int n = 1; n <= MOST; n++) {
         for (unsigned edges = 0; edges < 1u << (n * (n - 1) / 2); edges++) {
             gen_matrix_t M = gen_pattern(n, edges, edges + 7);
@@ -36,8 +37,8 @@ static void every_small_pattern(void **state) {
             opt.isa = isas.isa[edges % (unsigned)isas.count];
             opt.relaxation = SL_RELAXATION_NONE;
             opt.ordering = SL_ORDERING_NATURAL;
-            SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+            SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
+            SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
             SL_CHECK(sl_work_create(&W, NULL));
             double *A = ref_dense(&M.view), *Z = ref_inverse(n, A), largest = region_largest(n, Z);
             for (unsigned members = 0; members < 1u << n; members++) {
@@ -50,19 +51,20 @@ static void every_small_pattern(void **state) {
                 for (sl_int most = 0; most <= count; most++) {
                     sl_region *R = NULL;
                     sl_int inside[MOST];
-                    opt.region_bytes = most == 0 ? 1 : bytes_for(F, most);
-                    SL_CHECK(sl_region_create(&R, F, set, count, NULL, &opt, NULL));
+                    opt.region_bytes = most == 0 ? 1 : bytes_for_boundary(F, most);
+                    SL_CHECK(sl_region_create(&R, F, set, count, NULL, FOR_REGION(&opt), NULL));
                     NOTHING_WRONG(check_region(R, set, count));
-                    sl_region_view_t r = sl_region_view(R);
+                    sl_region_arrays r = sl_region_view(R);
                     if (r.n_boundary == before) {
                         sl_region_free(R);
                         continue;
                     }
                     before = r.n_boundary;
                     regions++;
-                    in_both += r.n_roots > 0 && r.n_boundary > 0;
+                    with_both += r.n_roots > 0 && r.n_boundary > 0;
                     const sl_int all = region_rows(R, inside);
-                    region_solves(R, F, n, Z, largest, inside, all, inside, all, 1, edges, W);
+                    assert_region_solves(R, F, n, Z, largest, inside, all, inside, all, 1, edges,
+                                         W);
                     for (unsigned q = 0; n <= 3 && q < 1u << (2 * all); q++) {
                         sl_int b[MOST], x[MOST], nb = 0, nx = 0;
                         for (sl_int k = 0; k < all; k++) {
@@ -73,7 +75,8 @@ static void every_small_pattern(void **state) {
                                 x[nx++] = inside[k];
                             }
                         }
-                        region_solves(R, F, n, Z, largest, b, nb, x, nx, 1 + (sl_int)(q % 3), q, W);
+                        assert_region_solves(R, F, n, Z, largest, b, nb, x, nx, 1 + (sl_int)(q % 3),
+                                             q, W);
                     }
                     sl_region_free(R);
                 }
@@ -86,12 +89,12 @@ static void every_small_pattern(void **state) {
             gen_matrix_free(&M);
         }
     }
-    print_message("%ld regions, %ld with subtrees and a boundary\n", regions, in_both);
-    assert_true(in_both > 1000);
+    print_message("%ld regions, %ld with subtrees and a boundary\n", regions, with_both);
+    assert_true(with_both > 1000);
 }
 
-/* A row and what is within some steps of it. */
-static sl_int ball(sl_int n, const double *M, sl_int seed, int steps, sl_int *set) {
+/* Collects the rows within `steps` edges of row `seed` into set. Returns their number. */
+static sl_int neighborhood(sl_int n, const double *M, sl_int seed, int steps, sl_int *set) {
     char *in = (char *)test_array((size_t)n, 1);
     sl_int count = 1, done = 0;
     set[0] = seed;
@@ -110,22 +113,22 @@ static sl_int ball(sl_int n, const double *M, sl_int seed, int steps, sl_int *se
     return count;
 }
 
-/* Balls, random rows, a few, all, one and none, with and without a bound, every number of lanes; b and x random parts
- * of what is inside. */
-static void every_kind_on_every_instruction_set(void **state) {
+/* Neighborhoods, random rows, all rows, no rows; with and without a byte limit; every number of
+ * right-hand sides with a kernel of its own. b and x are on random subsets of the rows inside. */
+static void every_matrix_kind_matches_the_dense_inverse(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     uint64_t seed = 3;
-    long in_both = 0;
+    long with_both = 0;
     for (int kind = GEN_NONE; kind < GEN_REGULAR; kind++) {
         for (int which = 0; which < isas.count; which++) {
             sl_options opt = options_none();
             sl_work *W = NULL;
             opt.isa = isas.isa[which];
             opt.relaxation = which % 2 ? SL_RELAXATION_DEFAULT : SL_RELAXATION_NONE;
-            problem_t y = problem_make((gen_kind_t)kind, 120, which % 2 ? -1 : 1, 0, &opt);
+            factored_t y = factored_make((gen_kind_t)kind, 120, which % 2 ? -1 : 1, 0, &opt);
             sl_int n = y.M.view.n_cols, *set = test_ints((size_t)n + 1),
-                   *inside = test_ints((size_t)n + 1), *part = test_ints((size_t)n + 1);
+                   *inside = test_ints((size_t)n + 1), *subset = test_ints((size_t)n + 1);
             double *M = ref_dense(&y.M.view), *Z = ref_scaled_inverse(n, M);
             double largest = kind == GEN_KKT ? region_largest(n, Z) : 0;
             SL_CHECK(sl_work_create(&W, NULL));
@@ -133,8 +136,9 @@ static void every_kind_on_every_instruction_set(void **state) {
                 sl_int count = n == 0       ? 0
                                : shape == 0 ? 0
                                : shape == 1 ? n
-                               : shape < 10 ? ball(n, M, gen_below(&seed, n), shape / 2, set)
-                                            : 1 + gen_below(&seed, n);
+                               : shape < 10
+                                   ? neighborhood(n, M, gen_below(&seed, n), shape / 2, set)
+                                   : 1 + gen_below(&seed, n);
                 if (shape == 1 || shape >= 10) {
                     gen_set(set, count, n, gen_bits(&seed));
                 }
@@ -145,28 +149,28 @@ static void every_kind_on_every_instruction_set(void **state) {
                     opt.region_bytes = bound == 0   ? 0
                                        : bound == 1 ? 600 + (size_t)gen_below(&seed, 8000)
                                                     : 1;
-                    SL_CHECK(sl_region_create(&R, y.F, set, count, NULL, &opt, &stats));
+                    SL_CHECK(sl_region_create(&R, y.F, set, count, NULL, FOR_REGION(&opt), &stats));
                     NOTHING_WRONG(check_region(R, set, count));
-                    assert_true(opt.region_bytes == 0 || stats.region_boundary == 0 ||
-                                stats.bytes_region <= opt.region_bytes);
-                    in_both += stats.region_boundary > 0 && stats.region_subtrees > 0;
+                    assert_true(opt.region_bytes == 0 || stats.region.boundary == 0 ||
+                                stats.region.bytes <= opt.region_bytes);
+                    with_both += stats.region.boundary > 0 && stats.region.subtrees > 0;
                     const sl_int all = region_rows(R, inside);
-                    assert_int_equal(all, stats.region_rows);
+                    assert_int_equal(all, stats.region.rows);
                     static const sl_int nrhs[] = {1, 2, 3, 5, 8, 11, 0};
                     for (int q = 0; q < 7; q++) {
                         const sl_int nb = all == 0 ? 0 : gen_below(&seed, all + 1),
                                      nx = q == 1     ? nb
                                           : all == 0 ? 0
                                                      : gen_below(&seed, all + 1);
-                        sl_int *places = test_ints((size_t)all + 1);
-                        gen_permutation(places, all, gen_bits(&seed));
+                        sl_int *order = test_ints((size_t)all + 1);
+                        gen_permutation(order, all, gen_bits(&seed));
                         for (sl_int k = 0; k < all; k++) {
-                            part[k] = inside[places[k]];
+                            subset[k] = inside[order[k]];
                         }
-                        region_solves(R, y.F, n, Z, largest, part, nb,
-                                      q == 1 ? part : part + all - nx, nx, nrhs[q], gen_bits(&seed),
-                                      q % 3 ? W : NULL);
-                        free(places);
+                        assert_region_solves(R, y.F, n, Z, largest, subset, nb,
+                                             q == 1 ? subset : subset + all - nx, nx, nrhs[q],
+                                             gen_bits(&seed), q % 3 ? W : NULL);
+                        free(order);
                     }
                     sl_region_free(R);
                 }
@@ -174,19 +178,20 @@ static void every_kind_on_every_instruction_set(void **state) {
             sl_work_free(W);
             free(set);
             free(inside);
-            free(part);
+            free(subset);
             free(M);
             free(Z);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
-    print_message("%ld regions with subtrees and a boundary\n", in_both);
-    assert_true(in_both > 100);
+    print_message("%ld regions with subtrees and a boundary\n", with_both);
+    assert_true(with_both > 100);
 }
 
-/* A grid large enough for paths of many supernodes: squares at random places and across the first separator, their
- * plans against full solves; what the plan reads does not reach the root. */
-static void squares_of_a_grid_equal_full_solves(void **state) {
+/* A grid large enough for paths of many supernodes. Squares at random positions and across the
+ * first separator are solved by plans in regions and compared with full solves. What such a plan
+ * reads does not reach the root. */
+static void squares_of_a_grid_match_full_solves(void **state) {
     (void)state;
     enum { SIDE = 150, N = SIDE * SIDE, SMALL = 24, COUNT = SMALL * SMALL };
     isa_list_t isas = isas_present();
@@ -195,7 +200,7 @@ static void squares_of_a_grid_equal_full_solves(void **state) {
     for (int which = 0; which < isas.count; which++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[which];
-        problem_t y = problem_make(GEN_GRID2, N, 1, 0, &opt);
+        factored_t y = factored_make(GEN_GRID2, N, 1, 0, &opt);
         sl_selected *all = NULL;
         assert_int_equal(y.M.view.n_cols, N);
         SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
@@ -222,32 +227,35 @@ static void squares_of_a_grid_equal_full_solves(void **state) {
             }
             SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, NULL, &stats));
             sl_plan_free(P);
-            const sl_off without = stats.b_entries;
+            const sl_off without = stats.plan.b_entries;
             SL_CHECK(sl_region_create(&R, y.F, set, COUNT, NULL, NULL, &stats));
-            assert_int_equal(stats.region_is_copied, 0);
+            assert_int_equal(stats.region.is_copied, 0);
             NOTHING_WRONG(check_region(R, set, COUNT));
             opt.region = R;
-            SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, &opt, &stats));
-            assert_int_equal(stats.plan_in_region, 1);
-            assert_int_equal(stats.plan_region_entries, stats.region_entries);
-            assert_true(stats.b_entries + stats.x_entries + stats.plan_region_entries < without);
+            SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, FOR_PLAN(&opt), &stats));
+            assert_int_equal(stats.plan.in_region, 1);
+            assert_int_equal(stats.plan.region_entries, stats.region.entries);
+            assert_true(stats.plan.b_entries + stats.plan.x_entries + stats.plan.region_entries <
+                        without);
             SL_CHECK(sl_plan_solve(P, y.F, X, COUNT, B, COUNT, 3, NULL));
-            for (sl_int k = 0; k < 3 * COUNT; k++) { /* the tree's height times a small factor */
+            /* The bound is the height of the tree times a small factor. */
+            for (sl_int k = 0; k < 3 * COUNT; k++) {
                 assert_true(fabs(X[k] - full[N * (k / COUNT) + set[k % COUNT]]) <=
                             1000 * DBL_EPSILON * largest);
             }
-            /* the same out of a selected inverse where that has all, or in spite of it where not */
+            /* The same with values copied from a selected inverse where it holds them all, and
+             * computed where it does not. */
             for (int how = 0; how < 2; how++) {
                 if (how == 0) {
-                    SL_CHECK(sl_region_refill(R, y.F, all, NULL));
+                    SL_CHECK(sl_region_refactor(R, y.F, all, NULL));
                 } else {
                     sl_plan_free(P);
                     sl_region_free(R);
                     SL_CHECK(sl_region_create(&R, y.F, set, COUNT, all, NULL, &stats));
                     NOTHING_WRONG(check_region(R, set, COUNT));
-                    copied += stats.region_is_copied && stats.region_boundary > 0;
+                    copied += stats.region.is_copied && stats.region.boundary > 0;
                     opt.region = R;
-                    SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, &opt, NULL));
+                    SL_CHECK(sl_plan_create(&P, y.S, set, COUNT, set, COUNT, FOR_PLAN(&opt), NULL));
                 }
                 SL_CHECK(sl_plan_solve(P, y.F, Y, COUNT, B, COUNT, 3, NULL));
                 for (sl_int k = 0; k < 3 * COUNT; k++) {
@@ -256,11 +264,11 @@ static void squares_of_a_grid_equal_full_solves(void **state) {
             }
             sl_plan_free(P);
             sl_region_free(R);
-            SL_CHECK(sl_region_create(&R, y.F, set, 1, all, NULL, &stats)); /* a vertex */
-            assert_int_equal(stats.region_boundary, 1);
-            assert_int_equal(stats.region_is_copied, 1);
+            SL_CHECK(sl_region_create(&R, y.F, set, 1, all, NULL, &stats)); /* one vertex */
+            assert_int_equal(stats.region.boundary, 1);
+            assert_int_equal(stats.region.is_copied, 1);
             opt.region = R;
-            SL_CHECK(sl_plan_create(&P, y.S, set, 1, set, 1, &opt, NULL));
+            SL_CHECK(sl_plan_create(&P, y.S, set, 1, set, 1, FOR_PLAN(&opt), NULL));
             SL_CHECK(sl_plan_solve(P, y.F, X, 1, B, 1, 1, NULL));
             SL_CHECK(sl_selected_diagonal(all, Y, set, 1, NULL));
             assert_true(fabs(X[0] - B[0] * Y[0]) <= 4 * DBL_EPSILON * fabs(X[0]));
@@ -272,19 +280,19 @@ static void squares_of_a_grid_equal_full_solves(void **state) {
             free(Y);
         }
         sl_selected_free(all);
-        problem_free(&y);
+        factored_free(&y);
     }
-    print_message("%d squares out of the selected inverse\n", copied);
+    print_message("%d squares copied from the selected inverse\n", copied);
     assert_true(copied > 0);
 }
 
-/* What a region cannot know: the weights outside of it, and what regularization changed there. */
-static void refused(void **state) {
+/* A region cannot know the weights outside it, nor what regularization changed there. */
+static void unknown_weights_and_shifts_are_refused(void **state) {
     (void)state;
     enum { SIZE = 200 };
     sl_options opt = options_none();
-    opt.definiteness = SL_SEMIDEFINITE;
-    problem_t y = problem_make(GEN_SINGULAR, SIZE, 1, 0, &opt);
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    factored_t y = factored_make(GEN_SINGULAR, SIZE, 1, 0, &opt);
     sl_int n = y.M.view.n_cols, row = n / 2;
     double *mass = test_reals((size_t)n), b = 1.0, x = 7.0;
     sl_factor *F = NULL, *E = NULL;
@@ -294,19 +302,19 @@ static void refused(void **state) {
         mass[k] = 1.0;
     }
     opt.mass = mass;
-    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_create(&R, F, &row, 1, NULL, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_create(&R, F, &row, 1, NULL, FOR_REGION(&opt), NULL));
     assert_null(R);
-    SL_CHECK(sl_region_create(&R, y.F, &row, 1, NULL, &opt, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_refill(R, F, NULL, NULL));
+    SL_CHECK(sl_region_create(&R, y.F, &row, 1, NULL, FOR_REGION(&opt), NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_refactor(R, F, NULL, NULL));
     sl_region_free(R);
     opt = options_none();
     opt.regularization = 1e-8;
-    SL_CHECK(sl_factor_create(&E, y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&E, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
     SL_CHECK(sl_region_create(&R, E, &row, 1, NULL, NULL, NULL));
     assert_true(sl_region_view(R).n_boundary > 0);
     opt.region = R;
-    SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, &opt, NULL));
+    SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, FOR_PLAN(&opt), NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_plan_solve_refined(P, E, &x, 1, &b, 1, 1, 3, NULL, NULL));
     assert_true(x == 7.0);
     SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(P, y.F, &x, 1, &b, 1, 1, 3, NULL, NULL));
@@ -316,19 +324,20 @@ static void refused(void **state) {
     sl_factor_free(F);
     sl_factor_free(E);
     free(mass);
-    problem_free(&y);
+    factored_free(&y);
 }
 
-/* Null pivots skipped: in a region a solve gives what the full solve gives, null rows inside or not. */
-static void semidefinite(void **state) {
+/* Null pivots skipped: a solve in a region gives what the full solve gives, whether the null row is
+ * inside or not. */
+static void null_pivots_match_the_full_solve(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     uint64_t seed = 4;
     for (int which = 0; which < isas.count; which++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[which];
-        opt.definiteness = SL_SEMIDEFINITE;
-        problem_t y = problem_make(GEN_SINGULAR, 400, 1, 0, &opt);
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        factored_t y = factored_make(GEN_SINGULAR, 400, 1, 0, &opt);
         sl_int n = y.M.view.n_cols, null = -1, nulls = 0;
         double *full = test_reals((size_t)n);
         SL_CHECK(sl_factor_null_rows(y.F, &null, 1, &nulls));
@@ -344,26 +353,27 @@ static void semidefinite(void **state) {
                 set[k] = round < 10 ? (20 * round + k) % n : gen_below(&seed, n);
             }
             set[7] = round % 2 ? null : set[7];
-            SL_CHECK(sl_region_create(&R, y.F, set, 60, NULL, &opt, &stats));
+            SL_CHECK(sl_region_create(&R, y.F, set, 60, NULL, FOR_REGION(&opt), &stats));
             const sl_int all = region_rows(R, inside);
             gen_reals(b, 400, gen_bits(&seed));
             for (sl_int k = 1; k < all; k++) {
                 sum += b[k];
             }
-            b[0] = -sum; /* consistent */
+            b[0] = -sum; /* makes the system consistent */
             memset(full, 0, (size_t)n * sizeof *full);
             for (sl_int k = 0; k < all; k++) {
                 full[inside[k]] = b[k];
             }
             SL_CHECK(sl_factor_solve(y.F, full, (size_t)n, full, (size_t)n, 1, NULL));
             opt.region = R;
-            SL_CHECK(sl_plan_create(&P, y.S, inside, all, inside, all, &opt, &stats));
-            assert_int_equal(stats.plan_in_region, 1);
+            SL_CHECK(sl_plan_create(&P, y.S, inside, all, inside, all, FOR_PLAN(&opt), &stats));
+            assert_int_equal(stats.plan.in_region, 1);
             SL_CHECK(sl_plan_solve(P, y.F, x, (size_t)all, b, (size_t)all, 1, NULL));
             for (sl_int k = 0; k < n; k++) {
                 largest = fabs(full[k]) > largest ? fabs(full[k]) : largest;
             }
-            /* the terms of u cancel down to x: Z of a vertex beside the null row is some log n, x sums 400 of them */
+            /* The terms of u cancel down to x: the entry of the inverse at a vertex beside the null
+             * row is about log n, and x is a sum of 400 such entries. */
             for (sl_int k = 0; k < all; k++) {
                 assert_true(fabs(x[k] - full[inside[k]]) <= 1e4 * DBL_EPSILON * largest);
                 assert_true(inside[k] != null || fabs(x[k]) < 1e-300);
@@ -372,17 +382,17 @@ static void semidefinite(void **state) {
             sl_region_free(R);
         }
         free(full);
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_small_pattern),
-        cmocka_unit_test(every_kind_on_every_instruction_set),
-        cmocka_unit_test(squares_of_a_grid_equal_full_solves),
-        cmocka_unit_test(semidefinite),
-        cmocka_unit_test(refused),
+        cmocka_unit_test(every_small_pattern_matches_the_dense_inverse),
+        cmocka_unit_test(every_matrix_kind_matches_the_dense_inverse),
+        cmocka_unit_test(squares_of_a_grid_match_full_solves),
+        cmocka_unit_test(null_pivots_match_the_full_solve),
+        cmocka_unit_test(unknown_weights_and_shifts_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* test_relaxation.c: relaxed supernodes: they merge what is small, and store few zeros whatever the pattern */
-#include "check.h"
+/* test_relaxation.c: relaxed supernodes: small ones are merged, and few zeros are stored */
+#include "tests/lib/check_factor.h"
 
 static void relaxation_merges_and_stays_small(void **state) {
     (void)state;
@@ -14,11 +14,11 @@ static void relaxation_merges_and_stays_small(void **state) {
         SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &relaxed));
         opt.relaxation = SL_RELAXATION_NONE;
         SL_CHECK(sl_symbolic_create(&T, &M.view, &opt, &exact));
-        assert_true(relaxed.supernodes < exact.supernodes / 2);
-        assert_int_equal(relaxed.supernodes_fundamental, exact.supernodes);
-        assert_int_equal(relaxed.nnz_l, exact.nnz_l);
-        assert_true(exact.nnz_panels >= exact.nnz_l - exact.n);
-        sl_symbolic_view_t v = sl_symbolic_view(S), w = sl_symbolic_view(T);
+        assert_true(relaxed.symbolic.supernodes < exact.symbolic.supernodes / 2);
+        assert_int_equal(relaxed.symbolic.supernodes_fundamental, exact.symbolic.supernodes);
+        assert_int_equal(relaxed.symbolic.nnz_l, exact.symbolic.nnz_l);
+        assert_true(exact.symbolic.nnz_panels >= exact.symbolic.nnz_l - exact.symbolic.n);
+        sl_symbolic_arrays v = sl_symbolic_view(S), w = sl_symbolic_view(T);
         NOTHING_WRONG(check_supernodes(&v));
         NOTHING_WRONG(check_supernodes(&w));
         NOTHING_WRONG(check_postorder(v.n_supers, v.super_parent));
@@ -29,8 +29,8 @@ static void relaxation_merges_and_stays_small(void **state) {
     }
 }
 
-/* Every place below the diagonal that a panel has for its supernode, and the diagonal: padding aside. */
-static sl_off places(const sl_symbolic_view_t *v) {
+/* Entries that the panels store for their supernodes, the diagonal included, padding excluded. */
+static sl_off stored_entries(const sl_symbolic_arrays *v) {
     sl_off sum = 0;
     for (sl_int s = 0; s < v->n_supers; s++) {
         sl_off width = ref_width(v, s), height = ref_height(v, s);
@@ -39,8 +39,8 @@ static sl_off places(const sl_symbolic_view_t *v) {
     return sum;
 }
 
-/* In natural order, groups of `leaves` short columns each hang on a column that meets all of a clique of `tall` rows:
- * merged, every short one would grow to the height of the tall one. */
+/* In natural order: groups of `leaves` short columns, each group below a column adjacent to a
+ * clique of `tall` rows. A short column that is merged grows to the height of the tall one. */
 static gen_list_t leaves_on_tall_columns(sl_int groups, sl_int leaves, sl_int tall) {
     gen_list_t t = gen_list(groups * (leaves + 1) + tall);
     const sl_int clique = t.n - tall;
@@ -61,7 +61,7 @@ static gen_list_t leaves_on_tall_columns(sl_int groups, sl_int leaves, sl_int ta
     return t;
 }
 
-/* Cliques of `size` rows one after the other, each tied to the next by one edge. */
+/* A path of cliques of `size` rows, joined by single edges. */
 static gen_list_t path_of_cliques(sl_int cliques, sl_int size) {
     gen_list_t t = gen_list(cliques * size);
     for (sl_int k = 0; k < t.n; k++) {
@@ -75,7 +75,7 @@ static gen_list_t path_of_cliques(sl_int cliques, sl_int size) {
     return t;
 }
 
-/* The places of L are at most 1 / (1 - 0.70) times its entries, as supernodes.h promises. */
+/* The panels store at most 1 / (1 - 0.70) times the entries of L, as supernodes.h promises. */
 static void few_zeros(const char *name, gen_list_t *t, sl_ordering ordering) {
     uint64_t seed = 1;
     gen_dominate(t, 1, &seed);
@@ -86,12 +86,13 @@ static void few_zeros(const char *name, gen_list_t *t, sl_ordering ordering) {
     memset(&stats, 0, sizeof stats);
     opt.ordering = ordering;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
-    sl_symbolic_view_t v = sl_symbolic_view(S);
-    double stored = (double)places(&v) / (double)stats.nnz_l,
-           held = (double)stats.nnz_panels / (double)stats.nnz_l;
-    print_message("%-28s places %.2f, panels %.2f of the entries of L\n", name, stored, held);
+    sl_symbolic_arrays v = sl_symbolic_view(S);
+    double stored = (double)stored_entries(&v) / (double)stats.symbolic.nnz_l,
+           held = (double)stats.symbolic.nnz_panels / (double)stats.symbolic.nnz_l;
+    print_message("%-28s stored %.2f, panels %.2f times the entries of L\n", name, stored, held);
     assert_true(stored <= 1 / (1 - 0.70));
-    /* tiles of 8 rows pad w columns of height h to less than w (h + 8) doubles: a path's to 8 an entry */
+    /* Tiles of 8 rows pad w columns of height h to less than w (h + 8) doubles: to 8 per entry on a
+     * path. */
     assert_true(held <= 8.1);
     sl_symbolic_free(S);
     gen_matrix_free(&M);
@@ -106,7 +107,7 @@ static void hostile_patterns_store_few_zeros(void **state) {
     few_zeros("arrow", &t, SL_ORDERING_NATURAL);
     t = gen_list(5000);
     gen_edges_star(&t, 0, &seed);
-    few_zeros("star", &t, SL_ORDERING_DEFAULT);
+    few_zeros("star", &t, SL_ORDERING_ND);
     t = gen_list(5000);
     gen_edges_path(&t, &seed);
     few_zeros("path", &t, SL_ORDERING_NATURAL);
@@ -124,7 +125,7 @@ static void hostile_patterns_store_few_zeros(void **state) {
         t = path_of_cliques(4000 / size, size);
         few_zeros("path of cliques", &t, SL_ORDERING_NATURAL);
         t = path_of_cliques(4000 / size, size);
-        few_zeros("path of cliques, reordered", &t, SL_ORDERING_DEFAULT);
+        few_zeros("path of cliques, reordered", &t, SL_ORDERING_ND);
     }
 }
 

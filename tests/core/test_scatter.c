@@ -1,118 +1,15 @@
-/* test_spread.c: sums of matrices, and values spread over the map of an analysis */
-#include "several.h"
+/* test_scatter.c: values of a matrix scattered to an analysis with a larger pattern */
+#include "tests/lib/matrix_pair.h"
 
-/* ---- sums ---- */
-
-/* C against dense sums, c n eps with c n = 8: at most 3 parts of each of two terms, a product and a sum for each; and
- * its form. */
-static void assert_is_sum(const sl_csc *C, const sl_csc *terms, const double *c) {
-    sl_int n = C->n_cols;
-    double *got = ref_dense(C), *one = ref_dense(&terms[0]), *other = ref_dense(&terms[1]);
-    char *pattern = ref_pattern(C), *p0 = ref_pattern(&terms[0]), *p1 = ref_pattern(&terms[1]);
-    SL_CHECK(sl_csc_check(C, NULL));
-    for (sl_int j = 0; j < n; j++) {
-        for (sl_int p = C->p[j]; p < C->p[j + 1]; p++) {
-            assert_true(C->i[p] >= j && (p == C->p[j] || C->i[p] > C->i[p - 1]));
-        }
-        for (sl_int i = 0; i < n; i++) {
-            double a = c[0] * AT(one, i, j), b = c[1] * AT(other, i, j);
-            assert_true(fabs(AT(got, i, j) - (a + b)) <= 8 * DBL_EPSILON * (fabs(a) + fabs(b)));
-            assert_int_equal(AT(pattern, i, j), AT(p0, i, j) | AT(p1, i, j));
-        }
-    }
-    free(got);
-    free(one);
-    free(other);
-    free(pattern);
-    free(p0);
-    free(p1);
-}
-
-static void sums_are_sums(void **state) {
-    (void)state;
-    const double c[TERMS] = {0.75, -3};
-    for (int kind = 0; kind < GEN_KINDS; kind++) {
-        for (int style = 0; style < GEN_STYLES; style++) {
-            several_t y =
-                several_make((gen_kind_t)kind, 40, style, (style * 5 + 3) % GEN_STYLES, NULL);
-            sl_matrix *A = several_sum(&y, c);
-            sl_csc C = sl_matrix_view(A), U = sl_matrix_view(y.U);
-            assert_is_sum(&C, y.terms, c);
-            assert_int_equal(C.p[y.n], U.p[y.n]);
-            assert_memory_equal(C.p, U.p, ((size_t)y.n + 1) * sizeof *C.p);
-            if (C.p[y.n] > 0) {
-                assert_memory_equal(C.i, U.i, (size_t)C.p[y.n] * sizeof *C.i);
-            }
-            sl_matrix_free(A);
-            several_free(&y);
-        }
-    }
-}
-
-static void one_term_is_its_lower_triangle(void **state) {
-    (void)state;
-    const double one = 1;
-    gen_list_t t = gen_make(GEN_RANDOM, 50, 1, 3);
-    gen_matrix_t lower = gen_store(&t, gen_style(0), 1);
-    for (int style = 0; style < GEN_STYLES; style++) {
-        gen_matrix_t K = gen_store(&t, gen_style(style), 9);
-        sl_matrix *A = NULL;
-        SL_CHECK(sl_matrix_sum(&A, &one, &K.view, 1, NULL, NULL));
-        sl_csc C = sl_matrix_view(A);
-        assert_int_equal(C.p[50], lower.p[50]);
-        assert_memory_equal(C.i, lower.i, (size_t)C.p[50] * sizeof *C.i);
-        SAME_VALUES(C.x, lower.x, (size_t)C.p[50]);
-        sl_matrix_free(A);
-        gen_matrix_free(&K);
-    }
-    gen_matrix_free(&lower);
-    gen_list_free(&t);
-}
-
-static void wrong_sums(void **state) {
-    (void)state;
-    const double c[TERMS] = {1, 1};
-    several_t y = several_make(GEN_GRID2, 25, 1, 0, NULL);
-    sl_matrix *A = (sl_matrix *)(void *)&y;
-    sl_options half = options_none();
-    sl_stats stats;
-    sl_csc wrong[TERMS] = {y.terms[0], y.terms[1]};
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(NULL, c, y.terms, TERMS, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, y.terms, 0, NULL, NULL));
-    assert_null(A);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, y.terms, -1, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, NULL, 2, NULL, NULL));
-    half.allocator.allocate = counter_allocate;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, y.terms, TERMS, &half, NULL));
-    wrong[1].x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, wrong, TERMS, NULL, NULL));
-    wrong[1].n_rows++;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, NULL, wrong, TERMS, NULL, NULL));
-    wrong[1] = y.terms[1];
-    wrong[1].n_rows = --wrong[1].n_cols; /* an index out of range */
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_sum(&A, NULL, wrong, TERMS, NULL, &stats));
-    assert_int_equal(stats.error_row, y.n - 1);
-    const sl_int p[3] = {0, 2, 4}, i[4] = {0, 1, 1, 1}, q[4] = {0, 1, 2, 3}, k[3] = {1, 0, 1};
-    const double x[4] = {1, 1, 1, 1};
-    const sl_csc small = {2, 2, p, i, x};
-    wrong[1] = small;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_sum(&A, c, wrong, TERMS, NULL, NULL)); /* 25 and 2 rows */
-    const sl_csc skew = {3, 3, q, k, x}; /* (1,0), (0,1), (1,2): no (2,1) */
-    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_sum(&A, c, &skew, 1, NULL, &stats));
-    assert_true(stats.error_row == 1 && stats.error_column == 2);
-    assert_null(A);
-    several_free(&y);
-}
-
-/* ---- spreading ---- */
-
-/* The order does not depend on how K is stored, and is the one of A's own factorization. */
-static void every_way_of_storing_spreads_alike(void **state) {
+/* The order of the values does not depend on how the matrix is stored, and it is the order in which
+ * a factorization of A reads them. */
+static void every_storage_style_scatters_alike(void **state) {
     (void)state;
     const double one = 1;
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         gen_list_t t = gen_make((gen_kind_t)kind, 150, 1, 42);
-        for (int of = 0; of < GEN_STYLES; of++) { /* how the analysed matrix is stored */
+        /* Storage style of the analyzed matrix. */
+        for (int of = 0; of < GEN_STYLES; of++) {
             gen_matrix_t A = gen_store(&t, gen_style(of), 1);
             sl_symbolic *S = NULL;
             sl_factor *plain = NULL, *F = NULL;
@@ -123,14 +20,14 @@ static void every_way_of_storing_spreads_alike(void **state) {
             const double *values = first;
             sl_stats stats;
             sl_symbolic_stats(S, &stats);
-            assert_int_equal(size, stats.nnz_a);
-            SL_CHECK(sl_symbolic_spread(S, first, &A.view, NULL));
+            assert_int_equal(size, stats.symbolic.nnz_a);
+            SL_CHECK(sl_symbolic_scatter(S, first, &A.view, NULL));
             SL_CHECK(sl_factor_create_combination(&F, S, &one, &values, 1, NULL, NULL));
             assert_same_bits(F, plain);
             for (int style = 0; style < GEN_STYLES; style++) {
                 gen_matrix_t K = gen_store(&t, gen_style(style), 3);
                 memset(again, 0xff, size * sizeof *again);
-                SL_CHECK(sl_symbolic_spread(S, again, &K.view, NULL));
+                SL_CHECK(sl_symbolic_scatter(S, again, &K.view, NULL));
                 SAME_VALUES(first, again, size);
                 gen_matrix_free(&K);
             }
@@ -145,19 +42,20 @@ static void every_way_of_storing_spreads_alike(void **state) {
     }
 }
 
-/* All patterns of 4 rows as the analysed one, each part of each spread: the entries go where those of the whole went,
- * found by their values, and nothing else is written. What is no part is refused. */
-static void all_patterns_of_four_rows(void **state) {
+/* Every pattern of 4 rows is analyzed, and every subpattern scattered: its entries, recognized by
+ * their values, go where the entries of the whole pattern went, and nothing else is written. A
+ * pattern that is not contained is refused. */
+static void every_subpattern_of_four_rows_scatters(void **state) {
     (void)state;
-    enum { ROWS = 4, PLACES = ROWS * (ROWS + 1) / 2 };
-    static const sl_int rows[PLACES] = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
-    static const sl_int columns[PLACES] = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
+    enum { ROWS = 4, POSITIONS = ROWS * (ROWS + 1) / 2 };
+    static const sl_int rows[POSITIONS] = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
+    static const sl_int columns[POSITIONS] = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
     sl_options natural = options_none();
     natural.ordering = SL_ORDERING_NATURAL;
-    gen_matrix_t M[1 << PLACES];
-    for (int bits = 0; bits < 1 << PLACES; bits++) {
+    gen_matrix_t M[1 << POSITIONS];
+    for (int bits = 0; bits < 1 << POSITIONS; bits++) {
         gen_list_t t = gen_list(ROWS);
-        for (int k = 0; k < PLACES; k++) {
+        for (int k = 0; k < POSITIONS; k++) {
             if (bits >> k & 1) {
                 gen_add(&t, rows[k], columns[k], k + 1);
             }
@@ -165,47 +63,48 @@ static void all_patterns_of_four_rows(void **state) {
         M[bits] = gen_store(&t, gen_style(bits % 6), (uint64_t)bits + 1); /* no duplicates */
         gen_list_free(&t);
     }
-    for (int whole = 0; whole < 1 << PLACES; whole++) {
-        double all[PLACES], part[PLACES + 1];
+    for (int whole = 0; whole < 1 << POSITIONS; whole++) {
+        double all[POSITIONS], some[POSITIONS + 1];
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M[whole].view, &natural, NULL));
         sl_int count = sl_symbolic_entries(S);
-        SL_CHECK(sl_symbolic_spread(S, all, &M[whole].view, NULL));
-        for (int k = 0; k < PLACES; k++) {
+        SL_CHECK(sl_symbolic_scatter(S, all, &M[whole].view, NULL));
+        for (int k = 0; k < POSITIONS; k++) {
             int found = 0;
             for (sl_int p = 0; p < count; p++) {
                 found += all[p] == k + 1;
             }
             assert_int_equal(found, whole >> k & 1);
         }
-        for (int bits = 0; bits < 1 << PLACES; bits++) {
-            part[count] = 4321;
+        for (int bits = 0; bits < 1 << POSITIONS; bits++) {
+            some[count] = 4321;
             if (bits & ~whole) {
-                SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_spread(S, part, &M[bits].view, NULL));
+                SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_scatter(S, some, &M[bits].view, NULL));
                 continue;
             }
-            SL_CHECK(sl_symbolic_spread(S, part, &M[bits].view, NULL));
+            SL_CHECK(sl_symbolic_scatter(S, some, &M[bits].view, NULL));
             for (sl_int p = 0; p < count; p++) {
-                assert_true(part[p] == ((bits >> ((int)all[p] - 1) & 1) ? all[p] : 0.0));
+                assert_true(some[p] == ((bits >> ((int)all[p] - 1) & 1) ? all[p] : 0.0));
             }
-            assert_true(part[count] == 4321);
+            assert_true(some[count] == 4321);
         }
         sl_symbolic_free(S);
     }
-    for (int bits = 0; bits < 1 << PLACES; bits++) {
+    for (int bits = 0; bits < 1 << POSITIONS; bits++) {
         gen_matrix_free(&M[bits]);
     }
 }
 
-/* Panels of every width, in their growing part and below it, each entry a number of its own: two that change places
- * change the factor. */
-static void every_place_of_wide_panels_is_found(void **state) {
+/* Panels of every width, with rows in the triangle and below it. Every entry has a value of its
+ * own, so two that are swapped change the factor. */
+static void wide_panels_receive_every_entry(void **state) {
     (void)state;
     static const sl_int sizes[10] = {1, 2, 7, 8, 9, 16, 17, 63, 64, 65};
     sl_options natural = options_none();
     natural.ordering = SL_ORDERING_NATURAL;
     for (int k = 0; k < 10; k++) {
-        for (int arrow = 0; arrow < 2; arrow++) { /* dense; dense with a few rows below */
+        /* Dense, then dense with a few rows below. */
+        for (int arrow = 0; arrow < 2; arrow++) {
             sl_int n = sizes[k] + 3 * arrow;
             gen_list_t t = gen_list(n);
             for (sl_int j = 0; j < sizes[k]; j++) {
@@ -223,7 +122,7 @@ static void every_place_of_wide_panels_is_found(void **state) {
             SL_CHECK(sl_factor_create(&plain, S, &A.view, NULL, NULL));
             double *v = test_reals((size_t)sl_symbolic_entries(S)), one = 1;
             const double *values = v;
-            SL_CHECK(sl_symbolic_spread(S, v, &A.view, NULL));
+            SL_CHECK(sl_symbolic_scatter(S, v, &A.view, NULL));
             SL_CHECK(sl_factor_create_combination(&F, S, &one, &values, 1, NULL, NULL));
             assert_same_bits(F, plain);
             free(v);
@@ -236,8 +135,9 @@ static void every_place_of_wide_panels_is_found(void **state) {
     }
 }
 
-/* The first entry, as stored, of those that are read and that the pattern has not. */
-static int is_first_off(const sl_csc *K, int both, const char *has, sl_int row, sl_int column) {
+/* Returns whether (row, column) is the first entry of K, in storage order, that is read and that
+ * the pattern lacks. */
+static int is_first_outside(const sl_csc *K, int both, const char *has, sl_int row, sl_int column) {
     sl_int n = K->n_cols;
     for (sl_int j = 0; j < n; j++) {
         for (sl_int p = K->p[j]; p < K->p[j + 1]; p++) {
@@ -249,10 +149,11 @@ static int is_first_off(const sl_csc *K, int both, const char *has, sl_int row, 
     return 0;
 }
 
-/* One entry or two that the analysis has not: the first as stored is told, the array stays. */
-static void entries_off_the_pattern_are_named(void **state) {
+/* With one or two entries that the analysis lacks, the first in storage order is reported and the
+ * array does not change. */
+static void entries_outside_the_pattern_are_reported(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 16, 0, 2, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 16, 0, 2, NULL);
     size_t size = (size_t)sl_symbolic_entries(y.S);
     double *v = test_reals(size), *before = test_reals(size);
     sl_csc U = sl_matrix_view(y.U);
@@ -264,16 +165,16 @@ static void entries_off_the_pattern_are_named(void **state) {
         for (sl_int j = 0; j <= i; j++) {
             gen_list_t t = gen_list(n);
             gen_add(&t, n - 1, n - 1, 1);
-            gen_add(&t, n - 1, 1, 3); /* off */
-            gen_add(&t, i, j, 2);     /* perhaps */
+            gen_add(&t, n - 1, 1, 3); /* not in the pattern */
+            gen_add(&t, i, j, 2);     /* possibly in the pattern */
             for (int style = 0; style < 6; style++) {
                 gen_matrix_t K = gen_store(&t, gen_style(style), 1);
                 sl_stats stats;
-                SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_spread(y.S, v, &K.view, &stats));
-                assert_true(is_first_off(&K.view, style % 3 == 2, has, stats.error_row,
-                                         stats.error_column));
+                SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_scatter(y.S, v, &K.view, &stats));
+                assert_true(is_first_outside(&K.view, style % 3 == 2, has, stats.error.row,
+                                             stats.error.column));
                 assert_memory_equal(v, before, size * sizeof *v);
-                others += stats.error_row + stats.error_column != n;
+                others += stats.error.row + stats.error.column != n;
                 gen_matrix_free(&K);
             }
             gen_list_free(&t);
@@ -283,50 +184,47 @@ static void entries_off_the_pattern_are_named(void **state) {
     free(v);
     free(before);
     free(has);
-    several_free(&y);
+    matrix_pair_free(&y);
 }
 
-static void wrong_calls_of_spread(void **state) {
+static void wrong_arguments_are_refused(void **state) {
     (void)state;
-    several_t y = several_make(GEN_GRID2, 16, 0, 2, NULL);
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 16, 0, 2, NULL);
     sl_csc K = y.K.view;
     double *v = y.values[0];
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_spread(NULL, v, &K, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_spread(y.S, NULL, &K, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_spread(y.S, v, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_scatter(NULL, v, &K, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_scatter(y.S, NULL, &K, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_scatter(y.S, v, NULL, NULL));
     K.x = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_spread(y.S, v, &K, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_scatter(y.S, v, &K, NULL));
     K = y.K.view;
     K.n_rows++;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_spread(y.S, v, &K, NULL));
-    several_t other = several_make(GEN_GRID2, 25, 0, 2, NULL);
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_spread(y.S, v, &other.K.view, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_scatter(y.S, v, &K, NULL));
+    matrix_pair_t other = matrix_pair_make(GEN_GRID2, 25, 0, 2, NULL);
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_scatter(y.S, v, &other.K.view, NULL));
     const sl_int p[2] = {0, 0};
     const sl_csc empty = {0, 0, NULL, NULL, NULL}, bare = {1, 1, p, NULL, NULL};
-    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_spread(y.S, v, &empty, NULL));
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_scatter(y.S, v, &empty, NULL));
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &empty, NULL, NULL));
     assert_int_equal(sl_symbolic_entries(S), 0);
-    SL_CHECK(sl_symbolic_spread(S, NULL, &empty, NULL));
+    SL_CHECK(sl_symbolic_scatter(S, NULL, &empty, NULL));
     sl_symbolic_free(S);
-    SL_CHECK(sl_symbolic_create(&S, &bare, NULL, NULL)); /* a row without an entry */
-    SL_CHECK(sl_symbolic_spread(S, NULL, &bare, NULL));
+    SL_CHECK(sl_symbolic_create(&S, &bare, NULL, NULL)); /* a row without entries */
+    SL_CHECK(sl_symbolic_scatter(S, NULL, &bare, NULL));
     sl_symbolic_free(S);
     assert_int_equal(sl_symbolic_entries(NULL), 0);
-    several_free(&other);
-    several_free(&y);
+    matrix_pair_free(&other);
+    matrix_pair_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_are_sums),
-        cmocka_unit_test(one_term_is_its_lower_triangle),
-        cmocka_unit_test(wrong_sums),
-        cmocka_unit_test(every_way_of_storing_spreads_alike),
-        cmocka_unit_test(all_patterns_of_four_rows),
-        cmocka_unit_test(every_place_of_wide_panels_is_found),
-        cmocka_unit_test(entries_off_the_pattern_are_named),
-        cmocka_unit_test(wrong_calls_of_spread),
+        cmocka_unit_test(every_storage_style_scatters_alike),
+        cmocka_unit_test(every_subpattern_of_four_rows_scatters),
+        cmocka_unit_test(wide_panels_receive_every_entry),
+        cmocka_unit_test(entries_outside_the_pattern_are_reported),
+        cmocka_unit_test(wrong_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,15 @@
-/* test_selected.c: the selected inverse: against dense inverses and full solves, whole and on the reach of a set */
-#include "inverse_checks.h"
+/* test_selected.c: the selected inverse, whole and on a reach, against dense inverses */
+#include "tests/lib/check_inverse.h"
 
-/* The answers through the public calls are the numbers of the panels. */
-static void check_answers(const sl_selected *Z) {
-    sl_selected_view_t z = sl_selected_view(Z);
-    sl_symbolic_view_t v = sl_symbolic_view(z.symbolic);
+/* The public queries return the values of the panels. */
+static void assert_queries_match_panels(const sl_selected *Z) {
+    sl_selected_arrays z = sl_selected_view(Z);
+    sl_symbolic_arrays v = sl_symbolic_view(z.symbolic);
     for (sl_int k = 0; k < z.count; k++) {
         sl_int s = z.supers[k], width = ref_width(&v, s), height = ref_height(&v, s);
         for (sl_int c = 0; c < width; c++) {
             for (sl_int q = c; q < height; q++) {
-                double value = z.Z[z.begin[k] + ref_place(width, q, c)], got[2];
+                double value = z.Z[z.begin[k] + ref_position(width, q, c)], got[2];
                 sl_int i = v.perm[ref_row(&v, s, q)], j = v.perm[v.super_first[s] + c];
                 sl_int rows[2] = {i, j}, columns[2] = {j, i};
                 SL_CHECK(sl_selected_entries(Z, got, rows, columns, 2, NULL));
@@ -23,20 +23,20 @@ static void check_answers(const sl_selected *Z) {
     }
 }
 
-static void equals_the_dense_inverse(void **state) {
+static void entries_match_the_dense_inverse(void **state) {
     (void)state;
     static const sl_int sizes[5] = {2, 9, 30, 77, 150};
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int size = 0; size < 5; size++) {
-            for (int k = 0; k < ways.count; k++) {
+            for (int k = 0; k < variants.count; k++) {
                 sl_options opt = options_none();
-                way_take(&opt, &ways, k);
+                options_set_variant(&opt, &variants, k);
                 opt.relaxation =
                     (kind + size + k) % 3 == 0 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
-                opt.ordering = (size + k) % 4 == 1 ? SL_ORDERING_NATURAL : SL_ORDERING_DEFAULT;
-                problem_t y = problem_make((gen_kind_t)kind, sizes[size], (size + k) % 3 - 1,
-                                           (size + k) % GEN_STYLES, &opt);
+                opt.ordering = (size + k) % 4 == 1 ? SL_ORDERING_NATURAL : SL_ORDERING_ND;
+                factored_t y = factored_make((gen_kind_t)kind, sizes[size], (size + k) % 3 - 1,
+                                             (size + k) % GEN_STYLES, &opt);
                 reference_t r = reference_make(&y.M.view, y.F);
                 sl_selected *Z = NULL;
                 sl_stats stats;
@@ -48,22 +48,23 @@ static void equals_the_dense_inverse(void **state) {
                                 (int)y.M.view.n_cols, isa_name(opt.isa), wrong);
                     fail();
                 }
-                assert_int_equal(stats.z_columns, y.M.view.n_cols);
-                assert_int_equal(stats.z_supernodes, sl_symbolic_view(y.S).n_supers);
-                assert_true(stats.z_entries == panel_doubles(y.F));
+                assert_int_equal(stats.selected.columns, y.M.view.n_cols);
+                assert_int_equal(stats.selected.supernodes, sl_symbolic_view(y.S).n_supers);
+                assert_true(stats.selected.entries == panel_doubles(y.F));
                 if (sizes[size] == 30) {
-                    check_answers(Z);
+                    assert_queries_match_panels(Z);
                 }
                 sl_selected_free(Z);
                 reference_free(&r);
-                problem_free(&y);
+                factored_free(&y);
             }
         }
     }
 }
 
-/* Wide supernodes: several groups of columns, the last one of any width; several chunks of rows below. */
-static void wide_supernodes(void **state) {
+/* Wide supernodes: several groups of columns, the last one of any width, and several chunks of rows
+ * below. */
+static void wide_supernodes_match_the_dense_inverse(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (sl_int n = 120; n < 330; n += 23) {
@@ -71,26 +72,27 @@ static void wide_supernodes(void **state) {
             sl_options opt = options_none();
             opt.isa = isas.isa[k];
             opt.ordering = SL_ORDERING_NATURAL;
-            problem_t y = problem_make(n % 2 ? GEN_DENSE : GEN_GRID3, n, 1, 0, &opt);
+            factored_t y = factored_make(n % 2 ? GEN_DENSE : GEN_GRID3, n, 1, 0, &opt);
             reference_t r = reference_make(&y.M.view, y.F);
             sl_selected *Z = NULL;
-            SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, &opt, NULL));
+            SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, FOR_OTHERS(&opt), NULL));
             NOTHING_WRONG(check_selected(Z, &r));
             sl_selected_free(Z);
             reference_free(&r);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-/* On a grid that no dense matrix holds: columns of the inverse by full solves, where the pattern has a place. */
-static void equals_full_solves(void **state) {
+/* On a grid too large for a dense inverse: columns of the inverse by full solves, compared where
+ * the pattern has an entry. */
+static void entries_match_full_solves(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[k];
-        problem_t y = problem_make(GEN_GRID2, 10000, 1, 0, &opt);
+        factored_t y = factored_make(GEN_GRID2, 10000, 1, 0, &opt);
         sl_int n = y.M.view.n_cols;
         double *b = test_reals((size_t)n), *x = test_reals((size_t)n),
                *diagonal = test_reals((size_t)n);
@@ -107,10 +109,11 @@ static void equals_full_solves(void **state) {
             for (sl_int i = 0; i < n; i++) {
                 largest = fmax(largest, fabs(x[i]));
             }
-            double allowed =
-                64.0 * (double)n * DBL_EPSILON * largest; /* the diagonal dominates: no condition */
+            /* The matrix is diagonally dominant, so no condition number enters. */
+            double allowed = 64.0 * (double)n * DBL_EPSILON * largest;
             assert_true(fabs(diagonal[j] - x[j]) <= allowed);
-            for (sl_int p = y.M.p[j]; p < y.M.p[j + 1]; p++) { /* A's own pattern is in that of L */
+            /* The pattern of A is part of the pattern of L. */
+            for (sl_int p = y.M.p[j]; p < y.M.p[j + 1]; p++) {
                 double z;
                 SL_CHECK(sl_selected_entries(Z, &z, &y.M.i[p], &j, 1, NULL));
                 assert_true(fabs(z - x[y.M.i[p]]) <= allowed);
@@ -120,7 +123,7 @@ static void equals_full_solves(void **state) {
         free(b);
         free(x);
         free(diagonal);
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
@@ -133,8 +136,8 @@ static void a_set_gives_the_same_bits(void **state) {
         for (int size = 0; size < 3; size++) {
             sl_options opt = options_none();
             opt.isa = isas.isa[(kind + size) % isas.count];
-            problem_t y = problem_make((gen_kind_t)kind, sizes[size], 1, 0, &opt);
-            sl_symbolic_view_t v = sl_symbolic_view(y.S);
+            factored_t y = factored_make((gen_kind_t)kind, sizes[size], 1, 0, &opt);
+            sl_symbolic_arrays v = sl_symbolic_view(y.S);
             sl_int n = v.n, *set = test_ints((size_t)n + 2);
             sl_selected *all = NULL;
             SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
@@ -150,10 +153,11 @@ static void a_set_gives_the_same_bits(void **state) {
                         mark[s] = 1;
                     }
                 }
-                sl_int twice = count > 0 ? count + 1 : 0; /* a row may be there twice */
+                /* The set may hold a row twice. */
+                sl_int twice = count > 0 ? count + 1 : 0;
                 set[count] = set[0];
                 SL_CHECK(sl_selected_create(&some, y.F, set, twice, NULL, &stats));
-                sl_selected_view_t z = sl_selected_view(some), whole = sl_selected_view(all);
+                sl_selected_arrays z = sl_selected_view(some), whole = sl_selected_view(all);
                 for (sl_int s = 0; s < v.n_supers; s++) {
                     if (mark[s]) {
                         assert_true(reached < z.count && z.supers[reached] == s);
@@ -166,14 +170,14 @@ static void a_set_gives_the_same_bits(void **state) {
                     }
                 }
                 assert_int_equal(z.count, reached);
-                assert_int_equal(stats.z_supernodes, reached);
-                assert_int_equal(stats.z_columns, columns);
+                assert_int_equal(stats.selected.supernodes, reached);
+                assert_int_equal(stats.selected.columns, columns);
                 for (sl_int i = 0; i < n; i++) {
                     double d = 7.0, e;
                     sl_status wanted = mark[v.super_of[v.iperm[i]]] ? SL_OK : SL_ERR_PATTERN;
                     SL_EXPECT(wanted, sl_selected_diagonal(some, &d, &i, 1, &stats));
                     SL_CHECK(sl_selected_diagonal(all, &e, &i, 1, NULL));
-                    assert_int_equal(stats.error_row, wanted == SL_OK ? -1 : i);
+                    assert_int_equal(stats.error.row, wanted == SL_OK ? -1 : i);
                     assert_true(d == (wanted == SL_OK ? e : 7.0));
                 }
                 sl_selected_free(some);
@@ -181,27 +185,27 @@ static void a_set_gives_the_same_bits(void **state) {
             }
             sl_selected_free(all);
             free(set);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-/* The test of the test: one wrong bit in the middle of the mantissa is noticed, anywhere. */
-static void a_broken_entry_is_noticed(void **state) {
+/* A test of check_selected: an error in the middle of the mantissa of any entry is detected. */
+static void a_wrong_entry_is_detected(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_GRID2, 49, 1, 0, NULL);
+    factored_t y = factored_make(GEN_GRID2, 49, 1, 0, NULL);
     reference_t r = reference_make(&y.M.view, y.F);
     sl_selected *Z = NULL;
     SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-    sl_selected_view_t z = sl_selected_view(Z);
-    sl_symbolic_view_t v = sl_symbolic_view(y.S);
+    sl_selected_arrays z = sl_selected_view(Z);
+    sl_symbolic_arrays v = sl_symbolic_view(y.S);
     double *numbers = (double *)(uintptr_t)z.Z;
     NOTHING_WRONG(check_selected(Z, &r));
     for (sl_int s = 0; s < v.n_supers; s++) {
         sl_int width = ref_width(&v, s);
         for (sl_int c = 0; c < width; c++) {
             for (sl_int q = c; q < (ref_height(&v, s) + 7) / 8 * 8; q++) {
-                double *at = numbers + z.begin[s] + ref_place(width, q, c), keep = *at;
+                double *at = numbers + z.begin[s] + ref_position(width, q, c), keep = *at;
                 *at += 1e-10 * (1.0 + fabs(keep));
                 assert_non_null(check_selected(Z, &r));
                 *at = keep;
@@ -210,14 +214,16 @@ static void a_broken_entry_is_noticed(void **state) {
     }
     sl_selected_free(Z);
     reference_free(&r);
-    problem_free(&y);
+    factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_the_dense_inverse),  cmocka_unit_test(wide_supernodes),
-        cmocka_unit_test(equals_full_solves),        cmocka_unit_test(a_set_gives_the_same_bits),
-        cmocka_unit_test(a_broken_entry_is_noticed),
+        cmocka_unit_test(entries_match_the_dense_inverse),
+        cmocka_unit_test(wide_supernodes_match_the_dense_inverse),
+        cmocka_unit_test(entries_match_full_solves),
+        cmocka_unit_test(a_set_gives_the_same_bits),
+        cmocka_unit_test(a_wrong_entry_is_detected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

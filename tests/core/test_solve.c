@@ -1,9 +1,9 @@
-/* test_solve.c: full solves: backward errors, blocks of right-hand sides, leading dimensions, in place, workspaces */
-#include "problem.h"
+/* test_solve.c: full solves: errors, blocks, leading dimensions, aliasing, workspaces */
+#include "tests/lib/factored.h"
 
 enum { MOST = 17 };
 
-static void backward_errors_on_every_isa(void **state) {
+static void backward_errors_are_small(void **state) {
     (void)state;
     static const sl_int sizes[4] = {4, 20, 100, 700};
     isa_list_t isas = isas_present();
@@ -14,7 +14,7 @@ static void backward_errors_on_every_isa(void **state) {
                     sl_options opt = options_none();
                     opt.isa = isas.isa[k];
                     opt.relaxation = (sl_relaxation)relaxation;
-                    problem_t y = problem_make((gen_kind_t)kind, sizes[size], size % 3 - 1,
+                    factored_t y = factored_make((gen_kind_t)kind, sizes[size], size % 3 - 1,
                                                kind % GEN_STYLES, &opt);
                     sl_int n = y.M.view.n_cols;
                     size_t ld = (size_t)n + 3;
@@ -26,14 +26,14 @@ static void backward_errors_on_every_isa(void **state) {
                     }
                     free(B);
                     free(X);
-                    problem_free(&y);
+                    factored_free(&y);
                 }
             }
         }
     }
 }
 
-static void equals_the_dense_solution(void **state) {
+static void solutions_match_dense_solutions(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
@@ -43,7 +43,7 @@ static void equals_the_dense_solution(void **state) {
         for (int k = 0; k < isas.count; k++) {
             sl_options opt = options_none();
             opt.isa = isas.isa[k];
-            problem_t y = problem_make((gen_kind_t)kind, 60, 0, 0, &opt);
+            factored_t y = factored_make((gen_kind_t)kind, 60, 0, 0, &opt);
             sl_int n = y.M.view.n_cols;
             double *M = ref_dense(&y.M.view), *B = test_reals((size_t)n * 5),
                    *X = test_reals((size_t)n * 5);
@@ -54,26 +54,27 @@ static void equals_the_dense_solution(void **state) {
             for (sl_int q = 0; q < 5 * n; q++) {
                 largest = fabs(B[q]) > largest ? fabs(B[q]) : largest;
             }
-            for (sl_int q = 0; q < 5 * n; q++) { /* condition numbers here are below 1e4 */
+            /* Condition numbers here are below 1e4. */
+            for (sl_int q = 0; q < 5 * n; q++) {
                 assert_true(fabs(X[q] - B[q]) <= 1e4 * (double)n * DBL_EPSILON * largest);
             }
             free(M);
             free(B);
             free(X);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-/* nothing outside the n x nrhs block of X is written, nothing of B changes, and X may be B */
-static void leading_dimensions_and_in_place(void **state) {
+/* Nothing outside the n x nrhs block of X is written, B does not change, and X may be B. */
+static void leading_dimensions_and_aliasing_work(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_KKT, GEN_ONE, GEN_COMPONENTS};
     for (int k = 0; k < 4 * isas.count; k++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[k / 4];
-        problem_t y = problem_make(kinds[k % 4], 75, 1, 0, &opt);
+        factored_t y = factored_make(kinds[k % 4], 75, 1, 0, &opt);
         size_t n = (size_t)y.M.view.n_cols;
         for (sl_int nrhs = 0; nrhs <= MOST; nrhs++) {
             size_t ldx = n + 5, ldb = n + 2, cols = (size_t)nrhs;
@@ -98,7 +99,8 @@ static void leading_dimensions_and_in_place(void **state) {
                 SAME_VALUES(X + r * ldx, B + r * ldb, n);
                 SAME_VALUES(X + r * ldx, C + r * n, n);
             }
-            for (size_t q = 0; q < ldb * MOST; q++) { /* the rest of B is as before */
+            /* The rest of B is unchanged. */
+            for (size_t q = 0; q < ldb * MOST; q++) {
                 assert_true(q / ldb < cols && q % ldb < n ? 1 : B[q] == B2[q]);
             }
             free(X);
@@ -106,12 +108,13 @@ static void leading_dimensions_and_in_place(void **state) {
             free(B2);
             free(C);
         }
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-/* For one nrhs, column r of X depends on column r of B only, whatever its companions: zeros, NaN, other numbers. */
-static void companions_do_not_matter(void **state) {
+/* For a given nrhs, column r of X depends only on column r of B, whatever the other columns hold:
+ * zeros, NaN, other values. */
+static void a_column_does_not_depend_on_the_others(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
@@ -119,7 +122,7 @@ static void companions_do_not_matter(void **state) {
         for (int which = 0; which < 3; which++) {
             sl_options opt = options_none();
             opt.isa = isas.isa[k];
-            problem_t y = problem_make(kinds[which], 130, 1, 0, &opt);
+            factored_t y = factored_make(kinds[which], 130, 1, 0, &opt);
             size_t n = (size_t)y.M.view.n_cols;
             double *B = test_reals(n * MOST), *X = test_reals(n * MOST), *Y = test_reals(n * MOST);
             for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
@@ -140,19 +143,19 @@ static void companions_do_not_matter(void **state) {
             free(B);
             free(X);
             free(Y);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-/* one column is the same in any place of a block, and twice the same call gives twice the same bits */
-static void places_in_a_block_are_equal(void **state) {
+/* Equal columns of a block have equal solutions, and repeating a call repeats its bits. */
+static void equal_columns_have_equal_solutions(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     for (int k = 0; k < isas.count; k++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[k];
-        problem_t y = problem_make(GEN_GRID2, 200, 1, 0, &opt);
+        factored_t y = factored_make(GEN_GRID2, 200, 1, 0, &opt);
         size_t n = (size_t)y.M.view.n_cols;
         double *B = test_reals(n * 8), *X = test_reals(n * 8), *Y = test_reals(n * 8);
         for (sl_int nrhs = 1; nrhs <= 8; nrhs++) {
@@ -169,12 +172,13 @@ static void places_in_a_block_are_equal(void **state) {
         free(B);
         free(X);
         free(Y);
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-/* A workspace may meet problems of any size in any order; what an earlier solve left in it must not matter. */
-static void a_workspace_is_reused_across_sizes(void **state) {
+/* A workspace may be used for problems of any size in any order. What an earlier solve left in it
+ * must not matter. */
+static void a_workspace_works_across_sizes(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
     static const sl_int sizes[6] = {30, 400, 3, 150, 1, 400};
@@ -185,8 +189,8 @@ static void a_workspace_is_reused_across_sizes(void **state) {
     for (int round = 0; round < 12; round++) {
         sl_options opt = options_none();
         opt.isa = isas.isa[round % isas.count];
-        problem_t y =
-            problem_make(round % 2 ? GEN_GRID2 : GEN_RANDOM, sizes[round % 6], 1, 0, &opt);
+        factored_t y =
+            factored_make(round % 2 ? GEN_GRID2 : GEN_RANDOM, sizes[round % 6], 1, 0, &opt);
         size_t n = (size_t)y.M.view.n_cols;
         double *B = test_reals(n * MOST), *X = test_reals(n * MOST), *Y = test_reals(n * MOST);
         gen_reals(B, n * MOST, (uint64_t)round);
@@ -195,7 +199,7 @@ static void a_workspace_is_reused_across_sizes(void **state) {
             SL_CHECK(sl_factor_solve(y.F, Y, n, B, n, nrhs, NULL));
             SAME_VALUES(X, Y, n * (size_t)nrhs);
         }
-        /* poisoned by a NaN: no trace of it in the next solve */
+        /* A NaN of one solve must leave no trace in the next. */
         B[0] = NAN;
         SL_CHECK(sl_factor_solve(y.F, X, n, B, n, MOST, W));
         gen_reals(B, n * MOST, (uint64_t)round);
@@ -205,18 +209,18 @@ static void a_workspace_is_reused_across_sizes(void **state) {
         free(B);
         free(X);
         free(Y);
-        problem_free(&y);
+        factored_free(&y);
     }
     sl_work_free(W);
     sl_work_free(NULL);
     COUNTER_CLEAN(&counter);
 }
 
-static void nothing_is_allocated_once_grown(void **state) {
+static void a_grown_workspace_allocates_nothing(void **state) {
     (void)state;
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
-    problem_t y = problem_make(GEN_GRID2, 900, 1, 0, &opt);
+    factored_t y = factored_make(GEN_GRID2, 900, 1, 0, &opt);
     size_t n = (size_t)y.M.view.n_cols;
     double *B = test_reals(n * MOST), *X = test_reals(n * MOST);
     sl_work *W = NULL;
@@ -237,32 +241,32 @@ static void nothing_is_allocated_once_grown(void **state) {
     SL_CHECK(sl_work_reserve_factor(W, y.F, MOST));
     assert_int_equal(counter.calls, calls);
     assert_int_equal(sl_work_bytes(W), bytes);
-    /* O(n min(nrhs, 8)) and not O(n nrhs) */
+    /* O(n min(nrhs, 8)), not O(n nrhs) */
     assert_true(bytes <= 4 * n * 8 * sizeof(double) + 100000);
     free(B);
     free(X);
     sl_work_free(W);
-    problem_free(&y);
+    factored_free(&y);
     COUNTER_CLEAN(&counter);
 }
 
-static void nothing_to_do(void **state) {
+static void empty_problems_work(void **state) {
     (void)state;
-    problem_t empty = problem_make(GEN_NONE, 0, 1, 0, NULL),
-              y = problem_make(GEN_PATH, 4, 1, 0, NULL);
+    factored_t empty = factored_make(GEN_NONE, 0, 1, 0, NULL),
+              y = factored_make(GEN_PATH, 4, 1, 0, NULL);
     double one = 5;
     for (sl_int nrhs = 0; nrhs <= 9; nrhs++) {
         SL_CHECK(sl_factor_solve(empty.F, &one, 1, &one, 1, nrhs, NULL));
     }
     SL_CHECK(sl_factor_solve(y.F, &one, 4, &one, 4, 0, NULL));
     assert_true(one == 5);
-    problem_free(&empty);
-    problem_free(&y);
+    factored_free(&empty);
+    factored_free(&y);
 }
 
-static void wrong_arguments(void **state) {
+static void wrong_arguments_are_refused(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_PATH, 6, 1, 0, NULL);
+    factored_t y = factored_make(GEN_PATH, 6, 1, 0, NULL);
     double X[12] = {1, 2}, B[12] = {3, 4};
     sl_work *W = NULL;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(NULL, X, 6, B, 6, 1, NULL));
@@ -271,8 +275,8 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 5, B, 6, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, B, 5, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, B, 6, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT,
-              sl_factor_solve(y.F, X, 7, X, 6, 1, NULL)); /* in place with two strides */
+    /* In place with two leading dimensions. */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 7, X, 6, 1, NULL));
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_create(NULL, NULL));
     SL_CHECK(sl_work_create(&W, NULL));
@@ -282,13 +286,13 @@ static void wrong_arguments(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan(NULL, NULL, 1));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan(W, NULL, 1));
     sl_work_free(W);
-    problem_free(&y);
+    factored_free(&y);
 }
 
-/* A permuted matrix has the permuted solution. */
+/* The permuted matrix has the permuted solution. */
 static void a_permuted_system_has_the_permuted_solution(void **state) {
     (void)state;
-    problem_t y = problem_make(GEN_RANDOM, 80, 0, 0, NULL);
+    factored_t y = factored_make(GEN_RANDOM, 80, 0, 0, NULL);
     sl_int n = y.M.view.n_cols, perm[80];
     double b[80], pb[80], x[80], px[80];
     sl_matrix *P = NULL;
@@ -311,20 +315,20 @@ static void a_permuted_system_has_the_permuted_solution(void **state) {
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(P);
-    problem_free(&y);
+    factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(backward_errors_on_every_isa),
-        cmocka_unit_test(equals_the_dense_solution),
-        cmocka_unit_test(leading_dimensions_and_in_place),
-        cmocka_unit_test(companions_do_not_matter),
-        cmocka_unit_test(places_in_a_block_are_equal),
-        cmocka_unit_test(a_workspace_is_reused_across_sizes),
-        cmocka_unit_test(nothing_is_allocated_once_grown),
-        cmocka_unit_test(nothing_to_do),
-        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(backward_errors_are_small),
+        cmocka_unit_test(solutions_match_dense_solutions),
+        cmocka_unit_test(leading_dimensions_and_aliasing_work),
+        cmocka_unit_test(a_column_does_not_depend_on_the_others),
+        cmocka_unit_test(equal_columns_have_equal_solutions),
+        cmocka_unit_test(a_workspace_works_across_sizes),
+        cmocka_unit_test(a_grown_workspace_allocates_nothing),
+        cmocka_unit_test(empty_problems_work),
+        cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(a_permuted_system_has_the_permuted_solution),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,8 @@
-/* test_supernodal.c: the supernodal factorization against the up-looking one, its tree of fronts, its large shapes */
-#include "problem.h"
+/* test_supernodal.c: the supernodal factorization against the up-looking one */
+#include "tests/lib/factored.h"
 
-/* Makes the factor of y's matrix by a method; problem_make has made another. */
-static sl_factor *factor_by(const problem_t *y, sl_method method, sl_isa isa) {
+/* Factors the matrix of y with a method other than the one factored_make chose. */
+static sl_factor *factor_with(const factored_t *y, sl_method method, sl_isa isa) {
     sl_options opt = options_none();
     sl_factor *F = NULL;
     opt.method = method;
@@ -11,10 +11,11 @@ static sl_factor *factor_by(const problem_t *y, sl_method method, sl_isa isa) {
     return F;
 }
 
-/* Largest difference of D, relative, and of L, relative to the largest entry of its column or 1. */
+/* D agrees within bound relative to each pivot, L within bound relative to the largest entry of its
+ * column or 1. */
 static void assert_close(const sl_factor *F, const sl_factor *G, double bound) {
-    sl_factor_view_t f = sl_factor_view(F), g = sl_factor_view(G);
-    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    sl_factor_arrays f = sl_factor_view(F), g = sl_factor_view(G);
+    sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
     for (sl_int k = 0; k < v.n; k++) {
         assert_true(fabs(f.D[k] - g.D[k]) <= bound * fabs(g.D[k]));
     }
@@ -23,17 +24,18 @@ static void assert_close(const sl_factor *F, const sl_factor *G, double bound) {
         for (sl_int c = 0; c < width; c++) {
             double largest = 1.0;
             for (sl_int r = c + 1; r < height; r++) {
-                largest = fmax(largest, fabs(g.L[v.panel_begin[s] + ref_place(width, r, c)]));
+                largest = fmax(largest, fabs(g.L[v.panel_begin[s] + ref_position(width, r, c)]));
             }
             for (sl_int r = c + 1; r < height; r++) {
-                sl_off at = v.panel_begin[s] + ref_place(width, r, c);
+                sl_off at = v.panel_begin[s] + ref_position(width, r, c);
                 assert_true(fabs(f.L[at] - g.L[at]) <= bound * largest);
             }
         }
     }
 }
 
-/* The two methods do the same sums in another order: c n eps, where rows dominate and nothing grows. */
+/* The two methods compute the same sums in different orders: c n eps for diagonally dominant
+ * matrices, where entries do not grow. */
 static void the_methods_agree_to_rounding(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
@@ -41,45 +43,48 @@ static void the_methods_agree_to_rounding(void **state) {
     for (int kind = 0; kind < GEN_REGULAR; kind++) {
         for (int size = 0; size < 3; size++) {
             if (size == 2 && (kind == GEN_DENSE || kind == GEN_STAR)) {
-                continue; /* two thousand dense rows take minutes in the emulator */
+                /* Two thousand dense rows take minutes in the emulator. */
+                continue;
             }
-            problem_t y = problem_make((gen_kind_t)kind, sizes[size], 0, 0, NULL);
-            sl_factor *reference = factor_by(&y, SL_METHOD_UP_LOOKING, SL_ISA_SCALAR);
+            factored_t y = factored_make((gen_kind_t)kind, sizes[size], 0, 0, NULL);
+            sl_factor *reference = factor_with(&y, SL_METHOD_UP_LOOKING, SL_ISA_SCALAR);
             for (int k = 0; k < isas.count; k++) {
-                sl_factor *F = factor_by(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
+                sl_factor *F = factor_with(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
                 sl_stats a, b;
                 memset(&a, 0, sizeof a);
                 memset(&b, 0, sizeof b);
                 sl_factor_stats(reference, &a);
                 sl_factor_stats(F, &b);
-                assert_int_equal(a.positive, b.positive);
-                assert_int_equal(a.negative, b.negative);
-                /* the scaled grid and the quasi-definite system are ill conditioned by design: 1e6 more */
+                assert_int_equal(a.factor.positive, b.factor.positive);
+                assert_int_equal(a.factor.negative, b.factor.negative);
+                /* The scaled grid and the quasi-definite system are ill conditioned by design,
+                 * which costs a factor of 1e6. */
                 double grown = kind == GEN_SCALED || kind == GEN_KKT ? 1e6 : 1.0;
                 assert_close(F, reference, 64.0 * grown * (double)(sizes[size] + 1) * DBL_EPSILON);
                 sl_factor_free(F);
             }
             sl_factor_free(reference);
-            problem_free(&y);
+            factored_free(&y);
         }
     }
 }
 
-/* Dense matrices over every boundary of the kernels: tiles of 8, groups of 64 columns, chunks of 256, pairs of tiles. */
-static void dense_matrices_over_every_boundary(void **state) {
+/* Dense matrices whose sizes cross every boundary of the kernels: tiles of 8 columns, groups of 64,
+ * chunks of 256, pairs of tiles. */
+static void dense_matrices_agree_at_every_kernel_boundary(void **state) {
     (void)state;
     static const sl_int sizes[12] = {63, 64, 65, 71, 72, 73, 128, 129, 255, 257, 321, 520};
     isa_list_t isas = isas_present();
     sl_options natural = options_none();
     natural.ordering = SL_ORDERING_NATURAL;
     for (int which = 0; which < 12; which++) {
-        problem_t y = problem_make(GEN_DENSE, sizes[which], 0, 0, &natural);
+        factored_t y = factored_make(GEN_DENSE, sizes[which], 0, 0, &natural);
         sl_int n = sizes[which];
         double *B = test_reals((size_t)n), *X = test_reals((size_t)n);
         gen_reals(B, (size_t)n, 3);
-        sl_factor *reference = factor_by(&y, SL_METHOD_UP_LOOKING, SL_ISA_AUTO);
+        sl_factor *reference = factor_with(&y, SL_METHOD_UP_LOOKING, SL_ISA_AUTO);
         for (int k = 0; k < isas.count; k++) {
-            sl_factor *F = factor_by(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
+            sl_factor *F = factor_with(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
             assert_close(F, reference, 64.0 * (double)n * DBL_EPSILON);
             SL_CHECK(sl_factor_solve(F, X, (size_t)n, B, (size_t)n, 1, NULL));
             BACKWARD_PASSES(&y.M.view, X, (size_t)n, B, (size_t)n, 1);
@@ -88,11 +93,12 @@ static void dense_matrices_over_every_boundary(void **state) {
         sl_factor_free(reference);
         free(B);
         free(X);
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-/* A clique of w columns over h rows of a clique of m: one supernode hands its update matrix to another, with gaps. */
+/* A clique of w columns with h rows in a clique of m columns: one supernode passes its update
+ * matrix to the next, whose rows leave gaps. */
 static gen_matrix_t two_cliques(sl_int w, sl_int h, sl_int m, sl_int stride) {
     uint64_t seed = 11;
     gen_list_t t = gen_list(w + m);
@@ -115,7 +121,7 @@ static gen_matrix_t two_cliques(sl_int w, sl_int h, sl_int m, sl_int stride) {
     return M;
 }
 
-static void update_matrices_with_gaps(void **state) {
+static void update_matrices_with_gaps_are_assembled(void **state) {
     (void)state;
     static const sl_int widths[5] = {1, 7, 8, 65, 259}, strides[4] = {1, 2, 5, 9};
     isa_list_t isas = isas_present();
@@ -126,46 +132,46 @@ static void update_matrices_with_gaps(void **state) {
         for (int gap = 0; gap < 4; gap++) {
             for (sl_int m = 20; m < 100; m += 33) {
                 gen_matrix_t M = two_cliques(widths[which], m, m, strides[gap]);
-                problem_t y = {M, NULL, NULL};
+                factored_t y = {M, NULL, NULL};
                 SL_CHECK(sl_symbolic_create(&y.S, &M.view, &opt, NULL));
-                sl_factor *reference = factor_by(&y, SL_METHOD_UP_LOOKING, SL_ISA_AUTO);
+                sl_factor *reference = factor_with(&y, SL_METHOD_UP_LOOKING, SL_ISA_AUTO);
                 for (int k = 0; k < isas.count; k++) {
-                    sl_factor *F = factor_by(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
+                    sl_factor *F = factor_with(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
                     assert_close(F, reference, 64.0 * (double)M.view.n_cols * DBL_EPSILON);
                     sl_factor_free(F);
                 }
                 sl_factor_free(reference);
-                problem_free(&y);
+                factored_free(&y);
             }
         }
     }
 }
 
 /* Pivots whose reciprocal overflows or loses digits: the rows below are divided instead. */
-static void pivots_without_a_reciprocal(void **state) {
+static void extreme_pivots_agree(void **state) {
     (void)state;
     static const int powers[4] = {-1030, -1000, 1000, 1018};
     isa_list_t isas = isas_present();
     for (int which = 0; which < 4; which++) {
-        problem_t y = problem_make(GEN_GRID2, 400, 1, 0, NULL);
+        factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
         sl_int n = y.M.view.n_cols;
         for (sl_int q = 0; q < y.M.p[n]; q++) {
-            y.M.x[q] =
-                ldexp(rint(ldexp(y.M.x[q], 20)), powers[which] - 20); /* exact down there, too */
+            /* Exact even for subnormal values. */
+            y.M.x[q] = ldexp(rint(ldexp(y.M.x[q], 20)), powers[which] - 20);
         }
         for (int k = 0; k < isas.count; k++) {
-            sl_factor *F = factor_by(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
-            sl_factor *G = factor_by(&y, SL_METHOD_UP_LOOKING, isas.isa[k]);
-            /* subnormal numbers have fewer digits: 2^-1074 against entries near 2^-1030 */
+            sl_factor *F = factor_with(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);
+            sl_factor *G = factor_with(&y, SL_METHOD_UP_LOOKING, isas.isa[k]);
+            /* Subnormal values have fewer digits: 2^-1074 against entries near 2^-1030. */
             assert_close(F, G, powers[which] < -1022 ? 1e-9 : 64.0 * (double)n * DBL_EPSILON);
             sl_factor_free(F);
             sl_factor_free(G);
         }
-        problem_free(&y);
+        factored_free(&y);
     }
 }
 
-static void automatic_method(void **state) {
+static void the_automatic_method_fits_the_matrix(void **state) {
     (void)state;
     static const struct {
         gen_kind_t kind;
@@ -176,22 +182,22 @@ static void automatic_method(void **state) {
                   {GEN_STAR, SL_METHOD_UP_LOOKING},
                   {GEN_DIAGONAL, SL_METHOD_UP_LOOKING}};
     for (int k = 0; k < 5; k++) {
-        problem_t y = problem_make(known[k].kind, 2500, 1, 0, NULL);
+        factored_t y = factored_make(known[k].kind, 2500, 1, 0, NULL);
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         sl_factor_stats(y.F, &stats);
-        assert_int_equal(stats.method, known[k].method);
-        problem_free(&y);
+        assert_int_equal(stats.factor.method, known[k].method);
+        factored_free(&y);
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_methods_agree_to_rounding),
-        cmocka_unit_test(dense_matrices_over_every_boundary),
-        cmocka_unit_test(update_matrices_with_gaps),
-        cmocka_unit_test(pivots_without_a_reciprocal),
-        cmocka_unit_test(automatic_method),
+        cmocka_unit_test(dense_matrices_agree_at_every_kernel_boundary),
+        cmocka_unit_test(update_matrices_with_gaps_are_assembled),
+        cmocka_unit_test(extreme_pivots_agree),
+        cmocka_unit_test(the_automatic_method_fits_the_matrix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

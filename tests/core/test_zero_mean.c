@@ -1,9 +1,10 @@
-/* test_centred.c: options.mass: the centred solution of a singular system, against dense ones, full and local, in every form */
-#include "centred.h"
-#include "parallel_for.h"
-#include "question.h"
+/* test_zero_mean.c: options.mass: zero-mean solutions against dense ones, by every kind of solve */
+#include "tests/lib/zero_mean.h"
+#include "tests/lib/parallel_for.h"
+#include "tests/lib/local_solve.h"
 
-/* The same x from the dense system [A m; m' 0], with a row and a column for each component. */
+/* Compares x with the solution of the dense system [A m; m' 0], which has one more row and column
+ * for each component. */
 static void assert_dense(const sl_csc *A, const sl_int *of, sl_int components, const double *m,
                          const double *x, const double *b) {
     sl_int rows = A->n_cols, n = rows + components, at = rows;
@@ -25,7 +26,7 @@ static void assert_dense(const sl_csc *A, const sl_int *of, sl_int components, c
     for (sl_int i = 0; i < rows; i++) {
         most = fmax(most, fabs(y[i]));
     }
-    for (sl_int i = 0; i < rows; i++) { /* n eps, times the condition of the bordered matrix */
+    for (sl_int i = 0; i < rows; i++) { /* n eps times the condition of the bordered matrix */
         assert_true(fabs(x[i] - y[i]) <= bound * most);
     }
     free(M);
@@ -33,10 +34,10 @@ static void assert_dense(const sl_csc *A, const sl_int *of, sl_int components, c
     free(y);
 }
 
-static void against_dense_systems(void **state) {
+static void solutions_equal_dense_bordered_systems(void **state) {
     (void)state;
     static const sl_int sizes[2] = {12, 90};
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int kind = 0; kind < LAPLACIAN_KINDS; kind++) {
         for (int size = 0; size < 2; size++) {
             sl_int components = 0, *of = test_ints((size_t)sizes[size]);
@@ -47,15 +48,15 @@ static void against_dense_systems(void **state) {
             sl_symbolic *S = NULL;
             gen_reals(b, n, 5);
             SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-            for (int k = 0; k < ways.count; k++) {
-                sl_options opt = options_semidefinite(&ways, k);
+            for (int k = 0; k < variants.count; k++) {
+                sl_options opt = options_skip_null(&variants, k);
                 sl_factor *F = NULL;
                 opt.mass = m;
                 SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
                 for (int again = 0; again < 3; again++) {
                     const sl_int column = 0;
                     SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
-                    assert_centred(&M.view, of, m, x, b);
+                    assert_zero_mean(&M.view, of, m, x, b);
                     assert_dense(&M.view, of, components, m, x, b);
                     SL_CHECK(again ? sl_factor_refactor_changed(F, &M.view, &column, 1, NULL)
                                    : sl_factor_refactor(F, &M.view, NULL));
@@ -72,18 +73,18 @@ static void against_dense_systems(void **state) {
     }
 }
 
-/* Every form of solve has the bits of the full one, and none allocates once its workspace has grown; threads change
- * none. */
-static void every_form(void **state) {
+/* Every kind of solve gives the bits of the full one. None allocates once its workspace has grown.
+ * Threads change no bit. */
+static void every_solve_gives_the_same_bits(void **state) {
     (void)state;
     sl_int components = 0, n = 600, *of = test_ints(600);
     gen_matrix_t M = laplacian_of(GEN_COMPONENTS, n, 0, &components, of);
     double *m = weights(n, 4);
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         sl_factor *F = NULL, *G = NULL;
         sl_work *W = NULL;
         int calls = 0;
@@ -98,10 +99,11 @@ static void every_form(void **state) {
         for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
             for (int which = 0; which < 6; which++) {
                 static const sl_int nb[6] = {1, 1, 20, -1, 30, 0}, nx[6] = {1, 30, -1, 5, 30, 3};
-                question_t q = ask(F, n, nb[which], nx[which], nrhs, (uint64_t)(which + 10 * nrhs));
-                answer(S, F, &q, W);
-                answer(S, G, &q, W);
-                forget(&q);
+                local_solve_t q = local_solve_random(F, n, nb[which], nx[which], nrhs,
+                                                     (uint64_t)(which + 10 * nrhs));
+                local_solve_check(S, F, &q, W);
+                local_solve_check(S, G, &q, W);
+                local_solve_free(&q);
             }
         }
         sl_work_free(W);
@@ -115,25 +117,25 @@ static void every_form(void **state) {
 }
 
 /* Interleaved, in a batch, in place: the same bits. */
-static void interleaved_and_batches(void **state) {
+static void interleaved_and_batch_solves_give_the_same_bits(void **state) {
     (void)state;
     enum { N = 300, R = 11 };
     sl_int components = 0, *of = test_ints(N);
     gen_matrix_t M = laplacian_of(GEN_COMPONENTS, N, 0, &components, of);
     double *m = weights(N, 6), *B = test_reals(N * R), *X = test_reals(N * R);
     double *Y = test_reals(N * R);
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_symbolic *S = NULL;
     gen_reals(B, N * R, 9);
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         sl_factor *F = NULL;
         opt.mass = m;
         SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
         SL_CHECK(sl_factor_solve(F, X, N, B, N, R, NULL));
         for (int r = 0; r < R; r++) {
-            assert_centred(&M.view, of, m, X + N * r, B + N * r);
+            assert_zero_mean(&M.view, of, m, X + N * r, B + N * r);
         }
         for (int i = 0; i < N; i++) {
             for (int r = 0; r < R; r++) {
@@ -146,7 +148,7 @@ static void interleaved_and_batches(void **state) {
                 assert_true(same_value(Y[r + R * i], X[i + N * r]));
             }
         }
-        sl_request request = {NULL, Y, N, B, N, 0, R, NULL};
+        sl_request request = {NULL, Y, N, B, N, R, NULL};
         SL_CHECK(sl_batch_solve(F, &request, 1, NULL, NULL, NULL));
         SAME_VALUES(Y, X, N * R);
         sl_factor_free(F);
@@ -162,9 +164,9 @@ static void interleaved_and_batches(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_dense_systems),
-        cmocka_unit_test(every_form),
-        cmocka_unit_test(interleaved_and_batches),
+        cmocka_unit_test(solutions_equal_dense_bordered_systems),
+        cmocka_unit_test(every_solve_gives_the_same_bits),
+        cmocka_unit_test(interleaved_and_batch_solves_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
-/* test_centred_cases.c: options.mass where it is wrong, where a row is zero, where null vectors are not constant, where memory ends */
-#include "centred.h"
-#include "question.h"
+/* test_zero_mean_cases.c: options.mass: invalid weights, zero rows, other null vectors, memory */
+#include "tests/lib/zero_mean.h"
+#include "tests/lib/local_solve.h"
 
-/* A path of n rows between the weights a, with shift on row 0. */
+/* The Laplacian of a path of n rows with edges of weight 1, edge `cut` of weight 0, plus shift on
+ * the diagonal of row 0. */
 static gen_matrix_t path(sl_int n, double shift, sl_int cut) {
     gen_list_t t = gen_list(n);
     for (sl_int k = 0; k < n; k++) {
@@ -17,12 +18,12 @@ static gen_matrix_t path(sl_int n, double shift, sl_int cut) {
     return M;
 }
 
-/* What the weights can be wrong in, and what is not wrong: rows without any, definite matrices. */
-static void weights_that_are_refused(void **state) {
+/* Weights that are refused, and what is accepted: rows of weight 0, definite matrices. */
+static void invalid_weights_are_refused(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         gen_matrix_t M = path(6, 0.0, -1), cut = path(6, 0.0, 3), firm = path(6, 2.0, -1);
         double m[6] = {1, 2, 3, 4, 5, 6}, b[6] = {1, -1, 2, 0, 3, 1}, x[6], y[6];
         sl_symbolic *S = NULL;
@@ -33,51 +34,53 @@ static void weights_that_are_refused(void **state) {
         opt.mass = m;
         for (int bad = 0; bad < 3; bad++) {
             double keep = m[4];
-            m[4] = bad == 0 ? NAN : bad == 1 ? INFINITY : -10.0; /* the last: a sum of 0 */
+            m[4] = bad == 0 ? NAN : bad == 1 ? INFINITY : -10.0; /* -10: the sum is 0 */
             m[5] = bad == 2 ? 0.0 : 6.0;
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &M.view, &opt, &stats));
+            SL_EXPECT(bad < 2 ? SL_ERR_ARGUMENT : SL_ERR_PIVOT,
+                      sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
             assert_null(F);
             if (bad < 2) {
-                assert_int_equal(stats.error_row, 4);
+                assert_int_equal(stats.error.row, 4);
             } else {
-                assert_in_range(stats.error_row, 0, 5);
+                assert_in_range(stats.error.row, 0, 5);
             }
             m[4] = keep;
             m[5] = 6.0;
         }
-        /* cut in two by a weight of 0: one weighted sum is not enough for two null pivots */
-        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &cut.view, &opt, &stats));
+        /* an edge of weight 0 cuts the path: one weighted mean does not determine two null
+         * pivots */
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &cut.view, FOR_FACTOR(&opt), &stats));
         assert_null(F);
-        assert_in_range(stats.error_row, 0, 5);
-        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+        assert_in_range(stats.error.row, 0, 5);
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &cut.view, &stats));
         SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, 6, b, 6, 1, NULL));
-        /* no null pivot: nothing is centred, the bits are those without weights */
+        /* no null pivot: the solution is not shifted; the bits are those without weights */
         SL_CHECK(sl_factor_refactor(F, &firm.view, &stats));
-        assert_int_equal(stats.null, 0);
+        assert_int_equal(stats.factor.null, 0);
         SL_CHECK(sl_factor_solve(F, x, 6, b, 6, 1, NULL));
         opt.mass = NULL;
-        SL_CHECK(sl_factor_create(&plain, S, &firm.view, &opt, NULL));
+        SL_CHECK(sl_factor_create(&plain, S, &firm.view, FOR_FACTOR(&opt), NULL));
         SL_CHECK(sl_factor_solve(plain, y, 6, b, 6, 1, NULL));
         SAME_VALUES(x, y, 6);
         sl_factor_free(plain);
-        /* and back to what is singular; all weights 0 count as 1 */
+        /* singular again; weights that are all 0 count as 1 */
         SL_CHECK(sl_factor_refactor(F, &M.view, &stats));
-        assert_int_equal(stats.null, 1);
+        assert_int_equal(stats.factor.null, 1);
         const sl_int of[6] = {0, 0, 0, 0, 0, 0};
         SL_CHECK(sl_factor_solve(F, x, 6, b, 6, 1, NULL));
-        assert_centred(&M.view, of, m, x, b);
+        assert_zero_mean(&M.view, of, m, x, b);
         sl_factor_free(F);
         const double none[6] = {0, 0, 0, 0, 0, 0}, ones[6] = {1, 1, 1, 1, 1, 1};
         opt.mass = none;
-        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
         SL_CHECK(sl_factor_solve(F, x, 6, b, 6, 1, NULL));
-        assert_centred(&M.view, of, ones, x, b);
+        assert_zero_mean(&M.view, of, ones, x, b);
         sl_factor_free(F);
-        /* read with SL_SEMIDEFINITE only */
-        opt.definiteness = SL_DEFINITE;
+        /* read with SL_NULL_PIVOT_SKIP only */
+        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
         opt.mass = m;
-        SL_CHECK(sl_factor_create(&F, S, &firm.view, &opt, &stats));
+        SL_CHECK(sl_factor_create(&F, S, &firm.view, FOR_FACTOR(&opt), &stats));
         sl_factor_free(F);
         sl_symbolic_free(S);
         gen_matrix_free(&M);
@@ -86,16 +89,17 @@ static void weights_that_are_refused(void **state) {
     }
 }
 
-/* Vertices without any weight, tied to the others by zeros in the pattern: components of their own. */
-static void rows_of_zeros(void **state) {
+/* Vertices whose edges all have weight 0: each is a component of its own. */
+static void rows_of_zeros_are_components(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     for (int every = 1; every <= 7; every += 2) {
         sl_int components = 0;
         gen_matrix_t M = laplacian(GEN_GRID2, 100, 0, &components);
         sl_int n = M.view.n_cols, of[100];
         double *m = weights(n, 5), *sums = test_reals((size_t)n), b[100], x[100];
-        for (sl_int k = 0; k < n; k++) { /* every = 1: all rows; else a few that part nothing */
+        /* every = 1: all rows; otherwise a few rows that do not disconnect the graph */
+        for (sl_int k = 0; k < n; k++) {
             of[k] = every == 1 || (k % every == 0 && k / 10 % 2 && k % 10 % 2) ? k : 0;
         }
         for (sl_int j = 0; j < n; j++) {
@@ -109,21 +113,21 @@ static void rows_of_zeros(void **state) {
             }
         }
         for (sl_int j = 0; j < n; j++) {
-            M.x[M.p[j]] = sums[j]; /* a column begins with its diagonal */
+            M.x[M.p[j]] = sums[j]; /* the diagonal is the first entry of a column */
         }
         gen_reals(b, (size_t)n, 3);
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-        for (int k = 0; k < ways.count; k++) {
-            sl_options opt = options_semidefinite(&ways, k);
+        for (int k = 0; k < variants.count; k++) {
+            sl_options opt = options_skip_null(&variants, k);
             sl_factor *F = NULL;
             opt.mass = m;
-            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+            SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
             SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
-            assert_centred(&M.view, of, m, x, b);
-            question_t q = ask(F, n, 5, 20, 3, 8);
-            answer(S, F, &q, NULL);
-            forget(&q);
+            assert_zero_mean(&M.view, of, m, x, b);
+            local_solve_t q = local_solve_random(F, n, 5, 20, 3, 8);
+            local_solve_check(S, F, &q, NULL);
+            local_solve_free(&q);
             sl_factor_free(F);
         }
         sl_symbolic_free(S);
@@ -133,15 +137,16 @@ static void rows_of_zeros(void **state) {
     }
 }
 
-/* A null vector that is not constant: S A S has S^-1 1. z' b decides, and the weights still say which x. */
-static void a_null_vector_of_any_kind(void **state) {
+/* A null vector that is not constant: that of S A S is S^-1 1. z' b decides whether b is
+ * consistent, and the weights still select x. */
+static void a_null_vector_need_not_be_constant(void **state) {
     (void)state;
     sl_int components = 0, n = 90;
     gen_matrix_t M = laplacian(GEN_GRID2, n, 0, &components);
     n = M.view.n_cols;
     double *scale = weights(n, 8), *m = weights(n, 9), *b = test_reals((size_t)n);
     double *x = test_reals((size_t)n);
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_symbolic *S = NULL;
     for (sl_int j = 0; j < n; j++) {
         for (sl_int p = M.p[j]; p < M.p[j + 1]; p++) {
@@ -150,13 +155,13 @@ static void a_null_vector_of_any_kind(void **state) {
     }
     gen_reals(b, (size_t)n, 2);
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
-        sl_options opt = options_semidefinite(&ways, k);
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
         sl_factor *F = NULL;
         double z_b = 0.0, z_m = 0.0, sum = 0.0, total = 0.0, most = 0.0,
                *rhs = test_reals((size_t)n);
         opt.mass = m;
-        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
         SL_CHECK(sl_factor_solve(F, x, (size_t)n, b, (size_t)n, 1, NULL));
         for (sl_int i = 0; i < n; i++) {
             z_b += b[i] / scale[i];
@@ -181,37 +186,38 @@ static void a_null_vector_of_any_kind(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Every allocation of a factor with weights may fail; neither refactoring nor solving asks for more. */
-static void memory(void **state) {
+/* Every allocation of a factor with weights may fail; refactoring and solving allocate nothing
+ * more. */
+static void every_allocation_may_fail(void **state) {
     (void)state;
-    way_list_t ways = ways_present();
+    variant_list_t variants = variants_present();
     sl_int components = 0, rows[3] = {0, 40, 80};
     gen_matrix_t M = laplacian(GEN_COMPONENTS, 90, 0, &components);
     double *m = weights(90, 2), b[3 * 9], x[3 * 9];
     sl_symbolic *S = NULL;
     gen_reals(b, 3 * 9, 1);
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
-    for (int k = 0; k < ways.count; k++) {
+    for (int k = 0; k < variants.count; k++) {
         for (int64_t fails = 0, done = 0; !done; fails++) {
             counter_t counter = counter_make();
-            sl_options opt = options_counted(&counter), wish = options_semidefinite(&ways, k);
+            sl_options opt = options_counted(&counter), wanted = options_skip_null(&variants, k);
             sl_factor *F = NULL;
             sl_work *W = NULL;
-            opt.isa = wish.isa;
-            opt.method = wish.method;
-            opt.definiteness = wish.definiteness;
+            opt.isa = wanted.isa;
+            opt.method = wanted.method;
+            opt.null_pivots = wanted.null_pivots;
             opt.mass = m;
             counter.fail_at = fails;
-            sl_status status = sl_factor_create(&F, S, &M.view, &opt, NULL);
+            sl_status status = sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL);
             done = status == SL_OK;
             assert_true(done ? F != NULL : F == NULL && status == SL_ERR_MEMORY);
             if (done) {
                 counter.fail_at = -1;
-                SL_CHECK(sl_work_create(&W, &opt));
-                SL_CHECK(sl_local_solve(F, x, 3, rows, 3, b, 3, rows, 3, 9, W, NULL));
+                SL_CHECK(sl_work_create(&W, FOR_OTHERS(&opt)));
+                SL_CHECK(sl_local_solve(F, rows, 3, rows, 3, x, 3, b, 3, 9, W, NULL));
                 size_t calls = counter.calls;
                 SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
-                SL_CHECK(sl_local_solve(F, x, 3, rows, 3, b, 3, rows, 3, 9, W, NULL));
+                SL_CHECK(sl_local_solve(F, rows, 3, rows, 3, x, 3, b, 3, 9, W, NULL));
                 assert_int_equal(counter.calls, calls);
                 assert_true(fails > 0);
             }
@@ -227,10 +233,10 @@ static void memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_that_are_refused),
-        cmocka_unit_test(rows_of_zeros),
-        cmocka_unit_test(a_null_vector_of_any_kind),
-        cmocka_unit_test(memory),
+        cmocka_unit_test(invalid_weights_are_refused),
+        cmocka_unit_test(rows_of_zeros_are_components),
+        cmocka_unit_test(a_null_vector_need_not_be_constant),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,10 @@
-/* fuzz_matrix_market.c: any bytes as a Matrix Market file; what is accepted is a good matrix, and a small one is solved */
+/* fuzz_matrix_market.c: parses any bytes as a Matrix Market file; accepted matrices must be valid,
+ * small ones are solved */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "../sparse_local.h"
+#include "sparse_local.h"
 
 #define PROMISE(condition) ((condition) ? (void)0 : abort())
 
@@ -11,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { MOST = 64 };
 
-/* A header may honestly ask for 2^31 empty columns: no input here needs that much. */
+/* A valid header may ask for 2^31 empty columns. No input here needs that much. */
 static void *allocate(void *context, size_t bytes) {
     (void)context;
     return bytes > ((size_t)1 << 26) ? NULL : malloc(bytes);
@@ -37,7 +38,7 @@ static void solve(const sl_csc *A) {
         PROMISE(sl_factor_solve(F, X, MOST, B, MOST, 1, NULL) == SL_OK);
         PROMISE(sl_factor_solve(F, Y, MOST, Y, MOST, 1, NULL) == SL_OK);
         if (last >= 0) {
-            PROMISE(sl_local_solve(F, X, 1, &last, 1, B + last, 1, &last, 1, 1, NULL, NULL) ==
+            PROMISE(sl_local_solve(F, &last, 1, &last, 1, X, 1, B + last, 1, 1, NULL, NULL) ==
                     SL_OK);
             PROMISE(X[0] == Y[last] || (X[0] != X[0] && Y[last] != Y[last]));
         }
@@ -55,7 +56,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const sl_status status = sl_matrix_parse(&M, (const char *)data, size, &opt, &stats);
     PROMISE((M != NULL) == (status == SL_OK));
     if (status == SL_ERR_IO) {
-        PROMISE(stats.error_line >= 0 && (size_t)stats.error_line <= size + 1);
+        PROMISE(stats.error.line >= 0 && (size_t)stats.error.line <= size + 1);
     }
     if (M) {
         sl_matrix *T = NULL;

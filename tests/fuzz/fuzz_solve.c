@@ -1,15 +1,17 @@
-/* fuzz_solve.c: any bytes as a small matrix (often malformed), options and sets; all calls; local must equal full */
+/* fuzz_solve.c: takes a small matrix (often malformed), options and sets from any bytes and makes
+ * every call with them; local solves must equal full solves */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../sparse_local.h"
+#include "sparse_local.h"
 
 #define PROMISE(condition) ((condition) ? (void)0 : abort())
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { MOST = 40, ENTRIES = 512, RHS = 9 };
+/* Sizes are small so that runs are short: two tiles of 8 rows, two blocks of 8 right-hand sides. */
+enum { MOST = 16, ENTRIES = 128, RHS = 9 };
 
 typedef struct input_t {
     const uint8_t *at, *end;
@@ -19,13 +21,13 @@ static int take(input_t *in) {
     return in->at < in->end ? *in->at++ : 0;
 }
 
-/* 0..n-1, and now and then just outside */
+/* a row in 0..n-1, occasionally one just outside */
 static sl_int take_row(input_t *in, sl_int n) {
     const int byte = take(in);
     return byte == 255 ? n : byte == 254 ? -1 : n > 0 ? byte % n : 0;
 }
 
-/* small integers and eighths, so that cancellations are exact and frequent, with some extremes */
+/* Small integers and eighths, so that exact cancellation is frequent, with some extreme values. */
 static double take_value(input_t *in) {
     static const double odd[8] = {1e300, -1e300, 1e-300, 0.0, 1.0 / 3.0, 5e-324, -1.0, 1e16};
     const int byte = take(in);
@@ -38,7 +40,7 @@ typedef struct case_t {
     sl_int signs[MOST];
     double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS], mass[MOST];
     sl_int nb, nx, nrhs;
-    sl_options opt;
+    sl_options for_analysis, for_factor;
 } case_t;
 
 static void take_matrix(case_t *c, input_t *in) {
@@ -50,8 +52,8 @@ static void take_matrix(case_t *c, input_t *in) {
     c->p[0] = form >= 250 ? -1 : 0;
     for (sl_int j = 0; j < n; j++) {
         const sl_int count = take(in) % 8;
-        if (form & 4 &&
-            stored < ENTRIES) { /* a strong diagonal, so that factorizations often succeed */
+        /* A strong diagonal, so that factorizations often succeed. */
+        if (form & 4 && stored < ENTRIES) {
             c->i[stored] = j;
             c->x[stored++] = (take(in) % 2 ? 1 : -1) * (40.0 + j);
         }
@@ -65,8 +67,8 @@ static void take_matrix(case_t *c, input_t *in) {
         }
         c->p[j + 1] = (sl_int)stored;
     }
-    if (form >= 240 &&
-        n > 1) { /* positions out of order; the last one stays true, arrays end there */
+    /* Column pointers out of order. The last one stays valid because the arrays end there. */
+    if (form >= 240 && n > 1) {
         c->p[1 + take(in) % (n - 1)] = take(in) * 8 - 64;
     }
     c->A.p = c->p;
@@ -74,7 +76,7 @@ static void take_matrix(case_t *c, input_t *in) {
     c->A.x = form & 16 ? NULL : c->x;
 }
 
-/* Workers one after the other, the last first. */
+/* Runs the tasks one after the other, the last first. */
 static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k),
                           void *data) {
     (void)context;
@@ -83,37 +85,38 @@ static void run_backwards(void *context, sl_int count, void (*body)(void *data, 
     }
 }
 
-/* What becomes of null pivots: refused, skipped with weights or without, regularized. */
-static void take_nulls(case_t *c, input_t *in, int which) {
+/* Options for null pivots: refused, skipped with or without weights, regularized. */
+static void take_null_pivots(case_t *c, input_t *in, int which) {
     const int more = which > 0 ? take(in) : 0;
     if (which == 1) {
-        c->opt.definiteness = SL_SEMIDEFINITE;
-        c->opt.mass = more & 1 ? c->mass : NULL;
-        c->opt.consistency_tolerance = more & 2 ? -1.0 : more & 4 ? more / 64.0 : 0.0;
+        c->for_factor.null_pivots = SL_NULL_PIVOT_SKIP;
+        c->for_factor.mass = more & 1 ? c->mass : NULL;
+        c->for_factor.consistency_tolerance = more & 2 ? -1.0 : more & 4 ? more / 64.0 : 0.0;
         for (sl_int k = 0; more & 1 && k < c->A.n_cols; k++) {
             c->mass[k] = take_value(in);
         }
     } else if (which == 2) {
-        c->opt.regularization = more / 256.0;
-        c->opt.signs = more & 1 ? c->signs : NULL;
+        c->for_factor.regularization = more / 256.0;
+        c->for_factor.signs = more & 1 ? c->signs : NULL;
         for (sl_int k = 0; more & 1 && k < c->A.n_cols; k++) {
             c->signs[k] = take(in) % 3 - 1;
         }
     }
 }
 
-static void take_wishes(case_t *c, input_t *in) {
-    const int wishes = take(in), more = take(in);
+static void take_options(case_t *c, input_t *in) {
+    const int choices = take(in), more = take(in);
     const sl_int n = c->A.n_cols;
-    memset(&c->opt, 0, sizeof c->opt);
-    c->opt.ordering = (sl_ordering)(wishes % 4);
-    c->opt.relaxation = (sl_relaxation)(wishes / 4 % 2);
-    c->opt.isa = (sl_isa)(wishes / 8 % 5);
-    c->opt.method = (sl_method)(wishes / 40 % 3);
-    c->opt.threads.count = more % 5;
-    c->opt.threads.run = run_backwards;
-    c->opt.null_tolerance = more < 64 ? 0.0 : more < 128 ? -1.0 : more / 256.0;
-    c->opt.perm = c->perm;
+    memset(&c->for_analysis, 0, sizeof c->for_analysis);
+    memset(&c->for_factor, 0, sizeof c->for_factor);
+    c->for_analysis.ordering = (sl_ordering)(choices % 5);
+    c->for_analysis.relaxation = (sl_relaxation)(choices / 4 % 2);
+    c->for_factor.isa = (sl_isa)(choices / 8 % 5);
+    c->for_factor.method = (sl_method)(choices / 40 % 3);
+    c->for_factor.threads.count = more % 5;
+    c->for_factor.threads.run = run_backwards;
+    c->for_factor.null_tolerance = more < 64 ? 0.0 : more < 128 ? -1.0 : more / 256.0;
+    c->for_analysis.perm = c->perm;
     for (sl_int k = 0; k < n; k++) {
         c->perm[k] = k;
     }
@@ -123,7 +126,7 @@ static void take_wishes(case_t *c, input_t *in) {
         c->perm[with] = keep;
     }
     if (more == 7 && n > 0) {
-        c->perm[0] = take_row(in, n); /* perhaps twice */
+        c->perm[0] = take_row(in, n); /* possibly a row twice */
     }
     c->nb = n > 0 ? take(in) % n : 0;
     c->nx = n > 0 ? take(in) % n : 0;
@@ -137,30 +140,30 @@ static void take_wishes(case_t *c, input_t *in) {
     for (sl_int q = 0; q < MOST * c->nrhs; q++) {
         c->B[q] = take_value(in);
     }
-    take_nulls(c, in, wishes / 120);
+    take_null_pivots(c, in, choices / 120);
 }
 
-/* b known on bset, column-major with leading dimension MOST, spread over all rows and solved in full */
+/* Puts b on bset, column-major with leading dimension MOST, into all rows and solves in full. */
 static sl_status solve_full(case_t *c, const sl_factor *F) {
     memset(c->full, 0, sizeof c->full);
     for (sl_int r = 0; r < c->nrhs; r++) {
         for (sl_int k = 0; k < c->nb; k++) {
-            c->full[c->bset[k] + MOST * r] = c->B[k + MOST * r];
+            c->full[c->bset[k] + MOST * r] += c->B[k + MOST * r]; /* a row may repeat */
         }
     }
     return sl_factor_solve(F, c->full, MOST, c->full, MOST, c->nrhs, NULL);
 }
 
-/* What asks for no plan: estimates, defects, refinement. */
-static void ask_all(case_t *c, const sl_factor *F, sl_work *W) {
+/* Calls without a plan: condition estimate, defects, refinement. */
+static void query_all(case_t *c, const sl_factor *F, sl_work *W) {
     sl_int count = -1;
     double rcond = -1.0, defects[MOST * RHS];
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
     sl_factor_stats(F, &stats);
-    PROMISE(sl_factor_null_rows(F, NULL, 0, &count) == SL_OK && count == stats.null);
+    PROMISE(sl_factor_null_rows(F, NULL, 0, &count) == SL_OK && count == stats.factor.null);
     PROMISE(sl_factor_regularized_rows(F, NULL, NULL, 0, &count) == SL_OK);
-    PROMISE(count == stats.regularized);
+    PROMISE(count == stats.factor.regularized);
     PROMISE(sl_factor_rcond(F, &c->A, &rcond, W) == SL_OK && rcond >= 0.0);
     PROMISE(sl_factor_defects(F, defects, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
     PROMISE(sl_factor_refine(F, &c->A, c->full, MOST, c->B, MOST, c->nrhs, 3, W, &stats) == SL_OK);
@@ -175,38 +178,40 @@ static void compare(const case_t *c) {
     }
 }
 
-/* The same inside a region for both sets: without a boundary it has the bits, too; with one, and with values such as
- * these, it need only come to an end. */
+/* Solves in a region that holds both sets. Without a boundary it must give the same bits. With a
+ * boundary, and with values as extreme as these, it must only return. */
 static void solve_in_region(case_t *c, const sl_symbolic *S, const sl_factor *F, sl_status shot,
                             sl_status full, sl_work *W) {
     sl_int set[2 * MOST];
     for (sl_int k = 0; k < c->nb + c->nx; k++) {
         set[k] = k < c->nb ? c->bset[k] : c->xset[k - c->nb];
     }
-    for (int is_free = 0; is_free < 2; is_free++) {
+    for (int has_no_limit = 0; has_no_limit < 2; has_no_limit++) {
         sl_options opt;
         sl_region *R = NULL;
         sl_plan *P = NULL;
         sl_stats stats;
         memset(&opt, 0, sizeof opt);
         memset(&stats, 0, sizeof stats);
-        opt.region_bytes = is_free ? 0 : 1;
+        opt.region_bytes = has_no_limit ? 0 : 1;
         const sl_status status = sl_region_create(&R, F, set, c->nb + c->nx, NULL, &opt, &stats);
-        PROMISE(status == SL_OK || status == SL_ERR_UNSUPPORTED); /* solves are centred */
+        /* solves with weights subtract a mean */
+        PROMISE(status == SL_OK || status == SL_ERR_UNSUPPORTED);
         if (status != SL_OK) {
             return;
         }
-        PROMISE(is_free || stats.region_boundary == 0);
+        PROMISE(has_no_limit || stats.region.boundary == 0);
+        opt.region_bytes = 0;
         opt.region = R;
         PROMISE(sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, &opt, &stats) == SL_OK);
-        PROMISE(stats.plan_in_region == 1);
+        PROMISE(stats.plan.in_region == 1);
         memset(c->X, 0, sizeof c->X);
         const sl_status inside = sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W);
-        PROMISE(is_free ? inside == SL_OK || inside == SL_ERR_INCONSISTENT : inside == shot);
-        if (!is_free && full == SL_OK) {
+        PROMISE(has_no_limit ? inside == SL_OK || inside == SL_ERR_INCONSISTENT : inside == shot);
+        if (!has_no_limit && full == SL_OK) {
             compare(c);
         }
-        PROMISE(sl_region_refill(R, F, NULL, W) == SL_OK);
+        PROMISE(sl_region_refactor(R, F, NULL, W) == SL_OK);
         PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == inside);
         sl_plan_free(P);
         sl_region_free(R);
@@ -227,11 +232,11 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
     PROMISE((P != NULL) == (planned == SL_OK));
     PROMISE(planned == SL_OK || planned == SL_ERR_ARGUMENT);
     const sl_status shot =
-        sl_local_solve(F, c->X, MOST, c->xset, c->nx, c->B, MOST, c->bset, c->nb, c->nrhs, W, NULL);
+        sl_local_solve(F, c->bset, c->nb, c->xset, c->nx, c->X, MOST, c->B, MOST, c->nrhs, W, NULL);
     PROMISE(planned == shot || (planned == SL_OK && shot == SL_ERR_INCONSISTENT));
     if (P) {
         const sl_status full = solve_full(c, F);
-        PROMISE(full == shot || c->nx == 0); /* where nothing is wanted nothing is looked at */
+        PROMISE(full == shot || c->nx == 0); /* with an empty x-set nothing is checked */
         if (full == SL_OK) {
             compare(c);
         }
@@ -245,13 +250,13 @@ static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
         PROMISE(refined == shot || (shot == SL_OK && refined == SL_ERR_ARGUMENT));
         solve_in_region(c, S, F, shot, full, W);
     }
-    ask_all(c, F, W);
+    query_all(c, F, W);
     sl_work_free(W);
     sl_plan_free(P);
     sl_matrix_free(L);
 }
 
-/* Other values in the first half of the columns, and only their reach factored again. */
+/* Changes the first half of the columns and refactors only their reach. */
 static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in) {
     sl_int columns[MOST];
     const sl_int half = c->A.n_cols / 2;
@@ -268,26 +273,27 @@ static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     input_t in = {data, data};
-    case_t *c = (case_t *)calloc(1, sizeof *c);
+    static case_t only;
+    case_t *c = &only;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     sl_matrix *T = NULL;
-    if (!c || size == 0) {
-        free(c);
+    if (size == 0) {
         return 0;
     }
     in.end = data + size;
+    memset(c, 0, sizeof *c); /* a run depends on its input alone */
     take_matrix(c, &in);
-    take_wishes(c, &in);
+    take_options(c, &in);
     const sl_status good = sl_csc_check(&c->A, NULL);
     PROMISE((sl_matrix_transpose(&T, &c->A, NULL) == SL_OK) == (good == SL_OK));
-    const sl_status status = sl_symbolic_create(&S, &c->A, &c->opt, NULL);
+    const sl_status status = sl_symbolic_create(&S, &c->A, &c->for_analysis, NULL);
     PROMISE((S != NULL) == (status == SL_OK));
     if (S) {
         PROMISE(good == SL_OK && c->A.n_rows == c->A.n_cols);
-        sl_factor_create(&F, S, &c->A, &c->opt, NULL) == SL_OK ? solve_all(c, S, F)
-                                                               : PROMISE(F == NULL);
-        if (F) { /* other values: the same pattern, perhaps no factor */
+        sl_factor_create(&F, S, &c->A, &c->for_factor, NULL) == SL_OK ? solve_all(c, S, F)
+                                                                      : PROMISE(F == NULL);
+        if (F) { /* New values on the same pattern, which may have no factor. */
             for (sl_int q = 0; q < c->p[c->A.n_cols]; q++) {
                 c->x[q] = take_value(&in);
             }
@@ -302,6 +308,5 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_matrix_free(T);
     sl_factor_free(F);
     sl_symbolic_free(S);
-    free(c);
     return 0;
 }

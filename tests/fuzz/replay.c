@@ -1,4 +1,4 @@
-/* replay.c: feeds files to a fuzz target without a fuzzer, so that the suite runs the kept inputs with any compiler */
+/* replay.c: runs a fuzz target on files, without a fuzzer, with any compiler */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -6,7 +6,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Replays one file in a block of just its size, so that a read past the end is seen. Returns whether it was read. */
+/* Runs one file in a block of exactly its size, so that a read past its end is detected. Returns
+ * whether it was read. */
 static int replay(const char *path) {
     FILE *f = fopen(path, "rb");
     long size = -1;
@@ -28,7 +29,7 @@ int main(int argc, char **argv) {
     LLVMFuzzerTestOneInput(&nothing, 0);
     int failed = 0;
     for (int k = 1; k < argc; k++) {
-        printf("%s\n", argv[k]); /* the last line names the input that crashed */
+        printf("%s\n", argv[k]); /* the last line printed names the input that crashed */
         fflush(stdout);
         if (!replay(argv[k])) {
             fprintf(stderr, "%s: cannot be read\n", argv[k]);

@@ -1,13 +1,14 @@
-/* disk_checks.h: what a disk must be, checked without disk.c */
-#ifndef SL_TEST_DISK_CHECKS_H
-#define SL_TEST_DISK_CHECKS_H
+/* check_disk.h: checks that a mesh is a topological disk, without using disk_patch.c */
+#ifndef SL_TEST_CHECK_DISK_H
+#define SL_TEST_CHECK_DISK_H
 
 #include "test.h"
 
-#include "../tools/disk.h"
+#include "tools/mesh/disk_patch.h"
 
-/* Independent of disk.c: every edge of one or two faces that run it in opposite directions, the boundary a loop. */
-static inline void is_disk(const disk *d) {
+/* Each edge belongs to one face, or to two that traverse it in opposite directions; the edges of
+ * one face form one loop, the boundary; the Euler characteristic is 1. */
+static inline void assert_is_disk(const disk_patch *d) {
     const mesh *m = &d->p.m;
     sl_int n = m->n_vertices;
     sl_int once = 0;
@@ -28,7 +29,7 @@ static inline void is_disk(const disk *d) {
         }
     }
     assert_int_equal(once, d->n_boundary);
-    /* V - E + F = 1, of E edges 3 F - E have two faces */
+    /* V - E + F = 1; of the E edges, 3 F - E belong to two faces */
     assert_int_equal(n - (3 * m->n_faces + once) / 2 + m->n_faces, 1);
     for (sl_int k = 0; k < d->n_boundary; k++) {
         sl_int u = d->boundary[k], v = d->boundary[(k + 1) % d->n_boundary];

@@ -1,11 +1,11 @@
-/* check.h: validators that name their reason, shared by the tests and tried on broken input by test_meta.c */
-#ifndef SL_TEST_CHECK_H
-#define SL_TEST_CHECK_H
+/* check_factor.h: validators of permutations, trees, analyses and factors */
+#ifndef SL_TEST_CHECK_FACTOR_H
+#define SL_TEST_CHECK_FACTOR_H
 
-#include "gen.h"
-#include "ref.h"
+#include "gen_matrices.h"
+#include "dense_reference.h"
 
-/* NULL, or what is wrong with perm and its inverse. */
+/* NULL, or what is wrong with perm and iperm. */
 static inline const char *check_permutation(sl_int n, const sl_int *perm, const sl_int *iperm) {
     char *seen = (char *)test_array((size_t)n, 1);
     const char *wrong = NULL;
@@ -22,8 +22,9 @@ static inline const char *check_permutation(sl_int n, const sl_int *perm, const 
     return wrong;
 }
 
-/* NULL, or which promise of sl_symbolic_view_t about supernodes, rows and panels is broken: needs no dense matrix. */
-static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
+/* NULL, or the invariant of supernodes, rows and panels in sl_symbolic_arrays that does not hold.
+ * Needs no dense matrix. */
+static inline const char *check_supernodes(const sl_symbolic_arrays *v) {
     if (v->super_first[0] != 0 || v->super_first[v->n_supers] != v->n) {
         return "supernodes do not span the columns";
     }
@@ -42,7 +43,7 @@ static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
         }
         sl_off begin = v->rows_begin[s], end = v->rows_begin[s + 1];
         if (end < begin) {
-            return "rows_begin descends";
+            return "rows_begin decreases";
         }
         for (sl_off q = begin; q < end; q++) {
             if (v->rows[q] >= v->n || v->rows[q] <= (q > begin ? v->rows[q - 1] : last)) {
@@ -54,9 +55,10 @@ static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
         }
         if (v->panel_begin[s + 1] - v->panel_begin[s] !=
             ref_panel_size(ref_width(v, s), ref_height(v, s))) {
-            return "panel size";
+            return "wrong panel size";
         }
-        if (begin < end) { /* the rows beyond the parent's columns must be rows of the parent */
+        /* the rows beyond the parent's columns must be rows of the parent */
+        if (begin < end) {
             sl_int up = v->super_parent[s];
             sl_off at = v->rows_begin[up];
             for (sl_off q = begin; q < end; q++) {
@@ -65,7 +67,7 @@ static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
                         at++;
                     }
                     if (at == v->rows_begin[up + 1] || v->rows[at] != v->rows[q]) {
-                        return "a row is missing in the parent";
+                        return "a row is missing in the parent supernode";
                     }
                 }
             }
@@ -74,46 +76,47 @@ static inline const char *check_supernodes(const sl_symbolic_view_t *v) {
     return NULL;
 }
 
-/* NULL, or which promise of sl_symbolic_view_t about the tree of separators is broken. */
-static inline const char *check_parts(const sl_symbolic_view_t *v, const sl_csc *A) {
-    if (v->n_parts == 0) {
-        return v->part_of || v->part_parent || v->part_level ? "arrays of no tree" : NULL;
+/* NULL, or the invariant of the separator tree in sl_symbolic_arrays that does not hold. */
+static inline const char *check_septree(const sl_symbolic_arrays *v, const sl_csc *A) {
+    if (v->n_nodes == 0) {
+        return v->node_of || v->node_parent || v->node_level ? "arrays without a tree" : NULL;
     }
-    sl_int *sizes = test_ints((size_t)v->n_parts);
+    sl_int *sizes = test_ints((size_t)v->n_nodes);
     const char *wrong = NULL;
     for (sl_int k = 0; k < v->n && !wrong; k++) {
-        if (v->part_of[k] < 0 || v->part_of[k] >= v->n_parts) {
-            wrong = "a column of no node";
+        if (v->node_of[k] < 0 || v->node_of[k] >= v->n_nodes) {
+            wrong = "a column without a node";
         } else {
-            sizes[v->part_of[k]]++;
+            sizes[v->node_of[k]]++;
         }
     }
-    for (sl_int t = 0; t < v->n_parts && !wrong; t++) {
-        const sl_int up = v->part_parent[t];
+    for (sl_int t = 0; t < v->n_nodes && !wrong; t++) {
+        const sl_int up = v->node_parent[t];
         if (sizes[t] == 0) {
             wrong = "an empty node";
-        } else if (up != -1 && (up <= t || up >= v->n_parts)) {
+        } else if (up != -1 && (up <= t || up >= v->n_nodes)) {
             wrong = "a parent before its child";
-        } else if (v->part_level[t] != (up == -1 ? 0 : v->part_level[up] + 1)) {
-            wrong = "level";
+        } else if (v->node_level[t] != (up == -1 ? 0 : v->node_level[up] + 1)) {
+            wrong = "wrong level";
         }
     }
     for (sl_int j = 0; j < A->n_cols && !wrong; j++) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
-            sl_int a = v->part_of[v->iperm[j]], b = v->part_of[v->iperm[A->i[p]]];
-            while (a != b && a != -1 && b != -1) { /* the lower one climbs */
+            sl_int a = v->node_of[v->iperm[j]], b = v->node_of[v->iperm[A->i[p]]];
+            /* move the lower node up */
+            while (a != b && a != -1 && b != -1) {
                 if (a < b) {
-                    a = v->part_parent[a];
+                    a = v->node_parent[a];
                 } else {
-                    b = v->part_parent[b];
+                    b = v->node_parent[b];
                 }
                 if (a == -1 || b == -1) {
                     wrong = "an entry joins two nodes of different trees";
                 }
             }
-            /* one of the two must have stood still */
-            if (!wrong && a != v->part_of[v->iperm[j]] && a != v->part_of[v->iperm[A->i[p]]]) {
-                wrong = "an entry joins two parts that are separated";
+            /* If both moved, neither node is an ancestor of the other. */
+            if (!wrong && a != v->node_of[v->iperm[j]] && a != v->node_of[v->iperm[A->i[p]]]) {
+                wrong = "an entry joins two nodes that a separator divides";
             }
         }
     }
@@ -121,20 +124,21 @@ static inline const char *check_parts(const sl_symbolic_view_t *v, const sl_csc 
     return wrong;
 }
 
-/* Postorder: the descendants of each node are the ones right before it. */
+/* NULL, or what shows that parent is not postordered: the descendants of a node must directly
+ * precede it. */
 static inline const char *check_postorder(sl_int n, const sl_int *parent) {
     sl_int *size = test_ints((size_t)n), *first = test_ints((size_t)n);
     const char *wrong = NULL;
     for (sl_int k = 0; k < n; k++) {
         first[k] = k;
     }
-    for (sl_int k = 0; k < n && !wrong;
-         k++) { /* children before parents: first[k] is final when k is met */
+    /* children come before parents: first[k] is final when k is visited */
+    for (sl_int k = 0; k < n && !wrong; k++) {
         size[k]++;
         if (k - first[k] + 1 != size[k]) {
             wrong = "not a postorder";
         } else if (parent[k] != -1 && (parent[k] <= k || parent[k] >= n)) {
-            wrong = "a parent that is not later";
+            wrong = "a parent that is not after its child";
         } else if (parent[k] != -1) {
             sl_int up = parent[k];
             size[up] += size[k];
@@ -146,8 +150,9 @@ static inline const char *check_postorder(sl_int n, const sl_int *parent) {
     return wrong;
 }
 
-/* The tree, the counts and the rows against dense symbolic elimination; exact: no row more than L has. */
-static inline const char *check_structure(const sl_symbolic_view_t *v, const sl_csc *A, int exact) {
+/* Compares the tree, the counts and the stored rows with dense symbolic elimination. exact: no row
+ * is stored that L does not have. */
+static inline const char *check_structure(const sl_symbolic_arrays *v, const sl_csc *A, int exact) {
     sl_int n = v->n, *parent = test_ints((size_t)n), *counts = test_ints((size_t)n);
     char *M = ref_pattern(A), *fill = ref_permute_pattern(n, M, v->perm), *stored = NULL;
     const char *wrong = NULL;
@@ -155,7 +160,9 @@ static inline const char *check_structure(const sl_symbolic_view_t *v, const sl_
     ref_etree(n, fill, parent);
     ref_counts(n, fill, counts);
     for (sl_int k = 0; k < n && !wrong; k++) {
-        wrong = parent[k] != v->parent[k] ? "parent" : counts[k] != v->counts[k] ? "counts" : NULL;
+        wrong = parent[k] != v->parent[k]   ? "wrong parent"
+                : counts[k] != v->counts[k] ? "wrong count"
+                                            : NULL;
     }
     stored = (char *)test_array((size_t)n * (size_t)n, 1);
     for (sl_int s = 0; s < v->n_supers; s++) {
@@ -168,9 +175,9 @@ static inline const char *check_structure(const sl_symbolic_view_t *v, const sl_
     for (sl_int j = 0; j < n && !wrong; j++) {
         for (sl_int i = j; i < n && !wrong; i++) {
             if (AT(fill, i, j) && !AT(stored, i, j)) {
-                wrong = "an entry of L has no place";
+                wrong = "an entry of L is not stored";
             } else if (exact && AT(stored, i, j) && !AT(fill, i, j)) {
-                wrong = "a place for a zero without relaxation";
+                wrong = "a zero is stored without relaxation";
             }
         }
     }
@@ -182,10 +189,11 @@ static inline const char *check_structure(const sl_symbolic_view_t *v, const sl_
     return wrong;
 }
 
-/* L as a dense matrix from the panels, or NULL with *wrong set where a zero that is promised is not there. */
+/* L as a dense matrix, expanded from the panels. *wrong is NULL, or says that a stored value which
+ * must be 0 is not. */
 static inline double *check_expand(const sl_factor *F, const char **wrong) {
-    sl_factor_view_t f = sl_factor_view(F);
-    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    sl_factor_arrays f = sl_factor_view(F);
+    sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
     sl_int n = v.n;
     double *L = test_reals((size_t)n * (size_t)n);
     *wrong = NULL;
@@ -194,10 +202,10 @@ static inline double *check_expand(const sl_factor *F, const char **wrong) {
         const double *panel = f.L + v.panel_begin[s];
         for (sl_int r = 0; r < (height + 7) / 8 * 8; r++) {
             for (sl_int c = 0; c < width; c++) {
-                sl_off place = ref_place(width, r, c);
-                double value = place < 0 ? 0.0 : panel[place];
+                sl_off at = ref_position(width, r, c);
+                double value = at < 0 ? 0.0 : panel[at];
                 if (r >= height || r <= c) {
-                    *wrong = value != 0.0 ? "a padding, diagonal or upper place is not 0" : *wrong;
+                    *wrong = value != 0.0 ? "a padding, diagonal or upper entry is not 0" : *wrong;
                 } else {
                     AT(L, ref_row(&v, s, r), v.super_first[s] + c) = value;
                 }
@@ -210,8 +218,9 @@ static inline double *check_expand(const sl_factor *F, const char **wrong) {
     return L;
 }
 
-/* NULL, or that |P A P' - L D L'| exceeds c n eps |L| |D| |L'| somewhere, the entrywise bound of elimination without
- * growth hidden in it: c = 4 for products, sums and the division. */
+/* NULL, or a message if |P A P' - L D L'| > c n eps |L| |D| |L'| in some entry. This is the
+ * entrywise bound of elimination; it does not hide pivot growth. c = 4 covers products, sums and
+ * the division. */
 static inline const char *check_product(sl_int n, const double *C, const double *L,
                                         const double *D) {
     for (sl_int j = 0; j < n; j++) {
@@ -231,8 +240,8 @@ static inline const char *check_product(sl_int n, const double *C, const double 
 }
 
 static inline const char *check_factor(const sl_factor *F, const sl_csc *A) {
-    sl_factor_view_t f = sl_factor_view(F);
-    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    sl_factor_arrays f = sl_factor_view(F);
+    sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
     const char *wrong = NULL;
     double *M = ref_dense(A), *C = ref_permute(v.n, M, v.perm), *L = check_expand(F, &wrong);
     if (!wrong) {
@@ -244,14 +253,14 @@ static inline const char *check_factor(const sl_factor *F, const sl_csc *A) {
     return wrong;
 }
 
-/* Print the reason and fail. */
-#define NOTHING_WRONG(check)                                                                       \
-    do {                                                                                           \
-        const char *wrong_ = (check);                                                              \
-        if (wrong_) {                                                                              \
-            print_error("%s: %s\n", #check, wrong_);                                               \
-            fail();                                                                                \
-        }                                                                                          \
+/* Prints the reason and fails if check returns one. */
+#define NOTHING_WRONG(check) \
+    do { \
+        const char *wrong_ = (check); \
+        if (wrong_) { \
+            print_error("%s: %s\n", #check, wrong_); \
+            fail(); \
+        } \
     } while (0)
 
 #endif

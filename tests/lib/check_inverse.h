@@ -1,12 +1,13 @@
-/* inverse_checks.h: the dense inverse, what rounding may do to its entries, and the panels of a selected inverse beside it */
-#ifndef SL_TEST_INVERSE_CHECKS_H
-#define SL_TEST_INVERSE_CHECKS_H
+/* check_inverse.h: the dense inverse, rounding bounds, and a check of a selected inverse */
+#ifndef SL_TEST_CHECK_INVERSE_H
+#define SL_TEST_CHECK_INVERSE_H
 
-#include "problem.h"
+#include "factored.h"
 
-/* What rounding may do to entry (i, j) of the inverse: BOUND_C n eps (|Z| |L| |D| |L'| |Z|)_ij, the bound of [Higham,
- * Accuracy and Stability, 10 and 14] for an inverse by way of a factorization; it does not change with the scale of
- * rows. c = 4 as in check_product; what the reference loses by itself is inside. */
+/* Rounding bound on entry (i, j) of the inverse: BOUND_C n eps (|Z| |L| |D| |L'| |Z|)_ij, from
+ * [Higham, Accuracy and Stability, 10 and 14] for an inverse computed from a factorization. It is
+ * invariant under row scaling. c = 4 as in check_product; it includes the errors of the dense
+ * reference. */
 #define BOUND_C 4.0
 
 /* C = A B, all n x n. */
@@ -22,14 +23,14 @@ static inline double *dense_product(sl_int n, const double *A, const double *B) 
     return C;
 }
 
-/* Pivot order: the inverse, and what rounding may do to each of its entries. */
+/* In pivot order: the inverse, and the rounding bound of each of its entries. */
 typedef struct reference_t {
     double *Z, *bound;
 } reference_t;
 
 static inline reference_t reference_make(const sl_csc *A, const sl_factor *F) {
-    sl_factor_view_t f = sl_factor_view(F);
-    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    sl_factor_arrays f = sl_factor_view(F);
+    sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
     const char *wrong = NULL;
     sl_int n = v.n;
     size_t size = (size_t)n * (size_t)n;
@@ -68,19 +69,19 @@ static inline void reference_free(reference_t *r) {
     free(r->bound);
 }
 
-/* NULL, or what is wrong with the numbers of Z: every place of every panel. */
+/* NULL, or what is wrong with the values of Z; reads every entry of every panel. */
 static inline const char *check_selected(const sl_selected *Z, const reference_t *r) {
-    sl_selected_view_t z = sl_selected_view(Z);
-    sl_symbolic_view_t v = sl_symbolic_view(z.symbolic);
+    sl_selected_arrays z = sl_selected_view(Z);
+    sl_symbolic_arrays v = sl_symbolic_view(z.symbolic);
     sl_int n = v.n;
     for (sl_int k = 0; k < z.count; k++) {
         sl_int s = z.supers[k], width = ref_width(&v, s), height = ref_height(&v, s);
         if (z.begin[k + 1] - z.begin[k] != ref_panel_size(width, height)) {
-            return "panel size";
+            return "wrong panel size";
         }
         for (sl_int c = 0; c < width; c++) {
             for (sl_int q = c; q < (height + 7) / 8 * 8; q++) {
-                double value = z.Z[z.begin[k] + ref_place(width, q, c)];
+                double value = z.Z[z.begin[k] + ref_position(width, q, c)];
                 if (q >= height) {
                     if (value != 0.0) {
                         return "padding is not 0";

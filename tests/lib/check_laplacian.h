@@ -1,11 +1,11 @@
-/* laplacian_checks.h: small meshes, and what the tests of the Laplacians ask of a matrix */
-#ifndef SL_TEST_LAPLACIAN_CHECKS_H
-#define SL_TEST_LAPLACIAN_CHECKS_H
+/* check_laplacian.h: small meshes, and checks of the matrices that are built from meshes */
+#ifndef SL_TEST_CHECK_LAPLACIAN_H
+#define SL_TEST_CHECK_LAPLACIAN_H
 
-/* the program defines _POSIX_C_SOURCE 200809L before its first include */
+/* The program defines _POSIX_C_SOURCE 200809L before its first include. */
 #include "test.h"
 
-#include "../tools/laplacian.h"
+#include "tools/geometry/laplacian.h"
 
 static double known_triangle_xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static sl_int one_face[3] = {0, 1, 2};
@@ -15,7 +15,7 @@ static inline mesh mesh_of(double *xyz, sl_int n_vertices, sl_int *faces, sl_int
     return m;
 }
 
-/* Full square matrix of a lower triangle, column-major; the caller frees it. */
+/* The full square matrix of a lower triangle, column-major; the caller frees it. */
 static inline double *dense_of(const sl_matrix *M) {
     sl_csc A = sl_matrix_view(M);
     size_t n = (size_t)A.n_cols;
@@ -34,8 +34,8 @@ static inline bool near(double a, double b, double scale) {
     return fabs(a - b) <= 1e-14 * scale;
 }
 
-/* Each row sums to `sum`, to the rounding of its own entries. */
-static inline void rows_sum_to(const sl_csc *A, double sum) {
+/* Each row sums to `sum`, up to the rounding errors of its own entries. */
+static inline void assert_rows_sum_to(const sl_csc *A, double sum) {
     size_t n = (size_t)A->n_cols;
     double *total = test_reals(n);
     double *size = test_reals(n);
@@ -54,8 +54,9 @@ static inline void rows_sum_to(const sl_csc *A, double sum) {
         }
     }
     for (size_t i = 0; i < n; i++) {
-        /* a weight is a sum over faces on either side, both roundings of at most a few eps of the row's size; obtuse
-         * faces cancel inside an entry, hence the margin */
+        /* An off-diagonal weight is a sum over the faces on both sides of an edge; its rounding
+         * error and that of the diagonal are a few eps times the size of the row. Weights of obtuse
+         * faces cancel inside an entry, hence the margin. */
         assert_true(fabs(total[i] - sum) <=
                     16 * DBL_EPSILON * (length[i] + 1) * (size[i] + fabs(sum)));
     }
@@ -76,8 +77,9 @@ static inline double quadratic_form(const sl_csc *A, const double *x) {
     return sum;
 }
 
-/* A system that a factorization can take: lower triangle, whole diagonal, all finite, diagonal positive. */
-static inline void is_good_system(const sl_csc *A) {
+/* A lower triangle that can be factored: it stores the whole diagonal, all entries are finite, and
+ * the diagonal is positive. */
+static inline void assert_is_valid_system(const sl_csc *A) {
     SL_CHECK(sl_csc_check(A, NULL));
     for (sl_int j = 0; j < A->n_cols; j++) {
         assert_true(A->p[j] < A->p[j + 1] && A->i[A->p[j]] == j);

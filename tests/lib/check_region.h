@@ -1,16 +1,16 @@
-/* region.h: regions taken apart: the rows that they hold, what their parts promise, and solves in them against a dense
- * inverse */
-#ifndef SL_TEST_REGION_H
-#define SL_TEST_REGION_H
+/* check_region.h: checks of the rows and invariants of a region, and of solves in it */
+#ifndef SL_TEST_CHECK_REGION_H
+#define SL_TEST_CHECK_REGION_H
 
-#include "problem.h"
+#include "factored.h"
 
-/* 1 for the columns of L in the subtrees, 2 for those in the boundary; n of them. */
+/* For each column of L: 1 in a subtree, 2 in the boundary; the sum where they overlap. */
 static inline char *region_marks(const sl_region *R) {
-    sl_region_view_t r = sl_region_view(R);
-    sl_symbolic_view_t v = sl_symbolic_view(r.symbolic);
+    sl_region_arrays r = sl_region_view(R);
+    sl_symbolic_arrays v = sl_symbolic_view(r.symbolic);
     char *mark = (char *)test_array((size_t)v.n, 1);
-    for (sl_int k = 0; k < r.n_roots; k++) { /* down from each root, child by child */
+    /* top-down from each root */
+    for (sl_int k = 0; k < r.n_roots; k++) {
         char *in = (char *)test_array((size_t)v.n_supers, 1);
         in[r.roots[k]] = 1;
         for (sl_int s = r.roots[k]; s >= 0; s--) {
@@ -28,10 +28,10 @@ static inline char *region_marks(const sl_region *R) {
     return mark;
 }
 
-/* NULL, or which promise of a region for a set is broken. */
+/* NULL, or the invariant of a region for a set that does not hold. */
 static inline const char *check_region(const sl_region *R, const sl_int *set, sl_int count) {
-    sl_region_view_t r = sl_region_view(R);
-    sl_symbolic_view_t v = sl_symbolic_view(r.symbolic);
+    sl_region_arrays r = sl_region_view(R);
+    sl_symbolic_arrays v = sl_symbolic_view(r.symbolic);
     char *mark = region_marks(R);
     const char *wrong = NULL;
     for (sl_int k = 0; k < v.n && !wrong; k++) {
@@ -54,9 +54,9 @@ static inline const char *check_region(const sl_region *R, const sl_int *set, sl
     return wrong;
 }
 
-/* The rows of A inside; returns how many. */
+/* Collects the rows of A inside the region; returns how many. */
 static inline sl_int region_rows(const sl_region *R, sl_int *rows) {
-    sl_symbolic_view_t v = sl_symbolic_view(sl_region_view(R).symbolic);
+    sl_symbolic_arrays v = sl_symbolic_view(sl_region_view(R).symbolic);
     char *mark = region_marks(R);
     sl_int count = 0;
     for (sl_int k = v.n; k-- > 0;) {
@@ -68,9 +68,10 @@ static inline sl_int region_rows(const sl_region *R, sl_int *rows) {
     return count;
 }
 
-/* An entry of x passes within c n eps times sum over b of |b(j)| times a norm of the inverse around (i, j):
- * sqrt(|Z(i,i) Z(j,j)|) where the matrix is definite, which bounds what the sweeps add up, or the largest entry where
- * it is not. c is 100: PASS_C as for a solve, and 10 for the conditions of the generated matrices. */
+/* Error bound of an entry x(i) for each |b(j)|: c n eps times a norm of the inverse around (i, j).
+ * For a definite matrix this is sqrt(|Z(i,i) Z(j,j)|), which bounds the terms that the sweeps add;
+ * otherwise it is the largest entry. c = 100: PASS_C as for a solve, times 10 for the condition of
+ * the generated matrices. */
 static inline double region_allowed(sl_int n, const double *Z, sl_int i, sl_int j, double largest) {
     return 10 * pass_figure(n) *
            (largest > 0 ? largest : sqrt(fabs(AT(Z, i, i)) * fabs(AT(Z, j, j))));
@@ -84,11 +85,13 @@ static inline double region_largest(sl_int n, const double *Z) {
     return largest;
 }
 
-/* Solves with random b on bset in a region, both layouts, against the dense inverse Z; largest 0: definite. The plan
- * must be in the region. */
-static inline void region_solves(const sl_region *R, const sl_factor *F, sl_int n, const double *Z,
-                                 double largest, const sl_int *bset, sl_int nb, const sl_int *xset,
-                                 sl_int nx, sl_int nrhs, uint64_t seed, sl_work *W) {
+/* Solves random right-hand sides on bset in a region, in both layouts, and compares with the dense
+ * inverse Z. largest: the largest entry of Z, or 0 if the matrix is definite. The plan must end at
+ * the boundary of the region. */
+static inline void assert_region_solves(const sl_region *R, const sl_factor *F, sl_int n,
+                                        const double *Z, double largest, const sl_int *bset,
+                                        sl_int nb, const sl_int *xset, sl_int nx, sl_int nrhs,
+                                        uint64_t seed, sl_work *W) {
     const sl_symbolic *S = sl_factor_view(F).symbolic;
     size_t ldb = (size_t)nb + 1, ldx = (size_t)nx + 2, columns = (size_t)nrhs;
     double *B = test_reals(ldb * columns), *X = test_reals(ldx * columns + 1);
@@ -101,7 +104,7 @@ static inline void region_solves(const sl_region *R, const sl_factor *F, sl_int 
     gen_reals(B, ldb * columns, seed);
     X[ldx * columns] = 4321.5;
     SL_CHECK(sl_plan_create(&P, S, bset, nb, xset, nx, &opt, &stats));
-    assert_int_equal(stats.plan_in_region, 1);
+    assert_int_equal(stats.plan.in_region, 1);
     SL_CHECK(sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W));
     for (size_t r = 0; r < columns; r++) {
         for (sl_int i = 0; i < nx; i++) {

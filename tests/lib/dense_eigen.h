@@ -1,10 +1,11 @@
-/* eigen.h: all eigenvalues and eigenvectors of a small dense symmetric matrix, by Jacobi's rotations */
-#ifndef SL_TEST_EIGEN_H
-#define SL_TEST_EIGEN_H
+/* dense_eigen.h: eigenvalues and eigenvectors of a dense symmetric matrix, by Jacobi rotations */
+#ifndef SL_TEST_DENSE_EIGEN_H
+#define SL_TEST_DENSE_EIGEN_H
 
 #include "test.h"
 
-/* A: n x n, column-major, becomes diagonal: its eigenvalues. V: n x n, the eigenvectors in its columns, orthonormal. */
+/* A: n x n, column-major; overwritten by a diagonal matrix of the eigenvalues. V: n x n, the
+ * orthonormal eigenvectors in its columns. */
 static inline void eigen_all(double *A, double *V, int n) {
     for (int k = 0; k < n * n; k++) {
         V[k] = k % (n + 1) == 0;
@@ -15,7 +16,8 @@ static inline void eigen_all(double *A, double *V, int n) {
             whole += A[k] * A[k];
             off += k % (n + 1) == 0 ? 0 : A[k] * A[k];
         }
-        if (off <= 4.0 * n * DBL_EPSILON * DBL_EPSILON * whole) { /* what rounding leaves */
+        /* what remains is rounding error */
+        if (off <= 4.0 * n * DBL_EPSILON * DBL_EPSILON * whole) {
             return;
         }
         for (int p = 0; p < n; p++) {
@@ -43,7 +45,7 @@ static inline void eigen_all(double *A, double *V, int n) {
             }
         }
     }
-    print_error("the eigenvalues of the test itself did not converge\n");
+    print_error("eigen_all did not converge\n");
     abort();
 }
 

@@ -1,14 +1,14 @@
-/* ref.h: dense references, written for obviousness: LDL', solve, inverse, elimination tree, fill, reach, panels */
-#ifndef SL_TEST_REF_H
-#define SL_TEST_REF_H
+/* dense_reference.h: dense LDL', solve, inverse, tree, fill and reach, written to be obvious */
+#ifndef SL_TEST_DENSE_REFERENCE_H
+#define SL_TEST_DENSE_REFERENCE_H
 
 #include "test.h"
 
 /* Dense matrices are n x n, column-major, leading dimension n. */
 #define AT(M, i, j) ((M)[(size_t)(i) + (size_t)n * (size_t)(j)])
 
-/* The full symmetric matrix that a view means: duplicates summed; where any entry stands below the diagonal, those
- * above it are not read. */
+/* The full symmetric matrix that A represents: duplicates are summed; if there is an entry below
+ * the diagonal, those above it are not read. */
 static inline double *ref_dense(const sl_csc *A) {
     sl_int n = A->n_rows;
     double *M = test_reals((size_t)n * (size_t)n);
@@ -32,7 +32,7 @@ static inline double *ref_dense(const sl_csc *A) {
     return M;
 }
 
-/* Pattern of the same, 1 where an entry is stored, diagonal always. */
+/* The symmetric pattern of A: 1 where an entry is stored and on the diagonal. */
 static inline char *ref_pattern(const sl_csc *A) {
     sl_int n = A->n_rows;
     char *M = (char *)test_array((size_t)n * (size_t)n, 1);
@@ -66,7 +66,8 @@ static inline char *ref_permute_pattern(sl_int n, const char *M, const sl_int *p
     return C;
 }
 
-/* M = L D L' by the definition, column by column, without pivoting. L is unit lower, D has n entries. */
+/* M = L D L' by the definition, column by column, without pivoting. L is unit lower triangular; D
+ * has n entries. */
 static inline void ref_ldl(sl_int n, const double *M, double *L, double *D) {
     for (sl_int j = 0; j < n; j++) {
         D[j] = AT(M, j, j);
@@ -84,7 +85,8 @@ static inline void ref_ldl(sl_int n, const double *M, double *L, double *D) {
     }
 }
 
-/* X = M^-1 B, nrhs columns in place, by Gaussian elimination with row exchanges: shares nothing with LDL'. */
+/* B := M^-1 B, nrhs columns, by Gaussian elimination with partial pivoting; shares nothing with
+ * LDL'. */
 static inline void ref_solve(sl_int n, const double *M, double *B, sl_int nrhs) {
     double *U = test_reals((size_t)n * (size_t)n);
     memcpy(U, M, (size_t)n * (size_t)n * sizeof *U);
@@ -133,8 +135,8 @@ static inline double *ref_inverse(sl_int n, const double *M) {
     return Z;
 }
 
-/* The same, its rows and columns scaled by powers of 2 for a diagonal near 1 while it is computed: what a badly scaled
- * matrix loses otherwise is the reference's. */
+/* The inverse of M, computed with rows and columns scaled by powers of 2 that bring the diagonal
+ * near 1. Without scaling, the reference itself would be inaccurate for a badly scaled matrix. */
 static inline double *ref_scaled_inverse(sl_int n, const double *M) {
     double *C = test_reals((size_t)n * (size_t)n), *Z;
     int *power = (int *)test_array((size_t)n, sizeof(int));
@@ -154,7 +156,7 @@ static inline double *ref_scaled_inverse(sl_int n, const double *M) {
     return Z;
 }
 
-/* ||M|| ||M^-1||, by largest column sums. */
+/* ||M|| ||M^-1|| in the 1-norm. */
 static inline double ref_condition(sl_int n, const double *M) {
     double *Z = ref_inverse(n, M), norm = 0.0, inverse = 0.0;
     for (sl_int j = 0; j < n; j++) {
@@ -170,7 +172,7 @@ static inline double ref_condition(sl_int n, const double *M) {
     return norm * inverse;
 }
 
-/* Pattern of L, diagonal included, by playing elimination on a symmetric pattern; M becomes it (lower triangle). */
+/* Replaces a symmetric pattern by the pattern of L + L', by elimination. */
 static inline void ref_fill(sl_int n, char *M) {
     for (sl_int k = 0; k < n; k++) {
         for (sl_int j = k + 1; j < n; j++) {
@@ -183,7 +185,8 @@ static inline void ref_fill(sl_int n, char *M) {
     }
 }
 
-/* parent[k]: the first row below the diagonal in column k of the filled pattern, -1 where there is none */
+/* parent[k]: the first row below the diagonal in column k of the filled pattern, -1 if there is
+ * none */
 static inline void ref_etree(sl_int n, const char *fill, sl_int *parent) {
     for (sl_int k = 0; k < n; k++) {
         parent[k] = -1;
@@ -202,8 +205,8 @@ static inline void ref_counts(sl_int n, const char *fill, sl_int *counts) {
     }
 }
 
-/* Columns that a walk along the entries of L meets from the given ones: seen[k] = 1. Gilbert and Peierls by
- * definition: nothing of the tree is used. */
+/* Marks the columns that can be reached from column k along entries of L: seen[k] = 1. This is the
+ * definition of Gilbert and Peierls; it does not use the elimination tree. */
 static inline void ref_reach_from(sl_int n, const char *fill, sl_int k, char *seen) {
     if (seen[k]) {
         return;
@@ -216,23 +219,23 @@ static inline void ref_reach_from(sl_int n, const char *fill, sl_int k, char *se
     }
 }
 
-/* ---- the library's storage, spelled out ---- */
+/* ---- the library's storage of L ---- */
 
-static inline sl_int ref_width(const sl_symbolic_view_t *v, sl_int s) {
+static inline sl_int ref_width(const sl_symbolic_arrays *v, sl_int s) {
     return v->super_first[s + 1] - v->super_first[s];
 }
 
-static inline sl_int ref_height(const sl_symbolic_view_t *v, sl_int s) {
+static inline sl_int ref_height(const sl_symbolic_arrays *v, sl_int s) {
     return ref_width(v, s) + (sl_int)(v->rows_begin[s + 1] - v->rows_begin[s]);
 }
 
-/* Column of L that local row r of supernode s stands for. */
-static inline sl_int ref_row(const sl_symbolic_view_t *v, sl_int s, sl_int r) {
+/* Row of L that is local row r of supernode s. */
+static inline sl_int ref_row(const sl_symbolic_arrays *v, sl_int s, sl_int r) {
     sl_int width = ref_width(v, s);
     return r < width ? v->super_first[s] + r : v->rows[v->rows_begin[s] + (r - width)];
 }
 
-/* Doubles of a panel: tiles of 8 rows, tile t with the columns 0 .. min(width, 8(t+1)) - 1. */
+/* Doubles of a panel: tiles of 8 rows; tile t has the columns 0 .. min(width, 8(t+1)) - 1. */
 static inline sl_off ref_panel_size(sl_int width, sl_int height) {
     sl_off size = 0;
     for (sl_int t = 0; 8 * t < height; t++) {
@@ -241,8 +244,8 @@ static inline sl_off ref_panel_size(sl_int width, sl_int height) {
     return size;
 }
 
-/* Place of local row r, local column c in a panel, or -1 if the trapezoid does not store it. */
-static inline sl_off ref_place(sl_int width, sl_int r, sl_int c) {
+/* Position of local row r, local column c in a panel, or -1 if the trapezoid does not store it. */
+static inline sl_off ref_position(sl_int width, sl_int r, sl_int c) {
     sl_int columns = width < 8 * (r / 8 + 1) ? width : 8 * (r / 8 + 1);
     return c < columns ? ref_panel_size(width, r / 8 * 8) + 8 * (sl_off)c + r % 8 : -1;
 }

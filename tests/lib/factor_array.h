@@ -1,13 +1,13 @@
-/* family.h: what the tests of several factors share: values of t, threads, release */
-#ifndef SL_TEST_FAMILY_H
-#define SL_TEST_FAMILY_H
+/* factor_array.h: what the tests of several factors share: coefficients, threads, release */
+#ifndef SL_TEST_FACTOR_ARRAY_H
+#define SL_TEST_FACTOR_ARRAY_H
 
 #include "parallel_for.h"
-#include "several.h"
+#include "matrix_pair.h"
 
 enum { MOST = 8 };
 
-/* 1 and t, t from small to large. */
+/* Coefficients 1 and t of each factor; t is first, 2 first, 4 first, ... */
 static inline void coefficients_of(double *c, int count, double first) {
     for (int k = 0; k < count; k++) {
         c[TERMS * k] = 1;

@@ -1,38 +1,38 @@
-/* problem.h: a matrix with its analysis and its factor, made in one go */
-#ifndef SL_TEST_PROBLEM_H
-#define SL_TEST_PROBLEM_H
+/* factored.h: a generated matrix with its analysis and its factor */
+#ifndef SL_TEST_FACTORED_H
+#define SL_TEST_FACTORED_H
 
-#include "check.h"
+#include "check_factor.h"
 
-typedef struct problem_t {
+typedef struct factored_t {
     gen_matrix_t M;
     sl_symbolic *S;
     sl_factor *F;
-} problem_t;
+} factored_t;
 
-static inline problem_t problem_make(gen_kind_t kind, sl_int size, int sign, int style,
-                                     const sl_options *opt) {
+static inline factored_t factored_make(gen_kind_t kind, sl_int size, int sign, int style,
+                                       const sl_options *opt) {
     gen_list_t t = gen_make(kind, size, sign, 42);
-    problem_t y = {gen_store(&t, gen_style(style), 1), NULL, NULL};
-    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, opt, NULL));
-    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, opt, NULL));
+    factored_t y = {gen_store(&t, gen_style(style), 1), NULL, NULL};
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, FOR_ANALYSIS(opt), NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, FOR_FACTOR(opt), NULL));
     gen_list_free(&t);
     return y;
 }
 
-static inline void problem_free(problem_t *y) {
+static inline void factored_free(factored_t *y) {
     sl_factor_free(y->F);
     sl_symbolic_free(y->S);
     gen_matrix_free(&y->M);
 }
 
 static inline sl_off panel_doubles(const sl_factor *F) {
-    sl_symbolic_view_t v = sl_symbolic_view(sl_factor_view(F).symbolic);
+    sl_symbolic_arrays v = sl_symbolic_view(sl_factor_view(F).symbolic);
     return v.panel_begin[v.n_supers];
 }
 
 static inline void assert_same_bits(const sl_factor *F, const sl_factor *G) {
-    sl_factor_view_t f = sl_factor_view(F), g = sl_factor_view(G);
+    sl_factor_arrays f = sl_factor_view(F), g = sl_factor_view(G);
     size_t n = (size_t)sl_symbolic_view(f.symbolic).n, size = (size_t)panel_doubles(F);
     assert_int_equal(size, panel_doubles(G));
     if (n > 0) {

@@ -1,4 +1,4 @@
-/* gen_graphs.h: seeded random numbers, and graphs with their diagonals as triplets */
+/* gen_graphs.h: seeded random numbers, and graphs as triplets of a symmetric matrix */
 #ifndef SL_TEST_GEN_GRAPHS_H
 #define SL_TEST_GEN_GRAPHS_H
 
@@ -41,13 +41,13 @@ static inline void gen_permutation(sl_int *perm, sl_int n, uint64_t seed) {
     }
 }
 
-/* count rows of 0..n-1, each once, in random order; set has room for n */
+/* count rows of 0 .. n-1 without repetition, in random order; set has room for n */
 static inline void gen_set(sl_int *set, sl_int count, sl_int n, uint64_t seed) {
     (void)count;
     gen_permutation(set, n, seed);
 }
 
-/* ---- a symmetric matrix as triplets of its lower triangle, each place at most once ---- */
+/* ---- a symmetric matrix as triplets of its lower triangle, each entry at most once ---- */
 
 typedef struct gen_list_t {
     sl_int n;
@@ -83,7 +83,7 @@ static inline void gen_add(gen_list_t *t, sl_int i, sl_int j, double x) {
     t->x[t->count++] = x;
 }
 
-/* ---- edges: each generator below adds those of one kind of graph ---- */
+/* ---- edges: each function adds those of one kind of graph ---- */
 
 static inline void gen_edges_path(gen_list_t *t, uint64_t *state) {
     for (sl_int k = 1; k < t->n; k++) {
@@ -99,7 +99,7 @@ static inline void gen_edges_ring(gen_list_t *t, sl_int m, uint64_t *state) {
     gen_add(t, m - 1, 0, gen_real(state));
 }
 
-/* row c is tied to all the others */
+/* row c is adjacent to all others */
 static inline void gen_edges_star(gen_list_t *t, sl_int c, uint64_t *state) {
     for (sl_int k = 0; k < t->n; k++) {
         if (k != c) {
@@ -127,7 +127,7 @@ static inline void gen_edges_grid(gen_list_t *t, sl_int nx, sl_int ny, sl_int nz
     }
 }
 
-/* each row hangs on a random later one, or is a root */
+/* the parent of each row is a random later row; one row in 8 is a root */
 static inline void gen_edges_forest(gen_list_t *t, uint64_t *state) {
     for (sl_int k = 0; k + 1 < t->n; k++) {
         if (gen_below(state, 8) != 0) {
@@ -136,7 +136,7 @@ static inline void gen_edges_forest(gen_list_t *t, uint64_t *state) {
     }
 }
 
-/* each place below the diagonal with probability per_mille / 1000 */
+/* each entry below the diagonal with probability per_mille / 1000 */
 static inline void gen_edges_random(gen_list_t *t, sl_int per_mille, uint64_t *state) {
     for (sl_int j = 0; j < t->n; j++) {
         for (sl_int i = j + 1; i < t->n; i++) {
@@ -149,7 +149,7 @@ static inline void gen_edges_random(gen_list_t *t, sl_int per_mille, uint64_t *s
 
 /* ---- diagonals ---- */
 
-/* a diagonal that dominates by rows: |a_kk| = 1 + the sum of the others; sign 1, -1, or 0 for random signs */
+/* a dominant diagonal: |a_kk| = 1 + sum of the magnitudes in its row; sign: 1, -1 or 0 (random) */
 static inline void gen_dominate(gen_list_t *t, int sign, uint64_t *state) {
     double *sum = test_reals((size_t)t->n);
     for (size_t k = 0; k < t->count; k++) {
@@ -163,7 +163,7 @@ static inline void gen_dominate(gen_list_t *t, int sign, uint64_t *state) {
     free(sum);
 }
 
-/* a graph Laplacian: edges -1, the diagonal the degree: every row sums to 0 */
+/* a graph Laplacian: each edge is -1, each diagonal entry the degree; every row sums to 0 */
 static inline void gen_laplacian(gen_list_t *t) {
     sl_int *degree = test_ints((size_t)t->n);
     for (size_t k = 0; k < t->count; k++) {
@@ -177,7 +177,7 @@ static inline void gen_laplacian(gen_list_t *t) {
     free(degree);
 }
 
-/* ---- a nested dissection of the nx x ny grid, without METIS: a line of vertices splits the longer side ---- */
+/* ---- nested dissection of an nx x ny grid: a line of vertices splits the longer side ---- */
 
 static inline sl_int gen_dissect(sl_int *perm, sl_int at, sl_int nx, sl_int x0, sl_int x1,
                                  sl_int y0, sl_int y1) {

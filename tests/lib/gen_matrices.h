@@ -1,29 +1,29 @@
-/* gen.h: the zoo of symmetric matrices, seeded, and the ways in which one may be stored */
-#ifndef SL_TEST_GEN_H
-#define SL_TEST_GEN_H
+/* gen_matrices.h: seeded symmetric test matrices of many kinds, in every storage style */
+#ifndef SL_TEST_GEN_MATRICES_H
+#define SL_TEST_GEN_MATRICES_H
 
 #include "gen_graphs.h"
 
-/* ---- the zoo ---- */
+/* ---- kinds of matrices ---- */
 
 typedef enum gen_kind_t {
     GEN_NONE,                   /* n = 0 */
     GEN_ONE,                    /* 1 x 1 */
     GEN_DIAGONAL,               /* no edges */
     GEN_PATH,                   /* tridiagonal */
-    GEN_STAR,                   /* the first row meets all: in natural order L is dense */
-    GEN_ARROW,                  /* the last row meets all: no fill */
+    GEN_STAR,                   /* the first row is adjacent to all others: L is dense */
+    GEN_ARROW,                  /* the last row is adjacent to all others: no fill */
     GEN_GRID2,                  /* 5-point */
     GEN_GRID3,                  /* 7-point */
     GEN_FOREST,                 /* several trees */
     GEN_DENSE,                  /* all entries */
     GEN_RANDOM,                 /* each entry with probability 5/n */
-    GEN_COMPONENTS,             /* grids, a path and lone rows side by side */
+    GEN_COMPONENTS,             /* grids, a path and isolated rows side by side */
     GEN_KKT,                    /* quasi-definite [H B'; B -C] */
     GEN_SCALED,                 /* a grid whose rows are scaled by 2^-20 .. 2^20 */
-    GEN_REGULAR,                /* how many kinds come before: these all factor */
+    GEN_REGULAR,                /* the number of kinds before; all of these factor */
     GEN_SINGULAR = GEN_REGULAR, /* Laplacian of a grid: the last pivot is null */
-    GEN_EMPTY_ROW,              /* one row without any entry */
+    GEN_EMPTY_ROW,              /* one row without entries */
     GEN_KINDS
 } gen_kind_t;
 
@@ -77,7 +77,7 @@ static inline void gen_scale(gen_list_t *t, uint64_t *state) {
     free(power);
 }
 
-/* Roughly size rows (grids round down); sign as in gen_dominate, where the kind leaves it open. */
+/* About size rows; grids round down. sign as in gen_dominate, where the kind leaves it open. */
 static inline gen_list_t gen_make(gen_kind_t kind, sl_int size, int sign, uint64_t seed) {
     uint64_t state = seed * 1000003u + (uint64_t)kind;
     sl_int square = 1, cube = 1;
@@ -151,12 +151,12 @@ static inline gen_list_t gen_make(gen_kind_t kind, sl_int size, int sign, uint64
     return t;
 }
 
-/* ---- storing it ---- */
+/* ---- storage styles ---- */
 
 typedef struct gen_style_t {
     sl_triangle triangle; /* LOWER, UPPER or BOTH */
     int unsorted;         /* rows of a column in random order */
-    int duplicated;       /* about half of the entries come in parts that sum exactly */
+    int duplicated;       /* about half of the entries are split into duplicates that sum exactly */
 } gen_style_t;
 
 enum { GEN_STYLES = 12 };
@@ -180,9 +180,9 @@ static inline void gen_matrix_free(gen_matrix_t *M) {
     free(M->x);
 }
 
-/* The places that a triplet (i, j) fills: none, one or two of (row, col). */
-static inline int gen_places(sl_triangle triangle, sl_int i, sl_int j, sl_int row[2],
-                             sl_int col[2]) {
+/* The one or two entries (row, col) that store the triplet (i, j); returns how many. */
+static inline int gen_entries(sl_triangle triangle, sl_int i, sl_int j, sl_int row[2],
+                              sl_int col[2]) {
     int upper_first = triangle == SL_TRIANGLE_UPPER;
     row[0] = upper_first ? j : i;
     col[0] = upper_first ? i : j;
@@ -201,7 +201,7 @@ static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uin
     }
     gen_matrix_t M = {test_ints(n + 1), NULL, NULL, {0, 0, NULL, NULL, NULL}};
     for (size_t k = 0; k < t->count; k++) {
-        for (int side = gen_places(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
+        for (int side = gen_entries(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
             M.p[col[side] + 1] += parts[k];
             total += parts[k];
         }
@@ -213,10 +213,10 @@ static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uin
     M.i = test_ints(total);
     M.x = test_reals(total);
     for (size_t k = 0; k < t->count; k++) {
-        for (int side = gen_places(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
+        for (int side = gen_entries(style.triangle, t->row[k], t->col[k], row, col); side-- > 0;) {
             double left = t->x[k];
-            for (int part = parts[k];
-                 part-- > 0;) { /* x/2, x/4, x/4: every order of summing is exact */
+            /* x/2, x/4, x/4: their sum is exact in any order */
+            for (int part = parts[k]; part-- > 0;) {
                 sl_int p = next[col[side]]++;
                 M.i[p] = row[side];
                 M.x[p] = part ? left / 2 : left;
@@ -251,7 +251,7 @@ static inline gen_matrix_t gen_store(const gen_list_t *t, gen_style_t style, uin
     return M;
 }
 
-/* The usual one: lower triangle, ascending, no duplicates. */
+/* The default style: lower triangle, rows ascending, no duplicates. */
 static inline gen_matrix_t gen_matrix(gen_kind_t kind, sl_int size, int sign, uint64_t seed) {
     gen_list_t t = gen_make(kind, size, sign, seed);
     gen_matrix_t M = gen_store(&t, gen_style(0), seed);
@@ -259,7 +259,8 @@ static inline gen_matrix_t gen_matrix(gen_kind_t kind, sl_int size, int sign, ui
     return M;
 }
 
-/* The pattern that `edges` has a bit a pair of rows for, with values that keep every pivot away from 0: mixed signs, rows dominated by their diagonal. */
+/* A matrix whose pattern is given by `edges`, one bit for each pair of rows. Values have mixed
+ * signs and each row is diagonally dominant, so that no pivot is near 0. */
 static inline gen_matrix_t gen_pattern(sl_int n, unsigned edges, uint64_t seed) {
     gen_list_t t = gen_list(n);
     for (sl_int j = 0; j < n; j++) {

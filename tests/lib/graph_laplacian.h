@@ -1,17 +1,17 @@
-/* singular.h: Laplacians of generated graphs, singular once for each component, and the wishes that factor them */
-#ifndef SL_TEST_SINGULAR_H
-#define SL_TEST_SINGULAR_H
+/* graph_laplacian.h: Laplacians of generated graphs, with one null pivot for each component */
+#ifndef SL_TEST_GRAPH_LAPLACIAN_H
+#define SL_TEST_GRAPH_LAPLACIAN_H
 
-#include "gen.h"
+#include "gen_matrices.h"
 
-/* Graphs of every shape, connected or not. */
+/* Connected and disconnected graphs of every shape. */
 enum { LAPLACIAN_KINDS = 9 };
 static const gen_kind_t laplacian_kinds[LAPLACIAN_KINDS] = {
     GEN_ONE,   GEN_DIAGONAL, GEN_PATH,   GEN_STAR,      GEN_GRID2,
     GEN_GRID3, GEN_FOREST,   GEN_RANDOM, GEN_COMPONENTS};
 
-/* The Laplacian of a generated graph with weights that are not exact: a component is a null pivot. of: n, the first row of
- * each row's component; may be NULL. */
+/* The Laplacian of a generated graph with inexact weights; each component has one null pivot. of:
+ * n, the first row of each row's component; may be NULL. */
 static inline gen_matrix_t laplacian_of(gen_kind_t kind, sl_int size, int style, sl_int *components,
                                         sl_int *of) {
     gen_list_t t = gen_make(kind, size, 1, 17);
@@ -40,7 +40,7 @@ static inline gen_matrix_t laplacian_of(gen_kind_t kind, sl_int size, int style,
     *components = 0;
     for (sl_int k = 0; k < t.n; k++) {
         *components += group[k] == k;
-        gen_add(&clean, k, k, diagonal[k]); /* a lone row has a 0 */
+        gen_add(&clean, k, k, diagonal[k]); /* 0 for an isolated row */
         group[k] = group[group[k]];         /* ascending: the group of a smaller row is final */
     }
     gen_matrix_t M = gen_store(&clean, gen_style(style), 1);
@@ -58,10 +58,10 @@ static inline gen_matrix_t laplacian(gen_kind_t kind, sl_int size, int style, sl
     return laplacian_of(kind, size, style, components, NULL);
 }
 
-static inline sl_options options_semidefinite(const way_list_t *ways, int k) {
+static inline sl_options options_skip_null(const variant_list_t *variants, int k) {
     sl_options opt = options_none();
-    way_take(&opt, ways, k);
-    opt.definiteness = SL_SEMIDEFINITE;
+    options_set_variant(&opt, variants, k);
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
     return opt;
 }
 

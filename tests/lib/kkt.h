@@ -1,18 +1,19 @@
-/* kkt.h: saddle-point systems [H B'; B 0] whose constraints depend on each other, and the signs that their pivots should have */
+/* kkt.h: saddle-point systems with linearly dependent constraints */
 #ifndef SL_TEST_KKT_H
 #define SL_TEST_KKT_H
 
-#include "check.h"
+#include "check_factor.h"
 
+/* A = [H B'; B 0] with its analysis. */
 typedef struct kkt_t {
     gen_matrix_t M;
     sl_int n, primal;
-    sl_int *signs; /* n */
+    sl_int *signs; /* n: 1 for primal rows, -1 for constraints */
     sl_symbolic *S;
 } kkt_t;
 
-/* H definite on two thirds of the rows, three entries a constraint, 0 on the other diagonal; the last `twice` constraints
- * repeat the first ones, so that A has rank n - twice. */
+/* H is definite, on two thirds of the rows. Each constraint has three entries and a zero diagonal.
+ * The last `twice` constraints repeat the first ones, so that A has rank n - twice. */
 static inline kkt_t kkt_make(sl_int n, sl_int twice, sl_ordering ordering) {
     kkt_t y;
     uint64_t seed = 77;
@@ -32,7 +33,8 @@ static inline kkt_t kkt_make(sl_int n, sl_int twice, sl_ordering ordering) {
         y.signs[k] = k < y.primal ? 1 : -1;
     }
     for (sl_int k = y.primal; k < n; k++) {
-        sl_int like = k < n - twice ? k : k - (n - twice) + y.primal; /* which constraint this is */
+        /* the constraint that this one repeats, or itself */
+        sl_int like = k < n - twice ? k : k - (n - twice) + y.primal;
         uint64_t own = 1000u + (uint64_t)like;
         for (sl_int step = 0, j = gen_below(&own, y.primal / 3); step < 3; step++) {
             gen_add(&t, k, j, 0.5 + gen_real(&own) / 3.0);
@@ -53,7 +55,7 @@ static inline void kkt_free(kkt_t *y) {
     free(y->signs);
 }
 
-/* B := A Z for random Z: what has a solution, whatever the rank. */
+/* B := A Z for random Z: right-hand sides that are consistent whatever the rank. */
 static inline void kkt_consistent(const kkt_t *y, double *B, sl_int nrhs, uint64_t seed) {
     size_t n = (size_t)y->n;
     double *Z = test_reals(n * (size_t)nrhs);
@@ -62,10 +64,11 @@ static inline void kkt_consistent(const kkt_t *y, double *B, sl_int nrhs, uint64
     free(Z);
 }
 
-/* NULL, or that L D L' is not P (A + E) P' with the E that the factor tells, entry by entry. */
+/* NULL, or a message if L D L' differs in some entry from P (A + E) P', where E is the diagonal
+ * shift that the factor reports. */
 static inline const char *check_regularized(const sl_factor *F, const sl_csc *A) {
-    sl_factor_view_t f = sl_factor_view(F);
-    sl_symbolic_view_t v = sl_symbolic_view(f.symbolic);
+    sl_factor_arrays f = sl_factor_view(F);
+    sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
     sl_int n = v.n, count = 0, *rows = test_ints((size_t)n);
     double *shifts = test_reals((size_t)n), *M = ref_dense(A), *size = test_reals((size_t)n);
     const char *wrong = NULL;
@@ -73,7 +76,8 @@ static inline const char *check_regularized(const sl_factor *F, const sl_csc *A)
     for (sl_int k = 0; k < count; k++) {
         size[rows[k]] = fabs(AT(M, rows[k], rows[k])) + fabs(shifts[k]);
     }
-    /* A stays apart from E, which may cancel against it: check_product does the entries off the diagonal */
+    /* The diagonal is checked here, with A and E kept apart because they may cancel; check_product
+     * checks the entries off the diagonal. */
     double *C = ref_permute(n, M, v.perm), *L = check_expand(F, &wrong);
     for (sl_int j = 0, at = 0; j < n && !wrong; j++) {
         double sum = 0.0, total = size[v.perm[j]], shift = 0.0;

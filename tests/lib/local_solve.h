@@ -1,16 +1,16 @@
-/* question.h: random local solves, and the proof that they give what the full solve gives, bit for bit */
-#ifndef SL_TEST_QUESTION_H
-#define SL_TEST_QUESTION_H
+/* local_solve.h: random local solves, compared bit for bit with the full solve */
+#ifndef SL_TEST_LOCAL_SOLVE_H
+#define SL_TEST_LOCAL_SOLVE_H
 
-#include "gen.h"
+#include "gen_matrices.h"
 
-/* One question: sets (NULL: all rows), and what the full solve says to it. */
-typedef struct question_t {
+/* A local solve: its sets (NULL: all rows), right-hand sides, and the rows of the full solution. */
+typedef struct local_solve_t {
     sl_int nb, nx, nrhs;
     sl_int *bset, *xset;
     double *B;      /* nb x nrhs, leading dimension nb + 2 */
     double *wanted; /* nx x nrhs, leading dimension nx */
-} question_t;
+} local_solve_t;
 
 static inline sl_int *question_set(const sl_int *set, sl_int count) {
     sl_int *copy = set ? test_ints((size_t)count) : NULL;
@@ -20,11 +20,12 @@ static inline sl_int *question_set(const sl_int *set, sl_int count) {
     return copy;
 }
 
-/* Random b on bset, x wanted on xset; a set that is NULL means all rows. */
-static inline question_t ask_sets(const sl_factor *F, const sl_int *bset, sl_int nb,
-                                  const sl_int *xset, sl_int nx, sl_int nrhs, uint64_t seed) {
+/* A random B on bset, the solution wanted on xset; NULL means all rows. */
+static inline local_solve_t local_solve_make(const sl_factor *F, const sl_int *bset, sl_int nb,
+                                             const sl_int *xset, sl_int nx, sl_int nrhs,
+                                             uint64_t seed) {
     sl_int n = sl_symbolic_view(sl_factor_view(F).symbolic).n;
-    question_t q = {bset ? nb : n, xset ? nx : n, nrhs, NULL, NULL, NULL, NULL};
+    local_solve_t q = {bset ? nb : n, xset ? nx : n, nrhs, NULL, NULL, NULL, NULL};
     size_t cols = (size_t)nrhs, rows = (size_t)n, ldb = (size_t)q.nb + 2;
     double *full = test_reals(rows * cols);
     q.bset = question_set(bset, nb);
@@ -47,9 +48,9 @@ static inline question_t ask_sets(const sl_factor *F, const sl_int *bset, sl_int
     return q;
 }
 
-/* The same on random sets of nb and nx of the n rows; -1: all rows. */
-static inline question_t ask(const sl_factor *F, sl_int n, sl_int nb, sl_int nx, sl_int nrhs,
-                             uint64_t seed) {
+/* The same for random sets of nb and nx of the n rows; -1: all rows. */
+static inline local_solve_t local_solve_random(const sl_factor *F, sl_int n, sl_int nb, sl_int nx,
+                                               sl_int nrhs, uint64_t seed) {
     sl_int *bset = nb < 0 ? NULL : test_ints((size_t)n);
     sl_int *xset = nx < 0 ? NULL : test_ints((size_t)n);
     if (bset) {
@@ -58,22 +59,23 @@ static inline question_t ask(const sl_factor *F, sl_int n, sl_int nb, sl_int nx,
     if (xset) {
         gen_set(xset, nx, n, seed + 2);
     }
-    question_t q = ask_sets(F, bset, nb, xset, nx, nrhs, seed);
+    local_solve_t q = local_solve_make(F, bset, nb, xset, nx, nrhs, seed);
     free(bset);
     free(xset);
     return q;
 }
 
-static inline void forget(question_t *q) {
+static inline void local_solve_free(local_solve_t *q) {
     free(q->bset);
     free(q->xset);
     free(q->B);
     free(q->wanted);
 }
 
-/* Both ways of asking give the same bits as the full solve, write nothing else, and say the same of their reach. */
-static inline void answer(const sl_symbolic *S, const sl_factor *F, const question_t *q,
-                          sl_work *W) {
+/* Solves with a plan and with sl_local_solve. Both give the bits of the full solve, write nothing
+ * beside X, and report the same reach. */
+static inline void local_solve_check(const sl_symbolic *S, const sl_factor *F,
+                                     const local_solve_t *q, sl_work *W) {
     size_t ldx = (size_t)q->nx + 3, ldb = (size_t)q->nb + 2, total = ldx * (size_t)(q->nrhs + 1);
     double *X = test_reals(total);
     sl_plan *P = NULL;
@@ -81,14 +83,14 @@ static inline void answer(const sl_symbolic *S, const sl_factor *F, const questi
     memset(&planned, 0, sizeof planned);
     memset(&shot, 0, sizeof shot);
     SL_CHECK(sl_plan_create(&P, S, q->bset, q->nb, q->xset, q->nx, NULL, &planned));
-    for (int way = 0; way < 2; way++) {
+    for (int one_call = 0; one_call < 2; one_call++) {
         for (size_t k = 0; k < total; k++) {
             X[k] = 4321.5;
         }
-        if (way == 0) {
+        if (!one_call) {
             SL_CHECK(sl_plan_solve(P, F, X, ldx, q->B, ldb, q->nrhs, W));
         } else {
-            SL_CHECK(sl_local_solve(F, X, ldx, q->xset, q->nx, q->B, ldb, q->bset, q->nb, q->nrhs,
+            SL_CHECK(sl_local_solve(F, q->bset, q->nb, q->xset, q->nx, X, ldx, q->B, ldb, q->nrhs,
                                     W, &shot));
         }
         for (size_t r = 0; r < (size_t)q->nrhs; r++) {
@@ -100,12 +102,12 @@ static inline void answer(const sl_symbolic *S, const sl_factor *F, const questi
             }
         }
     }
-    assert_int_equal(planned.b_supernodes, shot.b_supernodes);
-    assert_int_equal(planned.b_columns, shot.b_columns);
-    assert_int_equal(planned.b_entries, shot.b_entries);
-    assert_int_equal(planned.x_supernodes, shot.x_supernodes);
-    assert_int_equal(planned.x_columns, shot.x_columns);
-    assert_int_equal(planned.x_entries, shot.x_entries);
+    assert_int_equal(planned.plan.b_supernodes, shot.plan.b_supernodes);
+    assert_int_equal(planned.plan.b_columns, shot.plan.b_columns);
+    assert_int_equal(planned.plan.b_entries, shot.plan.b_entries);
+    assert_int_equal(planned.plan.x_supernodes, shot.plan.x_supernodes);
+    assert_int_equal(planned.plan.x_columns, shot.plan.x_columns);
+    assert_int_equal(planned.plan.x_entries, shot.plan.x_entries);
     sl_plan_free(P);
     free(X);
 }

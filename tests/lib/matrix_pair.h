@@ -1,23 +1,24 @@
-/* several.h: two matrices of different patterns, stored in any way, their union analysed, both spread over it */
-#ifndef SL_TEST_SEVERAL_H
-#define SL_TEST_SEVERAL_H
+/* matrix_pair.h: two matrices of different patterns, analyzed and scattered to their union */
+#ifndef SL_TEST_MATRIX_PAIR_H
+#define SL_TEST_MATRIX_PAIR_H
 
-#include "problem.h"
+#include "factored.h"
 
 enum { TERMS = 2 };
 
-typedef struct several_t {
+typedef struct matrix_pair_t {
     sl_int n;
-    gen_matrix_t M, K; /* a diagonal with a few edges of K; one of the zoo */
+    /* M: a diagonal with some of the edges of K; K: any kind of gen_matrices.h */
+    gen_matrix_t M, K;
     sl_csc terms[TERMS];
-    sl_matrix *U; /* their union */
+    sl_matrix *U; /* union of their patterns */
     sl_symbolic *S;
     double *values[TERMS];
-} several_t;
+} matrix_pair_t;
 
-/* A diagonal of the signs of K's, so that sums with positive coefficients stay as definite as K, and every third edge
- * of K, too small to matter for that. */
-static inline gen_list_t several_mass(const gen_list_t *K, uint64_t seed) {
+/* The diagonal has the signs of K's diagonal, so that sums with positive coefficients are as
+ * definite as K. Every third edge of K is added, too small to change that. */
+static inline gen_list_t matrix_pair_mass(const gen_list_t *K, uint64_t seed) {
     gen_list_t t = gen_list(K->n);
     for (size_t k = 0; k < K->count; k++) {
         if (K->row[k] == K->col[k]) {
@@ -29,10 +30,10 @@ static inline gen_list_t several_mass(const gen_list_t *K, uint64_t seed) {
     return t;
 }
 
-static inline several_t several_make(gen_kind_t kind, sl_int size, int style_m, int style_k,
-                                     const sl_options *opt) {
-    gen_list_t k = gen_make(kind, size, 1, 42), m = several_mass(&k, 7);
-    several_t y;
+static inline matrix_pair_t matrix_pair_make(gen_kind_t kind, sl_int size, int style_m, int style_k,
+                                             const sl_options *opt) {
+    gen_list_t k = gen_make(kind, size, 1, 42), m = matrix_pair_mass(&k, 7);
+    matrix_pair_t y;
     memset(&y, 0, sizeof y);
     y.n = k.n;
     y.M = gen_store(&m, gen_style(style_m), 1);
@@ -45,14 +46,14 @@ static inline several_t several_make(gen_kind_t kind, sl_int size, int style_m, 
     SL_CHECK(sl_symbolic_create(&y.S, &U, opt, NULL));
     for (int t = 0; t < TERMS; t++) {
         y.values[t] = test_reals((size_t)sl_symbolic_entries(y.S));
-        SL_CHECK(sl_symbolic_spread(y.S, y.values[t], &y.terms[t], NULL));
+        SL_CHECK(sl_symbolic_scatter(y.S, y.values[t], &y.terms[t], NULL));
     }
     gen_list_free(&k);
     gen_list_free(&m);
     return y;
 }
 
-static inline void several_free(several_t *y) {
+static inline void matrix_pair_free(matrix_pair_t *y) {
     gen_matrix_free(&y->M);
     gen_matrix_free(&y->K);
     sl_matrix_free(y->U);
@@ -62,20 +63,21 @@ static inline void several_free(several_t *y) {
     }
 }
 
-/* c[0] M + c[1] K as a matrix of the analysed pattern, to be released. */
-static inline sl_matrix *several_sum(const several_t *y, const double *c) {
+/* c[0] M + c[1] K with the pattern of the union; the caller frees it. */
+static inline sl_matrix *matrix_pair_sum(const matrix_pair_t *y, const double *c) {
     sl_matrix *A = NULL;
     SL_CHECK(sl_matrix_sum(&A, c, y->terms, TERMS, NULL, NULL));
     return A;
 }
 
-static inline const double *const *several_values(const several_t *y) {
+static inline const double *const *matrix_pair_values(const matrix_pair_t *y) {
     return (const double *const *)y->values;
 }
 
-/* The factor of that sum by the plain way. */
-static inline sl_factor *several_plain(const several_t *y, const double *c, const sl_options *opt) {
-    sl_matrix *A = several_sum(y, c);
+/* The factor of c[0] M + c[1] K by sl_matrix_sum and sl_factor_create. */
+static inline sl_factor *matrix_pair_factor(const matrix_pair_t *y, const double *c,
+                                            const sl_options *opt) {
+    sl_matrix *A = matrix_pair_sum(y, c);
     sl_csc view = sl_matrix_view(A);
     sl_factor *F = NULL;
     SL_CHECK(sl_factor_create(&F, y->S, &view, opt, NULL));

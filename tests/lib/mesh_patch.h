@@ -1,12 +1,12 @@
-/* patch_checks.h: what the tests of problems on patches share */
-#ifndef SL_TEST_PATCH_CHECKS_H
-#define SL_TEST_PATCH_CHECKS_H
+/* mesh_patch.h: the solver of a patch of a mesh, and the largest entry of its solution */
+#ifndef SL_TEST_MESH_PATCH_H
+#define SL_TEST_MESH_PATCH_H
 
-#include "bent_grids.h"
+#include "surfaces.h"
 
-#include "../tools/patch_solver.h"
+#include "tools/geometry/patch_solver.h"
 
-static inline patch_solver solver_of(const whole_t *w, const part *p) {
+static inline patch_solver patch_solver_of(const mesh_factor_t *w, const submesh *p) {
     patch_solver s;
     SL_CHECK(patch_solver_create(&s, w->S, w->F, p));
     return s;

@@ -1,4 +1,4 @@
-/* parallel_for.h: parallel-for's such as a caller brings: with threads, and one after the other from the end */
+/* parallel_for.h: parallel-for callbacks: one thread for each index, or serial in reverse order */
 #ifndef SL_TEST_PARALLEL_FOR_H
 #define SL_TEST_PARALLEL_FOR_H
 
@@ -17,7 +17,10 @@ static inline void *share_run(void *share) {
     return NULL;
 }
 
-/* A thread for each. context: an int that counts the calls. */
+/* Options that set nothing but threads. */
+#define THREADS(t) (&(sl_options){.threads = (t)})
+
+/* Starts one thread for each index. context: an int that counts the calls. */
 static inline void run_threads(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                void *data) {
     pthread_t *thread = (pthread_t *)test_array((size_t)count, sizeof *thread);
@@ -36,7 +39,7 @@ static inline void run_threads(void *context, sl_int count, void (*body)(void *d
     free(share);
 }
 
-/* One after the other, the last first: what one leaves for another would show. */
+/* Runs the last index first, without threads: shows whether one index depends on an earlier one. */
 static inline void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                  void *data) {
     ++*(int *)context;

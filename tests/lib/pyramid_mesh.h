@@ -1,17 +1,18 @@
-/* pyramid.h: one small mesh in every format, and what the tests of the mesh readers ask of a file */
-#ifndef SL_TEST_PYRAMID_H
-#define SL_TEST_PYRAMID_H
+/* pyramid_mesh.h: one small mesh in every file format, and checks of what a mesh reader returns */
+#ifndef SL_TEST_PYRAMID_MESH_H
+#define SL_TEST_PYRAMID_MESH_H
 
-/* the program defines _POSIX_C_SOURCE 200809L before its first include */
-#include "files.h"
+/* The program defines _POSIX_C_SOURCE 200809L before its first include. */
+#include "temporary_files.h"
 
-#include "../tools/mesh.h"
+#include "tools/mesh/mesh.h"
 
-/* A pyramid over a square: 5 vertices, one quad and four triangles: 6 triangles once the quad is a fan. */
+/* A pyramid over a square: 5 vertices, one quadrilateral and four triangles; 6 triangles after the
+ * quadrilateral is split into a fan. */
 static const double pyramid_xyz[15] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.25, -2.5};
 static const sl_int pyramid_faces[18] = {0, 3, 2, 0, 2, 1, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
 
-static inline void is_pyramid(const char *path) {
+static inline void assert_is_pyramid(const char *path) {
     mesh m;
     char message[300];
     if (!mesh_read(&m, path, message, sizeof message)) {
@@ -28,8 +29,9 @@ static inline void is_pyramid(const char *path) {
     mesh_free(&m);
 }
 
-/* Refused, nothing left behind, and the message has the path first and these words. */
-static inline void is_refused(const char *path, const char *words) {
+/* The file is refused, the mesh is empty, and the message begins with the path and contains
+ * `words`. */
+static inline void assert_is_refused(const char *path, const char *words) {
     mesh m;
     char message[300] = "";
     assert_false(mesh_read(&m, path, message, sizeof message));
@@ -44,8 +46,9 @@ static inline void is_refused(const char *path, const char *words) {
     assert_false(mesh_read(&m, path, NULL, 0));
 }
 
-/* Read or refused, but whole: every index in range, every coordinate finite, and a message exactly when refused. */
-static inline bool is_sound(const char *path) {
+/* Returns whether the file was read. Either way the mesh is valid: every index in range, every
+ * coordinate finite, and a message if and only if it was refused. */
+static inline bool read_is_valid(const char *path) {
     mesh m;
     char message[300];
     bool ok = mesh_read(&m, path, message, sizeof message);
@@ -61,7 +64,7 @@ static inline bool is_sound(const char *path) {
     return ok;
 }
 
-/* ---- its texts ---- */
+/* ---- text formats ---- */
 
 #define OBJ_VERTICES "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 2.5e-1 -2.5\n"
 
@@ -79,9 +82,9 @@ static const char ply_ascii[] = PLY_ASCII_HEADER
     "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n" PLY_FACE OFF_VERTICES
         OFF_FACES;
 
-/* ---- its binary forms ---- */
+/* ---- binary formats ---- */
 
-/* A growing file of binary numbers, in either order of bytes. */
+/* A binary file in memory, in either byte order. */
 typedef struct binary_t {
     char bytes[2048];
     size_t length;
@@ -113,7 +116,8 @@ static inline void put_double(binary_t *b, double x) {
     put_bits(b, bits, 8);
 }
 
-/* The pyramid with coordinates of three types, corners of one, and things to pass over between and behind them. */
+/* The pyramid with coordinates of different types, corner indices of one type, and unknown elements
+ * and properties before and after them. */
 static inline binary_t binary_pyramid(bool big_endian, const char *corner_type, int corner_bytes,
                                       const char *line_end) {
     binary_t b;

@@ -1,23 +1,23 @@
-/* data.h: what the programs over real matrices and meshes share: their files, and how well a factor must solve */
-#ifndef SL_TEST_DATA_H
-#define SL_TEST_DATA_H
+/* real_data.h: files of real matrices and meshes, and solves of known accuracy with them */
+#ifndef SL_TEST_REAL_DATA_H
+#define SL_TEST_REAL_DATA_H
 
-#include "problem.h"
-#include "question.h"
+#include "factored.h"
+#include "local_solve.h"
 
-#include "../tools/dataset.h"
+#include "tools/io/dataset.h"
 
-/* The files of $SL_DATA/name, or the test is skipped. */
+/* The files in $SL_DATA/name. Skips the test if there are none. */
 static inline dataset data_or_skip(const char *name) {
     dataset d;
     if (!dataset_list(&d, NULL, name)) {
-        print_message("SL_DATA names no folder with %s: nothing is factored here\n", name);
+        print_message("SL_DATA has no folder %s: skipped\n", name);
         skip();
     }
     return d;
 }
 
-/* The path of one of them, or NULL. */
+/* The path of the file called name, or NULL. */
 static inline const char *data_find(const dataset *d, const char *name) {
     for (size_t k = 0; k < d->count; k++) {
         if (strcmp(dataset_basename(d->paths[k]), name) == 0) {
@@ -27,30 +27,30 @@ static inline const char *data_find(const dataset *d, const char *name) {
     return NULL;
 }
 
-/* The backward error of S A S y = S b with x = S y. LDL' without pivoting rounds alike in both systems, and here S is
- * diagonal with powers of two that bring the diagonal near 1: so rows of tiny entries, lost in the norms of A and x,
- * count as much as the others. */
+/* Backward error of S A S y = S b with x = S y. S is diagonal, with powers of two that bring the
+ * diagonal of A near 1. LDL' without pivoting makes the same rounding errors in both systems, but
+ * the scaled error gives equal weight to rows of tiny entries, which the norms of A and x hide. */
 static inline double scaled_backward(const sl_csc *A, const double *X, const double *B,
                                      sl_int nrhs) {
     size_t n = (size_t)A->n_cols, entries = (size_t)A->p[n];
     double *values = test_reals(entries), *Y = test_reals(n * (size_t)nrhs);
     double *C = test_reals(n * (size_t)nrhs), *diagonal = test_reals(n);
-    int *half = (int *)test_array(n, sizeof(int)); /* exponents: S = diag(2^half) */
+    int *power = (int *)test_array(n, sizeof(int)); /* exponents: S = diag(2^power) */
     for (sl_int j = 0; j < A->n_cols; j++) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
             diagonal[j] += A->i[p] == j ? A->x[p] : 0.0;
         }
-        (void)frexp(diagonal[j], &half[j]);
-        half[j] = -half[j] / 2;
+        (void)frexp(diagonal[j], &power[j]);
+        power[j] = -power[j] / 2;
     }
     for (sl_int j = 0; j < A->n_cols; j++) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
-            values[p] = ldexp(A->x[p], half[A->i[p]] + half[j]);
+            values[p] = ldexp(A->x[p], power[A->i[p]] + power[j]);
         }
     }
     for (size_t k = 0; k < n * (size_t)nrhs; k++) {
-        Y[k] = ldexp(X[k], -half[k % n]);
-        C[k] = ldexp(B[k], half[k % n]);
+        Y[k] = ldexp(X[k], -power[k % n]);
+        C[k] = ldexp(B[k], power[k % n]);
     }
     const sl_csc scaled = {A->n_rows, A->n_cols, A->p, A->i, values};
     double worst = worst_backward(&scaled, Y, n, C, n, nrhs);
@@ -58,15 +58,17 @@ static inline double scaled_backward(const sl_csc *A, const double *X, const dou
     free(Y);
     free(C);
     free(diagonal);
-    free(half);
+    free(power);
     return worst;
 }
 
-/* What a definite matrix may leave, plain and scaled: c n eps with c n = 20. Scaled, the rows of L D^(1/2) are no
- * longer than 1.5, rounding errors mostly cancel, and the worst seen is 5 eps, for n from 5 to 163842. */
-#define DATA_STEADY (20.0 * DBL_EPSILON)
+/* Bound on the plain and the scaled backward error of a stable factorization: c n eps with c n =
+ * 20. After scaling, the rows of L D^(1/2) have norm at most 1.5 and most rounding errors cancel;
+ * the largest error seen is 5 eps for n from 5 to 163842. */
+#define DATA_STABLE (20.0 * DBL_EPSILON)
 
-/* Solves with nrhs random right-hand sides; both backward errors are at most allowed, the larger is returned. */
+/* Solves nrhs random right-hand sides. Fails if the plain or the scaled backward error exceeds
+ * allowed; returns the larger one. */
 static inline double data_solve(const sl_factor *F, const sl_csc *A, sl_int nrhs, double allowed,
                                 sl_work *W) {
     size_t n = (size_t)A->n_cols;

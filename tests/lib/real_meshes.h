@@ -1,19 +1,19 @@
-/* each_mesh.h: runs a test over the development meshes of $SL_DATA, where there are any */
-#ifndef SL_TEST_EACH_MESH_H
-#define SL_TEST_EACH_MESH_H
+/* real_meshes.h: runs a test on the meshes in $SL_DATA */
+#ifndef SL_TEST_REAL_MESHES_H
+#define SL_TEST_REAL_MESHES_H
 
 #include "test.h"
 
-#include "../tools/dataset.h"
-#include "../tools/mesh.h"
+#include "tools/io/dataset.h"
+#include "tools/mesh/mesh.h"
 
-/* Calls try_one, which takes the mesh over, for each of the names; names NULL: for all that have at most so many
- * vertices. Skips the test where SL_DATA names no folder. */
+/* Calls try_one, which takes ownership of the mesh, for each mesh of at most `most` vertices whose
+ * file name is in names (NULL: for all). Skips the test if SL_DATA has no meshes. */
 static inline void each_mesh(const char *const *names, int count, sl_int most,
                              void (*try_one)(const char *name, mesh m)) {
     dataset data;
     if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: none is tried here\n");
+        print_message("SL_DATA has no folder meshes: skipped\n");
         skip();
     }
     for (size_t k = 0; k < data.count; k++) {

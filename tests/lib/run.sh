@@ -1,21 +1,18 @@
 #!/bin/sh
-# run.sh: runs test programs one after another and adds up what they count (make test)
+# run.sh: runs test programs, a few at a time, and adds up what they count (make test)
 #
-#     tests/run.sh LOG_FOLDER PROGRAM ...
+#     tests/lib/run.sh LOG_FOLDER PROGRAM ...
 #
-# Reads cmocka's closing lines, or a line `N passed, N failed`. A program that dies, or fails without counting a
-# failure, counts as one; one that ran nothing too. A program replay_NAME gets the inputs of tests/corpus/NAME.
-# RUN        what runs a program: valgrind ..., qemu-aarch64 ...
-# The last line is the sum, `N passed, N failed`, and the exit status 0 only if nothing failed and something passed.
+# Reads the closing lines of cmocka, or a line `N passed, N failed`. A program counts as one failure
+# if it dies, fails without reporting a failure, or runs nothing. A program replay_NAME gets the
+# inputs in tests/fuzz/corpus/NAME.
+# RUN        command that runs a program: valgrind ..., qemu-aarch64 ...
+# TEST_JOBS  programs at a time; default: the number of processors
+# The last line is the sum, `N passed, N failed`. The exit status is 0 only if nothing failed and
+# something passed.
 
-logs=$1
-shift
-rm -rf "$logs/tmp"
-mkdir -p "$logs/tmp" || exit 1
-export TMPDIR="$logs/tmp" SL_TMP="$logs/tmp"
-all_passed=0 all_failed=0 all_skipped=0
-
-# Prints passed, failed and skipped of a log. cmocka's FAILED line counts the failed ones, its PASSED line the others.
+# Prints the counts of passed, failed and skipped tests in a log. The FAILED line of cmocka counts
+# the failed tests, its PASSED line the others.
 count() {
     awk '
         /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
@@ -25,36 +22,57 @@ count() {
         END { print passed + 0, failed + 0, skipped + 0 }' "$1"
 }
 
-for program in "$@"; do
-    name=${program##*/}
+# Runs one program: writes its log and its counts, and prints a line, with the end of the log if
+# something failed.
+run_one() {
+    name=${1##*/}
     log=$logs/$name.log
     begin=$(date +%s)
     case $name in
-    replay_*) find "tests/corpus/${name#replay_}" -type f -exec $RUN "$program" {} + ;;
-    *) $RUN "$program" ;;
+    replay_*) find "tests/fuzz/corpus/${name#replay_}" -type f -exec $RUN "$1" {} + ;;
+    *) $RUN "$1" ;;
     esac >"$log" 2>&1 </dev/null
     status=$?
     seconds=$(($(date +%s) - begin))
     set -- $(count "$log")
     passed=$1 failed=$2 skipped=$3
-    if [ "$failed" -eq 0 ] && { [ "$status" -ne 0 ] || [ $((passed + skipped)) -eq 0 ]; }; then failed=1; fi
-    all_passed=$((all_passed + passed))
-    all_failed=$((all_failed + failed))
-    all_skipped=$((all_skipped + skipped))
+    if [ "$failed" -eq 0 ] && { [ "$status" -ne 0 ] || [ $((passed + skipped)) -eq 0 ]; }; then
+        failed=1
+    fi
+    echo "$passed $failed $skipped" >"$logs/$name.count"
     if [ "$failed" -eq 0 ]; then
         note=
         [ "$skipped" -eq 0 ] || note=" ($skipped skipped)"
         printf '%-24s %4d passed%s, %d s\n' "$name" "$passed" "$note" "$seconds"
     else
-        printf '%-24s %4d passed, %d FAILED, exit status %d, %d s; from %s:\n' "$name" "$passed" "$failed" "$status" \
-            "$seconds" "$log"
-        grep -v -e '^\[ RUN  ' -e '^\[       OK' "$log" | tail -n 60 | sed 's/^/    /'
+        # in one piece, so that programs at the same time do not mix their lines
+        text=$(grep -v -e '^\[ RUN  ' -e '^\[       OK' "$log" | tail -n 60 | sed 's/^/    /')
+        printf '%-24s %4d passed, %d FAILED, exit status %d, %d s; from %s:\n%s\n' \
+            "$name" "$passed" "$failed" "$status" "$seconds" "$log" "$text"
     fi
-done
+}
 
-if [ "$all_skipped" -eq 0 ]; then
-    echo "$all_passed passed, $all_failed failed"
-else
-    echo "$all_passed passed, $all_failed failed, $all_skipped skipped"
+if [ "$1" = --one ]; then
+    logs=$2
+    run_one "$3"
+    exit 0
 fi
-[ "$all_failed" -eq 0 ] && [ "$all_passed" -gt 0 ]
+
+logs=$1
+shift
+rm -rf "$logs"
+mkdir -p "$logs/tmp" || exit 1
+export TMPDIR="$logs/tmp" SL_TMP="$logs/tmp"
+jobs=${TEST_JOBS:-$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)}
+printf '%s\n' "$@" | xargs -n 1 -P "$jobs" "$0" --one "$logs" || exit 1
+
+# A program without a count was not run to its end.
+cat "$logs"/*.count | awk -v programs=$# '
+    { passed += $1; failed += $2; skipped += $3; counted++ }
+    END {
+        failed += programs - counted
+        printf "%d passed, %d failed", passed, failed
+        if (skipped > 0) printf ", %d skipped", skipped
+        printf "\n"
+        exit !(failed == 0 && passed > 0)
+    }'

@@ -1,17 +1,17 @@
-/* run_command.h: runs a command of sparse-local in a process of its own and keeps what it says; pictures are counted,
- * not written, so that no libpng is needed */
+/* run_command.h: runs a command of sparse-local in a child process and keeps its output */
 #ifndef SL_TEST_RUN_COMMAND_H
 #define SL_TEST_RUN_COMMAND_H
 
-/* the program defines _POSIX_C_SOURCE 200809L before its first include, and runs in files_set_up's folder */
-#include "files.h"
+/* The program defines _POSIX_C_SOURCE 200809L before its first include, and uses files_set_up. */
+#include "temporary_files.h"
 
 #include <sys/wait.h>
 
-#include "../tools/command.h"
-#include "../tools/picture.h"
+#include "tools/cli/command.h"
+#include "tools/draw/picture.h"
 
-/* In place of png_write.c: a text file of the picture's size and how many of its pixels are not white. */
+/* Replaces png_write.c, so that libpng is not needed: writes a text file with the size of the image
+ * and the number of pixels that are not white. */
 bool picture_write_png(const picture *p, const char *path, char *message, size_t message_size) {
     FILE *file = fopen(path, "w");
     size_t drawn = 0;
@@ -28,12 +28,12 @@ bool picture_write_png(const picture *p, const char *path, char *message, size_t
 
 enum { RUN_WORDS = 24 };
 
-/* Splits the words at blanks and runs the command; returns what it wrote to both streams, which the caller frees.
- * exit_status: -1 where it died by a signal. */
+/* Splits `words` at blanks and runs the command. Returns what it wrote to standard output and
+ * standard error; the caller frees it. exit_status: -1 if a signal killed it. */
 static inline char *run_command(int (*command)(int argc, char **argv), const char *words,
                                 int *exit_status) {
     char copy[1024], *argv[RUN_WORDS + 1];
-    const char *path = files_path("said.txt");
+    const char *path = files_path("output.txt");
     int argc = 0, status = 0;
     size_t length;
     assert_true(strlen(words) < sizeof copy);
@@ -54,28 +54,28 @@ static inline char *run_command(int (*command)(int argc, char **argv), const cha
     }
     assert_true(waitpid(child, &status, 0) == child);
     *exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    char *said = files_get(path, &length);
-    said[length] = '\0';
-    return said;
+    char *output = files_get(path, &length);
+    output[length] = '\0';
+    return output;
 }
 
-/* Fails unless the command ends with this status and says this. */
+/* Fails unless the command ends with this status and its output contains text. */
 static inline void command_says(int (*command)(int argc, char **argv), const char *words,
                                 int status, const char *text) {
     int got;
-    char *said = run_command(command, words, &got);
-    if (got != status || strstr(said, text) == NULL) {
+    char *output = run_command(command, words, &got);
+    if (got != status || strstr(output, text) == NULL) {
         print_error("%s: status %d instead of %d, or not \"%s\" in:\n%s\n", words, got, status,
-                    text, said);
+                    text, output);
         fail();
     }
-    free(said);
+    free(output);
 }
 
-/* The number behind the first place where text stands in what a command said. */
-static inline double number_after(const char *said, const char *text) {
-    const char *at = strstr(said, text);
-    assert_non_null(at); /* the text is not there */
+/* The number that follows the first occurrence of text. */
+static inline double number_after(const char *output, const char *text) {
+    const char *at = strstr(output, text);
+    assert_non_null(at); /* the text does not occur */
     return strtod(at + strlen(text), NULL);
 }
 

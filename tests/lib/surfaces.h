@@ -1,24 +1,25 @@
-/* bent_grids.h: meshes whose distances, angles and flat layouts are known, and the factor of their Laplacian */
-#ifndef SL_TEST_BENT_GRIDS_H
-#define SL_TEST_BENT_GRIDS_H
+/* surfaces.h: meshes with known distances, angles and layouts; the Laplacian factor of a mesh */
+#ifndef SL_TEST_SURFACES_H
+#define SL_TEST_SURFACES_H
 
 #include "test.h"
 
-#include "../tools/disk.h"
-#include "../tools/grid.h"
-#include "../tools/laplacian.h"
-#include "../tools/mesh.h"
-#include "../tools/patch_solver.h"
+#include "tools/mesh/disk_patch.h"
+#include "tools/mesh/grid.h"
+#include "tools/geometry/laplacian.h"
+#include "tools/mesh/mesh.h"
+#include "tools/geometry/patch_solver.h"
 
-/* A jittered grid over 0..1 x 0..1. */
+/* A jittered grid on [0, 1] x [0, 1]. */
 static inline mesh flat_grid(sl_int side, double jitter) {
     mesh m;
     assert_true(mesh_grid(&m, side, side, jitter, 5));
     return m;
 }
 
-/* The same, rolled by half a turn onto a cylinder: developable. On a cylinder the chords of the edges are shorter than
- * the arcs; the mesh itself is flat only if its vertices lie on straight lines along it, so there is no jitter. */
+/* A grid rolled onto a cylinder by half a turn: a developable surface. The chords of the edges are
+ * shorter than the arcs of the cylinder; the mesh itself is flat only if its vertices lie on
+ * straight lines along the axis, so there is no jitter. */
 static inline mesh rolled_grid(sl_int side) {
     mesh m = flat_grid(side, 0);
     for (sl_int v = 0; v < m.n_vertices; v++) {
@@ -29,7 +30,8 @@ static inline mesh rolled_grid(sl_int side) {
     return m;
 }
 
-/* The same, projected from the centre onto the unit sphere, 2 half wide in the plane that touches it. */
+/* A grid of width 2 half in a plane tangent to the unit sphere, projected from the center onto the
+ * sphere. */
 static inline mesh sphere_grid(sl_int side, double half) {
     mesh m = flat_grid(side, 0);
     for (sl_int v = 0; v < m.n_vertices; v++) {
@@ -42,7 +44,7 @@ static inline mesh sphere_grid(sl_int side, double half) {
     return m;
 }
 
-/* A torus of a x b squares, each two triangles: closed, with a handle. */
+/* A torus of a x b squares, each split into two triangles: closed, genus 1. */
 static inline mesh torus_grid(sl_int a, sl_int b) {
     mesh m = {a * b, 2 * a * b, NULL, NULL};
     m.xyz = (double *)malloc(3 * (size_t)m.n_vertices * sizeof(double));
@@ -65,59 +67,59 @@ static inline mesh torus_grid(sl_int a, sl_int b) {
     return m;
 }
 
-/* A mesh with the factor of its Laplacian, and what parts of it need. */
-typedef struct whole_t {
+/* A mesh with the factor of its Laplacian and the incidence that its patches need. */
+typedef struct mesh_factor_t {
     mesh m;
-    incidence around;
+    incidence inc;
     sl_matrix *L;
     sl_symbolic *S;
     sl_factor *F;
-} whole_t;
+} mesh_factor_t;
 
-static inline void whole_make(whole_t *w, mesh m) {
+static inline void mesh_factor_make(mesh_factor_t *w, mesh m) {
     sl_options opt = options_none();
     memset(w, 0, sizeof *w);
     w->m = m;
-    opt.definiteness = SL_SEMIDEFINITE;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
     opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
-    assert_true(incidence_create(&w->around, &w->m));
+    assert_true(incidence_create(&w->inc, &w->m));
     assert_true(laplacian_cotangent(&w->L, &w->m));
     const sl_csc A = sl_matrix_view(w->L);
     SL_CHECK(sl_symbolic_create(&w->S, &A, NULL, NULL));
     SL_CHECK(sl_factor_create(&w->F, w->S, &A, &opt, NULL));
 }
 
-/* The scratch was given back as it was. */
-static inline void scratch_is_clean(const incidence *a) {
+/* The scratch arrays of the incidence are back in their initial state. */
+static inline void assert_scratch_is_clean(const incidence *a) {
     for (sl_int v = 0; v < a->m->n_vertices; v++) {
-        assert_int_equal(a->place[v], -1);
+        assert_int_equal(a->local_index[v], -1);
     }
     for (sl_int f = 0; f < a->m->n_faces; f++) {
-        assert_int_equal(a->taken[f], 0);
+        assert_int_equal(a->face_mark[f], 0);
     }
 }
 
-static inline void whole_free(whole_t *w) {
-    scratch_is_clean(&w->around);
+static inline void mesh_factor_free(mesh_factor_t *w) {
+    assert_scratch_is_clean(&w->inc);
     sl_factor_free(w->F);
     sl_symbolic_free(w->S);
     sl_matrix_free(w->L);
-    incidence_free(&w->around);
+    incidence_free(&w->inc);
     mesh_free(&w->m);
 }
 
-static inline disk grown_disk(whole_t *w, sl_int start, sl_int count) {
-    disk d;
+static inline disk_patch grown_disk(mesh_factor_t *w, sl_int start, sl_int count) {
+    disk_patch d;
     char message[200] = "";
-    if (!disk_grow(&d, &w->around, start, count, NULL, message, sizeof message)) {
+    if (!disk_patch_grow(&d, &w->inc, start, count, NULL, message, sizeof message)) {
         print_error("%s\n", message);
         fail();
     }
     return d;
 }
 
-/* Largest difference of two columns of n, once each has lost its mean. */
-static inline double apart(const double *a, const double *b, sl_int n) {
+/* Largest difference between two columns of n entries after the mean difference is subtracted. */
+static inline double largest_difference(const double *a, const double *b, sl_int n) {
     double mean = 0, worst = 0;
     for (sl_int k = 0; k < n; k++) {
         mean += (a[k] - b[k]) / n;

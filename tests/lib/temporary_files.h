@@ -1,8 +1,8 @@
-/* files.h: temporary files of a test program, in a folder of its own that goes away with it */
-#ifndef SL_TEST_FILES_H
-#define SL_TEST_FILES_H
+/* temporary_files.h: temporary files of a test program, in a folder that is removed at the end */
+#ifndef SL_TEST_TEMPORARY_FILES_H
+#define SL_TEST_TEMPORARY_FILES_H
 
-/* the program defines _POSIX_C_SOURCE 200809L before its first include */
+/* The program defines _POSIX_C_SOURCE 200809L before its first include. */
 #include "test.h"
 
 #include <errno.h>
@@ -11,13 +11,13 @@
 
 #include <zlib.h>
 
-#include "../tools/dataset.h"
+#include "tools/io/dataset.h"
 
 #define FILE_PATH_SIZE 512
 
 static char files_folder[FILE_PATH_SIZE];
 
-/* Folders above the last slash first; one that is there already is fine. */
+/* Creates a folder and its missing parents. */
 static inline void files_make_folders(const char *path) {
     char part[FILE_PATH_SIZE];
     for (size_t k = 0; path[k] != '\0' && k + 1 < sizeof part; k++) {
@@ -29,7 +29,7 @@ static inline void files_make_folders(const char *path) {
     }
 }
 
-/* Group setup: a new folder in $SL_TMP, or in build/tmp. */
+/* Group setup: creates a new folder in $SL_TMP, or in build/tmp. */
 static inline int files_set_up(void **state) {
     (void)state;
     const char *top = getenv("SL_TMP");
@@ -40,7 +40,7 @@ static inline int files_set_up(void **state) {
     return mkdtemp(files_folder) != NULL ? 0 : -1;
 }
 
-/* Group teardown: the folder and what is in it. */
+/* Group teardown: removes the folder and its files. */
 static inline int files_tear_down(void **state) {
     (void)state;
     dataset left;
@@ -53,14 +53,14 @@ static inline int files_tear_down(void **state) {
     return rmdir(files_folder);
 }
 
-/* The path of a file in the folder; static storage, until the next call. */
+/* The path of a file in the folder, in static storage; valid until the next call. */
 static inline const char *files_path(const char *name) {
     static char path[FILE_PATH_SIZE + 100];
     (void)snprintf(path, sizeof path, "%s/%s", files_folder, name);
     return path;
 }
 
-/* Writes a file of these bytes and returns its path. */
+/* Writes these bytes to a file and returns its path. */
 static inline const char *files_put(const char *name, const void *bytes, size_t length) {
     const char *path = files_path(name);
     FILE *file = fopen(path, "wb");
@@ -74,7 +74,7 @@ static inline const char *files_put_text(const char *name, const char *text) {
     return files_put(name, text, strlen(text));
 }
 
-/* The same, gzipped. */
+/* The same, compressed by gzip. */
 static inline const char *files_put_gz(const char *name, const void *bytes, size_t length) {
     const char *path = files_path(name);
     gzFile file = gzopen(path, "wb");
@@ -84,7 +84,7 @@ static inline const char *files_put_gz(const char *name, const void *bytes, size
     return path;
 }
 
-/* The content of a file as it stands; the caller frees it. */
+/* The bytes of a file; the caller frees them. */
 static inline char *files_get(const char *path, size_t *length) {
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -99,7 +99,7 @@ static inline char *files_get(const char *path, size_t *length) {
     return bytes;
 }
 
-/* The next of a fixed sequence of numbers, for damaging bytes. */
+/* Next number of a fixed pseudo-random sequence, used to damage bytes. */
 static inline uint64_t files_random(uint64_t *state) {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return *state >> 33;

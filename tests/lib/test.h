@@ -1,8 +1,8 @@
-/* test.h: what every test program includes: cmocka, status checks, a counting and failing allocator, the pass figure */
+/* test.h: what every test program includes: cmocka, checks, a failing allocator, error bounds */
 #ifndef SL_TEST_H
 #define SL_TEST_H
 
-/* cmocka wants these first, in this order */
+/* cmocka needs these first, in this order. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../sparse_local.h"
+#include "sparse_local.h"
 
 /* ---- statuses ---- */
 
@@ -31,22 +31,22 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 #define SL_CHECK(call) test_status((call), SL_OK, #call, __FILE__, __LINE__)
 #define SL_EXPECT(status, call) test_status((call), (status), #call, __FILE__, __LINE__)
 
-/* ---- memory: counts, fails at will, finds writes beside a block ---- */
+/* ---- memory: an allocator that counts, fails on demand and detects writes outside a block ---- */
 
 typedef struct counter_t {
-    size_t calls;       /* allocations asked for, the failed one included */
+    size_t calls;       /* allocations requested, including the one that fails */
     size_t live_blocks; /* not released yet */
     size_t live_bytes;
-    size_t total_bytes; /* ever handed out */
-    size_t damaged;     /* blocks released with a broken edge */
-    int64_t fail_at;    /* the call (0-based) that fails; -1: none */
+    size_t total_bytes; /* sum over all allocations */
+    size_t damaged;     /* blocks whose edge was overwritten */
+    int64_t fail_at;    /* index of the call that fails, 0-based; -1: none */
 } counter_t;
 
 enum { COUNTER_EDGE = 16 };
 
 typedef union counter_head_t {
     size_t bytes;
-    unsigned char room[COUNTER_EDGE]; /* keeps the block aligned as malloc's */
+    unsigned char room[COUNTER_EDGE]; /* keeps the block aligned like malloc */
 } counter_head_t;
 
 static inline void *counter_allocate(void *context, size_t bytes) {
@@ -61,7 +61,7 @@ static inline void *counter_allocate(void *context, size_t bytes) {
         return NULL;
     }
     ((counter_head_t *)(void *)raw)->bytes = bytes;
-    /* all ones: a double read before it is written is a NaN, an index is -1 */
+    /* All ones: a double that is read before it is written is a NaN, an index is -1. */
     memset(raw + COUNTER_EDGE, 0xFF, bytes);
     memset(raw + COUNTER_EDGE + bytes, 0xE7, COUNTER_EDGE);
     c->live_blocks++;
@@ -104,14 +104,14 @@ static inline sl_options options_counted(counter_t *c) {
     return opt;
 }
 
-#define COUNTER_CLEAN(c)                                                                           \
-    do {                                                                                           \
-        assert_int_equal((c)->live_blocks, 0);                                                     \
-        assert_int_equal((c)->live_bytes, 0);                                                      \
-        assert_int_equal((c)->damaged, 0);                                                         \
+#define COUNTER_CLEAN(c) \
+    do { \
+        assert_int_equal((c)->live_blocks, 0); \
+        assert_int_equal((c)->live_bytes, 0); \
+        assert_int_equal((c)->damaged, 0); \
     } while (0)
 
-/* Memory of the tests themselves: no test goes on without it. */
+/* Memory of the tests themselves; aborts if there is none. */
 static inline void *test_array(size_t count, size_t size) {
     void *block = calloc(count ? count : 1, size);
     if (!block) {
@@ -130,12 +130,62 @@ static inline sl_int *test_ints(size_t count) {
     return (sl_int *)test_array(count, sizeof(sl_int));
 }
 
+/* ---- the options that a call reads: under SL_VERIFY it refuses all others ---- */
+
+/* The options for sl_symbolic_create. */
+static inline sl_options options_for_analysis(const sl_options *from) {
+    sl_options opt = options_none();
+    if (from) {
+        opt = *from;
+        opt.isa = SL_ISA_AUTO;
+        opt.method = SL_METHOD_AUTO;
+        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        opt.null_tolerance = opt.consistency_tolerance = opt.regularization = 0;
+        opt.mass = NULL;
+        opt.signs = NULL;
+    }
+    return opt;
+}
+
+/* The options for sl_factor_create. */
+static inline sl_options options_for_factor(const sl_options *from) {
+    sl_options opt = options_none();
+    if (from) {
+        opt = *from;
+        opt.ordering = SL_ORDERING_ND;
+        opt.relaxation = SL_RELAXATION_DEFAULT;
+        opt.triangle = SL_TRIANGLE_NONE;
+        opt.perm = opt.metis_options = NULL;
+        opt.coordinates = NULL;
+        opt.dimensions = opt.block_size = 0;
+    }
+    return opt;
+}
+
+/* The allocator and the threads; region for sl_plan_create, region_bytes for sl_region_create. */
+static inline sl_options options_for_rest(const sl_options *from, int plan, int region) {
+    sl_options opt = options_none();
+    if (from) {
+        opt.allocator = from->allocator;
+        opt.threads = from->threads;
+        opt.region = plan ? from->region : NULL;
+        opt.region_bytes = region ? from->region_bytes : 0;
+    }
+    return opt;
+}
+
+#define FOR_PLAN(opt) ((const sl_options[1]){options_for_rest(opt, 1, 0)})
+#define FOR_REGION(opt) ((const sl_options[1]){options_for_rest(opt, 0, 1)})
+#define FOR_OTHERS(opt) ((const sl_options[1]){options_for_rest(opt, 0, 0)})
+#define FOR_ANALYSIS(opt) ((const sl_options[1]){options_for_analysis(opt)})
+#define FOR_FACTOR(opt) ((const sl_options[1]){options_for_factor(opt)})
+
 /* ---- orderings ---- */
 
-/* Whether an ordering is compiled in. */
+/* Is this ordering compiled in? */
 static inline int ordering_is_present(sl_ordering ordering) {
-#if defined(SL_NO_METIS)
-    return ordering != SL_ORDERING_METIS && ordering != SL_ORDERING_QUALITY;
+#if !defined(SL_METIS) || defined(SL_NO_METIS)
+    return ordering != SL_ORDERING_METIS && ordering != SL_ORDERING_METIS_REFINED;
 #else
     (void)ordering;
     return 1;
@@ -158,8 +208,8 @@ static inline int isa_is_present(sl_isa isa) {
     sl_factor *F = NULL;
     opt.ordering = SL_ORDERING_NATURAL;
     opt.isa = isa;
-    SL_CHECK(sl_symbolic_create(&S, &one, &opt, NULL));
-    sl_status status = sl_factor_create(&F, S, &one, &opt, NULL);
+    SL_CHECK(sl_symbolic_create(&S, &one, FOR_ANALYSIS(&opt), NULL));
+    sl_status status = sl_factor_create(&F, S, &one, FOR_FACTOR(&opt), NULL);
     assert_true(status == SL_OK || status == SL_ERR_UNSUPPORTED);
     assert_true((F != NULL) == (status == SL_OK));
     sl_factor_free(F);
@@ -172,7 +222,7 @@ typedef struct isa_list_t {
     sl_isa isa[4];
 } isa_list_t;
 
-/* Those that run here; scalar always is the first, the best the last. */
+/* Those that this machine has. The first is always scalar, the last the best. */
 static inline isa_list_t isas_present(void) {
     static const sl_isa all[4] = {SL_ISA_SCALAR, SL_ISA_NEON, SL_ISA_AVX2, SL_ISA_AVX512};
     isa_list_t list = {0, {SL_ISA_AUTO, SL_ISA_AUTO, SL_ISA_AUTO, SL_ISA_AUTO}};
@@ -184,45 +234,46 @@ static inline isa_list_t isas_present(void) {
     return list;
 }
 
-/* ---- ways to factor: every method on every instruction set ---- */
+/* ---- variants of the factorization: every method with every instruction set ---- */
 
-typedef struct way_list_t {
+typedef struct variant_list_t {
     int count;
     struct {
         sl_isa isa;
         sl_method method;
-    } way[8];
-} way_list_t;
+    } variant[8];
+} variant_list_t;
 
-static inline way_list_t ways_present(void) {
+static inline variant_list_t variants_present(void) {
     isa_list_t isas = isas_present();
-    way_list_t list;
+    variant_list_t list;
     memset(&list, 0, sizeof list);
     for (int k = 0; k < isas.count; k++) {
         for (int method = SL_METHOD_UP_LOOKING; method <= SL_METHOD_SUPERNODAL; method++) {
-            list.way[list.count].isa = isas.isa[k];
-            list.way[list.count++].method = (sl_method)method;
+            list.variant[list.count].isa = isas.isa[k];
+            list.variant[list.count++].method = (sl_method)method;
         }
     }
     return list;
 }
 
-static inline void way_take(sl_options *opt, const way_list_t *ways, int k) {
-    opt->isa = ways->way[k].isa;
-    opt->method = ways->way[k].method;
+static inline void options_set_variant(sl_options *opt, const variant_list_t *variants, int k) {
+    opt->isa = variants->variant[k].isa;
+    opt->method = variants->variant[k].method;
 }
 
-/* ---- figures ---- */
+/* ---- error bounds ---- */
 
-/* A solve passes with ||b - A x|| / (||A|| ||x|| + ||b||) <= PASS_C n eps. The textbook bound for a substitution and a
- * dense LDL' of n columns is a small multiple of n eps times the growth; 10 covers both sweeps and growth near 1. */
+/* A solve passes if ||b - A x|| / (||A|| ||x|| + ||b||) <= PASS_C n eps. The textbook bound for a
+ * substitution and a dense LDL' of n columns is a small multiple of n eps times the pivot growth;
+ * 10 covers both sweeps and growth near 1. */
 #define PASS_C 10.0
 
 static inline double pass_figure(sl_int n) {
     return PASS_C * (n > 0 ? (double)n : 1.0) * DBL_EPSILON;
 }
 
-/* Largest backward error of nrhs columns; NaN if one is. */
+/* Largest backward error of nrhs columns; NaN if one of them is. */
 static inline double worst_backward(const sl_csc *A, const double *X, size_t ldx, const double *B,
                                     size_t ldb, sl_int nrhs) {
     size_t n = (size_t)A->n_rows;
@@ -239,21 +290,21 @@ static inline double worst_backward(const sl_csc *A, const double *X, size_t ldx
     return worst;
 }
 
-#define BACKWARD_PASSES(A, X, ldx, B, ldb, nrhs)                                                   \
-    do {                                                                                           \
-        double worst_ = worst_backward((A), (X), (ldx), (B), (ldb), (nrhs));                       \
-        if (!(worst_ <= pass_figure((A)->n_rows))) {                                               \
-            print_error("backward error %.3g, allowed %.3g\n", worst_, pass_figure((A)->n_rows));  \
-            fail();                                                                                \
-        }                                                                                          \
+#define BACKWARD_PASSES(A, X, ldx, B, ldb, nrhs) \
+    do { \
+        double worst_ = worst_backward((A), (X), (ldx), (B), (ldb), (nrhs)); \
+        if (!(worst_ <= pass_figure((A)->n_rows))) { \
+            print_error("backward error %.3g, allowed %.3g\n", worst_, pass_figure((A)->n_rows)); \
+            fail(); \
+        } \
     } while (0)
 
-/* Same bits, the sign of a zero aside; NaN is never equal. */
+/* Equal values: the same bits, except that zeros of both signs are equal. NaN equals nothing. */
 static inline int same_value(double a, double b) {
     return a == b;
 }
 
-/* Position of the first difference between two columns of numbers, or -1. */
+/* Index of the first difference between two arrays, or -1. */
 static inline int64_t first_difference(const double *a, const double *b, size_t count) {
     for (size_t k = 0; k < count; k++) {
         if (!same_value(a[k], b[k])) {
@@ -263,13 +314,13 @@ static inline int64_t first_difference(const double *a, const double *b, size_t 
     return -1;
 }
 
-#define SAME_VALUES(a, b, count)                                                                   \
-    do {                                                                                           \
-        int64_t at_ = first_difference((a), (b), (count));                                         \
-        if (at_ >= 0) {                                                                            \
-            print_error("differ at %ld: %.17g and %.17g\n", (long)at_, (a)[at_], (b)[at_]);        \
-            fail();                                                                                \
-        }                                                                                          \
+#define SAME_VALUES(a, b, count) \
+    do { \
+        int64_t at_ = first_difference((a), (b), (count)); \
+        if (at_ >= 0) { \
+            print_error("differ at %ld: %.17g and %.17g\n", (long)at_, (a)[at_], (b)[at_]); \
+            fail(); \
+        } \
     } while (0)
 
 #endif

@@ -1,11 +1,11 @@
-/* centred.h: weights for centred solves, and the proof that a solution is centred */
-#ifndef SL_TEST_CENTRED_H
-#define SL_TEST_CENTRED_H
+/* zero_mean.h: weights for zero-mean solves of singular systems, and a check of their solutions */
+#ifndef SL_TEST_ZERO_MEAN_H
+#define SL_TEST_ZERO_MEAN_H
 
-#include "problem.h"
-#include "singular.h"
+#include "factored.h"
+#include "graph_laplacian.h"
 
-/* Weights from 2^-10 to 2^10. */
+/* Random weights between 2^-10 and 2^10. */
 static inline double *weights(sl_int n, uint64_t seed) {
     double *m = test_reals((size_t)n);
     for (sl_int k = 0; k < n; k++) {
@@ -14,10 +14,11 @@ static inline double *weights(sl_int n, uint64_t seed) {
     return m;
 }
 
-/* x of A x = b - c m, c = sum of b / sum of m in each component, with sum m x = 0: by the two equations themselves. The
- * mean of x in a component is 0 within rounding of its largest entry. */
-static inline void assert_centred(const sl_csc *A, const sl_int *of, const double *m,
-                                  const double *x, const double *b) {
+/* Checks the two equations that define the solution x: A x = b - c m with c = sum of b / sum of m
+ * in each component, and sum m x = 0 in each component, where rounding is relative to the largest
+ * entry of x in it. of: n, the representative row of each row's component. */
+static inline void assert_zero_mean(const sl_csc *A, const sl_int *of, const double *m,
+                                    const double *x, const double *b) {
     sl_int n = A->n_cols;
     size_t rows = (size_t)n;
     double *sum_b = test_reals(rows), *sum_m = test_reals(rows), *sum_x = test_reals(rows);
@@ -30,10 +31,10 @@ static inline void assert_centred(const sl_csc *A, const sl_int *of, const doubl
     }
     for (sl_int i = 0; i < n; i++) {
         rhs[i] = b[i] - m[i] * (sum_b[of[i]] / sum_m[of[i]]);
-        /* 1e-290: a skipped row of zeros has b / DBL_MAX for its 0 */
+        /* 1e-290: in a skipped row of zeros x is b / DBL_MAX instead of 0 */
         assert_true(fabs(sum_x[of[i]]) <= (pass_figure(n) * most[of[i]] + 1e-290) * sum_m[of[i]]);
     }
-    /* against b, too: of a lone row rhs is rounding alone */
+    /* Also relative to b: in a component of one row, rhs is nothing but rounding error. */
     double eta, largest = 0.0, residual = 0.0;
     SL_CHECK(sl_csc_residual(A, none, rows, &eta, x, rows, rhs, rows, 1));
     for (sl_int i = 0; i < n; i++) {

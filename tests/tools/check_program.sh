@@ -1,17 +1,19 @@
 #!/bin/sh
-# check_program.sh: the program sparse-local as a user meets it: help, answers, refusals (make test)
+# check_program.sh: runs sparse-local as a user does: help, results, refusals (make test)
 #
-#     PROGRAM=build/sparse-local tests/check_program.sh
+#     PROGRAM=build/sparse-local tests/tools/check_program.sh
 #
-# Exit statuses: 0 done, 1 the data are at fault, 2 the command line is. Ends in a line `N passed, N failed`.
+# Exit statuses of the program: 0 success, 1 bad data, 2 bad command line. The last line of output
+# is `N passed, N failed`.
 
 program=${PROGRAM:-build/sparse-local}
 dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/program.XXXXXX") || exit 1
 trap 'rm -rf "$dir"' EXIT
 passed=0 failed=0
 
-# tell STATUS TEXT: counts; on failure shows what the program said.
-tell() {
+# record STATUS TEXT: counts a check, which failed if STATUS is not 0. Then it also shows the output
+# of the program.
+record() {
     if [ "$1" -eq 0 ]; then
         passed=$((passed + 1))
     else
@@ -21,96 +23,107 @@ tell() {
     fi
 }
 
-# gives STATUS WORDS ARGUMENT ...: the program ends so; WORDS (a pattern) stand in its output, or, where STATUS is not
-# 0, in its errors, which are few lines, and nothing else was printed.
+# gives STATUS PATTERN ARGUMENT ...: the program run with these arguments exits with STATUS. Its
+# standard output matches PATTERN and its standard error is empty; if STATUS is not 0, its standard
+# error matches PATTERN.
 gives() {
-    wanted=$1 words=$2
+    wanted=$1 pattern=$2
     shift 2
     "$program" "$@" >"$dir/out" 2>"$dir/err" </dev/null
     status=$?
     ok=0
     [ "$status" -eq "$wanted" ] || ok=1
     if [ "$wanted" -eq 0 ]; then
-        grep -q -e "$words" "$dir/out" || ok=1
+        grep -q -e "$pattern" "$dir/out" || ok=1
         [ ! -s "$dir/err" ] || ok=1
     else
-        grep -q -e "$words" "$dir/err" || ok=1
+        grep -q -e "$pattern" "$dir/err" || ok=1
     fi
-    tell $ok "sparse-local $*: status $status, wanted $wanted and: $words"
+    record $ok "sparse-local $*: status $status, expected $wanted and: $pattern"
 }
 
-# ---- help ----
+# Help.
 
 gives 0 'usage: sparse-local COMMAND' --help
-gives 0 'made-up surface' help
+gives 0 'generated surface' help
 gives 2 'usage: sparse-local COMMAND'
-gives 2 'there is no command frobnicate' frobnicate
+gives 2 'unknown command frobnicate' frobnicate
 commands=$("$program" --help | sed -n 's/^  \([a-z]*\) .*/\1/p')
 for command in $commands; do
     gives 0 "usage: sparse-local $command " "$command" --help
     awk 'length > 100 { exit 1 }' "$dir/out"
-    tell $? "$command --help: no line beyond 100 characters"
-    gives 2 'there is no option --frobnicate' "$command" sphere:1 --frobnicate
+    record $? "$command --help: no line beyond 100 characters"
+    gives 2 'unknown option --frobnicate' "$command" sphere:1 --frobnicate
     gives 2 'needs MESH' "$command"
-    gives 2 'one word too many' "$command" sphere:1 sphere:1 sphere:1 sphere:1
+    gives 2 'unexpected operand' "$command" sphere:1 sphere:1 sphere:1 sphere:1
     gives 1 'no-such-file.obj: cannot be opened' "$command" "$dir/no-such-file.obj"
-    gives 1 'sphere:99: a size out of range' "$command" sphere:99
+    gives 1 'sphere:99: a size is out of range' "$command" sphere:99
 done
 
-# ---- answers ----
+# Results.
 
 gives 0 'Euler characteristic 2$' info sphere:2
 gives 0 'border loops 1, Euler characteristic 1$' info --mesh-only grid:9x9
 gives 0 '^12 ' heat sphere:3 --from 5 --at 12
 gives 0 'wanted 3 of 162 vertices' heat sphere:2 --from=5,7 --at=1-3
-gives 0 'auto-diffusion of 162 of 162' adf sphere:2 --out "$dir/a.ply.gz" --png "$dir/a.png" --csv "$dir/a.csv"
+gives 0 'auto-diffusion of 162 of 162' adf sphere:2 --out "$dir/a.ply.gz" --png "$dir/a.png" \
+    --csv "$dir/a.csv"
 [ "$(wc -l <"$dir/a.csv")" -eq 163 ] && [ "$(head -c 4 "$dir/a.png" | tail -c 3)" = PNG ]
-tell $? "adf writes a table of 162 rows and a PNG file"
+record $? "adf writes a table of 162 rows and a PNG file"
 gives 0 'auto-diffusion of 162 of 162' adf "$dir/a.ply.gz" --csv "$dir/b.csv"
 cmp -s "$dir/a.csv" "$dir/b.csv"
-tell $? "adf of a written mesh gives the same numbers"
-gives 0 'signatures of 2 of 162 vertices at 5 times' hks sphere:2 --times 5 --at 3,4 --csv "$dir/h.csv"
+record $? "adf of a written mesh gives the same numbers"
+gives 0 'signatures of 2 of 162 vertices at 5 times' hks sphere:2 --times 5 --at 3,4 \
+    --csv "$dir/h.csv"
 gives 0 'differ by at most' pairs sphere:2 --count 20 --svg "$dir/p.svg"
-gives 0 'patch 10 of 162' reach sphere:2 --patch 10 --png "$dir/r.png" --separators "$dir/s.png" --tree "$dir/t.svg" \
-    --pattern "$dir/q.png" --graph "$dir/g.svg"
+gives 0 'patch 10 of 162' reach sphere:2 --patch 10 --png "$dir/r.png" --separators "$dir/s.png" \
+    --tree "$dir/t.svg" --pattern "$dir/q.png" --graph "$dir/g.svg"
 [ "$(grep -c '<text' "$dir/g.svg")" -eq 960 ] && grep -q '>161</text>' "$dir/g.svg"
-tell $? "the graph has a number at each corner"
-gives 1 '642 vertices, no more than 500' reach sphere:3 --graph "$dir/g.svg"
+record $? "the graph has a number at each corner"
+gives 1 '642 vertices, at most 500' reach sphere:3 --graph "$dir/g.svg"
 for file in p.svg r.png s.png t.svg q.png; do
     [ -s "$dir/$file" ]
-    tell $? "$file was drawn"
+    record $? "$file was drawn"
 done
 
-gives 0 'entries read of the region.s inverse: [1-9]' heat grid:60x60 --from 1830 --at 1831,1890 --region
-gives 0 '; [1-9][0-9]* of the region.s inverse$' param grid:60x60 --patch 200 --center 1830 --region --compare
-gives 0 'in the region, and to the roots' param grid:60x60 --patch 200 --center 1830 --region --compare --system patch
-gives 0 '; [1-9][0-9]* of the region.s inverse$' geodesic grid:60x60 --from 1830 --radius 0.1 --region
+gives 0 'entries read of the region.s inverse: [1-9]' heat grid:60x60 --from 1830 --at 1831,1890 \
+    --region
+gives 0 '; [1-9][0-9]* of the region.s inverse$' param grid:60x60 --patch 200 --center 1830 \
+    --region --compare
+gives 0 'in the region, and without it' param grid:60x60 --patch 200 --center 1830 --region \
+    --compare --system patch
+gives 0 '; [1-9][0-9]* of the region.s inverse$' geodesic grid:60x60 --from 1830 --radius 0.1 \
+    --region
 gives 0 '; [1-9][0-9]* of the region.s inverse$' arap grid:60x60 --patch 200 --center 1830 --region
-gives 2 'for distances within --radius' geodesic sphere:2 --region
-gives 0 'from 2 sources by themselves' geodesic grid:60x60 --from 1830,1835 --radius 0.1 --each --region \
+gives 2 'only for distances within --radius' geodesic sphere:2 --region
+gives 0 'from each of 2 sources' geodesic grid:60x60 --from 1830,1835 --radius 0.1 --each --region \
     --csv "$dir/e.csv"
 awk -F, '$1 == 1830 && $2 == 1835 { a = $3 } $1 == 1835 && $2 == 1830 { b = $3 }
-    END { exit !(a > 0.07 && a < 0.1 && b > 0.07 && b < 0.1 && a - b < 0.005 && b - a < 0.005) }' "$dir/e.csv"
-tell $? "geodesic --each: from one to the other as far as back, about 5 edges of 1/59"
-gives 2 '--each: writes --csv alone' geodesic sphere:2 --each --png "$dir/each.png"
+    END { exit !(a > 0.07 && a < 0.1 && b > 0.07 && b < 0.1 && (a - b)^2 < 0.005^2) }' "$dir/e.csv"
+record $? "geodesic --each: the distance is the same both ways, about 5 edges of 1/59"
+gives 2 '--each: writes only --csv' geodesic sphere:2 --each --png "$dir/each.png"
 gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
-"$program" hks sphere:2 --times 3 --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" && cmp -s "$dir/h1.csv" "$dir/h2.csv"
-tell $? "hks gives the same numbers by one factor at a time and by two"
+"$program" hks sphere:2 --times 3 --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" &&
+    cmp -s "$dir/h1.csv" "$dir/h2.csv"
+record $? "hks gives the same numbers with one thread and with two"
 
-# ---- odd meshes: survived ----
+# Meshes that are not surfaces, and degenerate ones, are handled without a crash.
 
-printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 1 2 4\nf 2 1 5\nf 1 1 2\nf 1 2 2\n' \
-    >"$dir/fan.obj"
+{
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\n'
+    printf 'f 1 2 3\nf 1 2 4\nf 2 1 5\nf 1 1 2\nf 1 2 2\n'
+} >"$dir/fan.obj"
 gives 0 'not manifold 1' info "$dir/fan.obj"
 gives 0 'auto-diffusion of 6 of 6' adf "$dir/fan.obj" --png "$dir/fan.png" --out "$dir/fan2.obj"
 gives 0 'wanted 6 of 6' heat "$dir/fan.obj" --png "$dir/fan.png"
-gives 0 'patch 5 of 6' reach "$dir/fan.obj" --png "$dir/fan.png" --pattern "$dir/q.png" --tree "$dir/t.svg"
+gives 0 'patch 5 of 6' reach "$dir/fan.obj" --png "$dir/fan.png" --pattern "$dir/q.png" \
+    --tree "$dir/t.svg"
 gives 0 'pairs on 6 vertices' pairs "$dir/fan.obj" --count 30
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/flat.obj"
 gives 0 'without area 1' info "$dir/flat.obj"
 gives 0 'auto-diffusion of 3 of 3' adf "$dir/flat.obj" --png "$dir/flat.png"
 
-# ---- refusals ----
+# Refusals.
 
 printf 'v 0 0 0\nv 1 0 0\n' >"$dir/points.obj"
 gives 0 'no faces: there is nothing to factor' info "$dir/points.obj"
@@ -118,29 +131,30 @@ for command in $commands; do
     [ "$command" = info ] || gives 1 'points.obj: has no faces' "$command" "$dir/points.obj"
 done
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n' >"$dir/index.obj"
-gives 1 'index.obj:5: face 0: vertex 3 (counted from 0) of only 3' info "$dir/index.obj"
+gives 1 'index.obj:5: face 0: vertex 3 (counted from 0) is out of range: the mesh has 3 vertices' \
+    info "$dir/index.obj"
 printf 'solid\nvertex 0 0\n' >"$dir/cut.stl"
-gives 1 'cut.stl:2: vertex: needs three numbers' info "$dir/cut.stl"
+gives 1 'cut.stl:2: vertex: three numbers expected' info "$dir/cut.stl"
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >"$dir/point.obj"
-gives 1 'no time can be chosen' heat "$dir/point.obj"
-gives 1 'there is no vertex 42, the last is 41' heat sphere:1 --from 42
-gives 2 'no list of vertices' heat sphere:1 --from x
-gives 2 'no list of vertices' heat sphere:1 --from -3
-gives 2 'a comma is needed' heat sphere:1 --from 3.5
+gives 1 'no default time' heat "$dir/point.obj"
+gives 1 'there is no vertex 42; the last one is 41' heat sphere:1 --from 42
+gives 2 'not a list of vertices' heat sphere:1 --from x
+gives 2 'not a list of vertices' heat sphere:1 --from -3
+gives 2 'expected a comma' heat sphere:1 --from 3.5
 gives 2 'empty range' heat sphere:1 --from 7-3
 gives 2 'one of them' heat sphere:1 --at 3 --radius 1
 gives 2 'one of them' heat sphere:1 --time 3 --scaled-time 1
 gives 2 'above 0' heat sphere:1 --time -3
 gives 1 'not between 0 and 1e200' heat sphere:1 --time 1e300
 gives 2 'not a finite number' heat sphere:1 --time nan
-gives 2 'not a whole number' pairs sphere:1 --count -1
+gives 2 'not an integer' pairs sphere:1 --count -1
 gives 2 'needs T' heat sphere:1 --time
-gives 2 'not like 800x600' adf sphere:1 --png "$dir/x.png" --size 8
-gives 2 'not like 30,20' adf sphere:1 --png "$dir/x.png" --view 8
-gives 2 'not x, y or z' adf sphere:1 --png "$dir/x.png" --up w
+gives 2 'such as 800x600' adf sphere:1 --png "$dir/x.png" --size 8
+gives 2 'such as 30,20' adf sphere:1 --png "$dir/x.png" --view 8
+gives 2 'expected x, y or z' adf sphere:1 --png "$dir/x.png" --up w
 gives 1 'cannot be written' adf sphere:1 --png "$dir/no/x.png"
 gives 1 'cannot be written' adf sphere:1 --csv "$dir/no/x.csv"
-gives 1 'written as .obj or .ply' adf sphere:1 --out "$dir/x.off"
+gives 1 'must end in .obj or .ply' adf sphere:1 --out "$dir/x.off"
 gives 2 'a number from 1 to 42' adf sphere:1 --at random:43
 
 echo "$passed passed, $failed failed"

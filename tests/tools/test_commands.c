@@ -1,25 +1,24 @@
-/* test_commands.c: the commands of sparse-local, run as functions: their numbers against sums over all eigenvectors,
- * their answers under a renumbering and a turn of the mesh, their pictures */
+/* test_commands.c: commands of sparse-local run as functions: values against sums over all
+ * eigenvectors, invariance under renumbering and motion of the mesh, pictures */
 #define _POSIX_C_SOURCE 200809L
-#include "eigen.h"
-#include "files.h"
+#include "tests/lib/dense_eigen.h"
+#include "tests/lib/temporary_files.h"
 
 #include <fcntl.h>
 
-#include "../tools/command.h"
-#include "../tools/dissection.h"
-#include "../tools/laplacian.h"
-#include "../tools/mesh_write.h"
-#include "../tools/picture.h"
-#include "../tools/surface.h"
-
-/* ---- running a command ---- */
+#include "tools/cli/command.h"
+#include "tools/draw/dissection.h"
+#include "tools/geometry/laplacian.h"
+#include "tools/mesh/mesh_write.h"
+#include "tools/draw/picture.h"
+#include "tools/mesh/surface_generator.h"
 
 static int pictures_written, picture_colors;
 
-/* Takes the place of the program's own (png_write.c), which needs libpng; counts the colours that the picture has. */
+/* Replaces the program's own function (png_write.c), which needs libpng. Counts the colors of the
+ * picture. */
 bool picture_write_png(const picture *p, const char *path, char *message, size_t message_size) {
-    static unsigned char seen[1 << 15]; /* five bits of each colour */
+    static unsigned char seen[1 << 15]; /* five bits of each color */
     (void)path;
     (void)message;
     (void)message_size;
@@ -34,7 +33,7 @@ bool picture_write_png(const picture *p, const char *path, char *message, size_t
     return true;
 }
 
-/* Runs with standard output put aside; words are parted by blanks. */
+/* Runs a command, its words separated by spaces, with standard output discarded. */
 static void run(int (*command)(int, char **), const char *format, ...) {
     char line[2048], *argv[40];
     int argc = 0;
@@ -47,23 +46,23 @@ static void run(int (*command)(int, char **), const char *format, ...) {
     }
     argv[argc] = NULL;
     (void)fflush(stdout);
-    int kept = dup(1), nowhere = open("/dev/null", O_WRONLY);
-    assert_true(kept >= 0 && nowhere >= 0 && dup2(nowhere, 1) == 1);
+    int saved = dup(1), null_device = open("/dev/null", O_WRONLY);
+    assert_true(saved >= 0 && null_device >= 0 && dup2(null_device, 1) == 1);
     int status = command(argc, argv);
     (void)fflush(stdout);
-    assert_true(dup2(kept, 1) == 1);
-    (void)close(kept);
-    (void)close(nowhere);
+    assert_true(dup2(saved, 1) == 1);
+    (void)close(saved);
+    (void)close(null_device);
     assert_int_equal(status, 0);
 }
 
-/* A table of numbers behind one line of names; returns how many rows. */
-static int read_csv(const char *path, double *values, int columns, int most_rows) {
+/* Reads a table of numbers below a line of column names. Returns the number of rows. */
+static int read_csv(const char *path, double *values, int columns, int max_rows) {
     size_t length = 0;
     char *text = files_get(path, &length), *at = strchr(text, '\n');
     int rows = 0;
     assert_non_null(at);
-    for (at++; *at != '\0' && rows < most_rows; rows++) {
+    for (at++; *at != '\0' && rows < max_rows; rows++) {
         for (int c = 0; c < columns; c++) {
             char *after = at;
             values[rows * columns + c] = strtod(at, &after);
@@ -76,8 +75,6 @@ static int read_csv(const char *path, double *values, int columns, int most_rows
     return rows;
 }
 
-/* ---- a small mesh and its eigenvectors ---- */
-
 typedef struct spectrum {
     mesh m;
     int n;
@@ -87,7 +84,7 @@ typedef struct spectrum {
 static spectrum spectrum_of(const char *surface) {
     spectrum s;
     sl_matrix *L = NULL;
-    assert_true(surface_make(&s.m, surface, NULL, 0));
+    assert_true(surface_generate(&s.m, surface, NULL, 0));
     assert_true(laplacian_cotangent(&L, &s.m));
     sl_csc A = sl_matrix_view(L);
     size_t n = (size_t)A.n_cols;
@@ -129,9 +126,10 @@ static double heat_by_sum(const spectrum *s, int i, int j, double t) {
     return sum;
 }
 
-/* Both ways err by n eps times the condition of M + t L, which is 1 + t lambda_max where the masses are alike;
- * ten times that, for the roundings of the eigenvectors' rotations add up. */
-static double allowed(const spectrum *s, double t) {
+/* Both computations have an error of n eps times the condition of M + t L, which is
+ * 1 + t lambda_max for equal masses. Ten times that allows for the accumulated rounding of the
+ * rotations of the eigenvectors. */
+static double tolerance_of(const spectrum *s, double t) {
     double largest = 0;
     for (int k = 0; k < s->n; k++) {
         largest = s->lambda[k] > largest ? s->lambda[k] : largest;
@@ -143,7 +141,7 @@ static double allowed(const spectrum *s, double t) {
 
 static const char *const small[] = {"sphere:2", "blob:2", "hills:13x12", "torus:16x9"};
 
-static void against_eigenvectors(void **state) {
+static void heat_matches_sums_over_eigenvectors(void **state) {
     (void)state;
     char csv[FILE_PATH_SIZE + 100];
     (void)snprintf(csv, sizeof csv, "%s", files_path("numbers.csv"));
@@ -156,26 +154,26 @@ static void against_eigenvectors(void **state) {
             for (int v = 0; v < s.n; v++) {
                 double want = heat_by_sum(&s, v, v, t);
                 assert_true(values[2 * v] == v);
-                NEAR(values[2 * v + 1], want, want, allowed(&s, t));
+                NEAR(values[2 * v + 1], want, want, tolerance_of(&s, t));
             }
             run(command_adf, "adf %s --time %.17g --csv %s --at 7,7,3,9-11", small[k], t, csv);
             assert_int_equal(read_csv(csv, values, 2, s.n), 6);
-            NEAR(values[1], heat_by_sum(&s, 7, 7, t), values[1], allowed(&s, t));
-            NEAR(values[11], heat_by_sum(&s, 11, 11, t), values[11], allowed(&s, t));
+            NEAR(values[1], heat_by_sum(&s, 7, 7, t), values[1], tolerance_of(&s, t));
+            NEAR(values[11], heat_by_sum(&s, 11, 11, t), values[11], tolerance_of(&s, t));
             run(command_heat, "heat %s --time %.17g --csv %s --from 5,60 --at 0,5,33", small[k], t,
                 csv);
             assert_int_equal(read_csv(csv, values, 2, s.n), 3);
             for (int row = 0; row < 3; row++) {
                 int v = (int)values[2 * row];
                 NEAR(values[2 * row + 1], heat_by_sum(&s, v, 5, t) + heat_by_sum(&s, v, 60, t),
-                     heat_by_sum(&s, 5, 5, t), allowed(&s, t));
+                     heat_by_sum(&s, 5, 5, t), tolerance_of(&s, t));
             }
             run(command_pairs, "pairs %s --time %.17g --csv %s --count 40", small[k], t, csv);
             assert_int_equal(read_csv(csv, values, 5, s.n), 40);
             for (int row = 0; row < 40; row++) {
                 int from = (int)values[5 * row], to = (int)values[5 * row + 1];
                 NEAR(values[5 * row + 2], heat_by_sum(&s, to, from, t), heat_by_sum(&s, to, to, t),
-                     allowed(&s, t));
+                     tolerance_of(&s, t));
             }
         }
         run(command_hks, "hks %s --times 6 --csv %s --first 0.01 --last 100 --at all", small[k],
@@ -184,7 +182,7 @@ static void against_eigenvectors(void **state) {
         for (int v = 0; v < s.n; v++) {
             for (int i = 0; i < 6; i++) {
                 double t = 0.01 * pow(1e4, i / 5.0), want = heat_by_sum(&s, v, v, t);
-                NEAR(values[7 * v + 1 + i], want, want, allowed(&s, t));
+                NEAR(values[7 * v + 1 + i], want, want, tolerance_of(&s, t));
             }
         }
         free(values);
@@ -192,13 +190,14 @@ static void against_eigenvectors(void **state) {
     }
 }
 
-/* Heat is neither made nor lost: the sum of mass times x is that of the sources; and it is what a radius asks for. */
-static void heat_is_kept(void **state) {
+/* Heat is conserved: the sum of mass times x is that of the sources. With a radius, exactly the
+ * vertices within it are written. */
+static void heat_is_conserved(void **state) {
     (void)state;
     char csv[FILE_PATH_SIZE + 100];
     (void)snprintf(csv, sizeof csv, "%s", files_path("heat.csv"));
     mesh m;
-    assert_true(surface_make(&m, "hills:40x30", NULL, 0));
+    assert_true(surface_generate(&m, "hills:40x30", NULL, 0));
     double mass[1200], all[2400], near[2400];
     laplacian_mass(mass, &m);
     run(command_heat, "heat hills:40x30 --scaled-time 50 --from 600,3 --csv %s", csv);
@@ -216,20 +215,21 @@ static void heat_is_kept(void **state) {
                   hypot(hypot(x[0] - b[0], x[1] - b[1]), x[2] - b[2]) <= 0.2;
     }
     assert_int_equal(rows, inside);
-    for (int k = 0; k < rows; k++) { /* local equals full, to the bit */
+    /* Local solves give the bits of the full solve. */
+    for (int k = 0; k < rows; k++) {
         assert_true(near[2 * k + 1] == all[2 * (int)near[2 * k] + 1]);
     }
     mesh_free(&m);
 }
 
-/* On the unit sphere with eigenvalues l (l + 1) the heat at angle a is the sum over l of
- * (2 l + 1) / (4 pi) P_l(cos a) / (1 + t l (l + 1)); the mesh of edges 0.075 comes within 1 % of it. */
-static void a_sphere_in_closed_form(void **state) {
+/* On the unit sphere the eigenvalues are l (l + 1), and the heat at angle a is the sum over l of
+ * (2 l + 1) / (4 pi) P_l(cos a) / (1 + t l (l + 1)). A mesh with edges of 0.075 is within 1 %. */
+static void heat_on_a_sphere_matches_the_closed_form(void **state) {
     (void)state;
     char csv[FILE_PATH_SIZE + 100];
     mesh m;
     (void)snprintf(csv, sizeof csv, "%s", files_path("sphere.csv"));
-    assert_true(surface_make(&m, "sphere:4", NULL, 0));
+    assert_true(surface_generate(&m, "sphere:4", NULL, 0));
     double *x = test_reals(2 * (size_t)m.n_vertices), t = 0.3;
     run(command_heat, "heat sphere:4 --from 0 --time %.17g --csv %s", t, csv);
     assert_int_equal(read_csv(csv, x, 2, m.n_vertices), m.n_vertices);
@@ -238,7 +238,8 @@ static void a_sphere_in_closed_form(void **state) {
             m.xyz[0] * m.xyz[3 * v] + m.xyz[1] * m.xyz[3 * v + 1] + m.xyz[2] * m.xyz[3 * v + 2];
         double before = 1, at = c, sum = 1 + 3 * c / (1 + 2 * t);
         if (c > 0.9) {
-            continue; /* the sum diverges at the source itself, and slowly next to it */
+            /* The sum diverges at the source and converges slowly near it. */
+            continue;
         }
         for (int l = 2; l < 3000; l++) { /* Bonnet's recursion */
             double next = ((2 * l - 1) * c * at - (l - 1) * before) / l;
@@ -253,19 +254,20 @@ static void a_sphere_in_closed_form(void **state) {
     mesh_free(&m);
 }
 
-/* Vertices in another order, the surface turned and moved: the same numbers at the same places. */
+/* With the vertices renumbered and the surface rotated and moved, every vertex keeps its value. */
 static void an_isometry_changes_nothing(void **state) {
     (void)state;
     mesh m, other;
     char csv[FILE_PATH_SIZE + 100], path[FILE_PATH_SIZE + 100];
     (void)snprintf(csv, sizeof csv, "%s", files_path("iso.csv"));
     (void)snprintf(path, sizeof path, "%s", files_path("iso.ply"));
-    assert_true(surface_make(&m, "star:3", NULL, 0));
+    assert_true(surface_generate(&m, "star:3", NULL, 0));
     int n = m.n_vertices;
     other = m;
     other.xyz = test_reals(3 * (size_t)n);
     other.faces = test_ints(3 * (size_t)m.n_faces);
-    for (int v = 0; v < n; v++) { /* v becomes 7 v + 3; 7 does not divide 642 */
+    /* Vertex v becomes 7 v + 3 modulo n = 642, which 7 does not divide. */
+    for (int v = 0; v < n; v++) {
         const double *x = m.xyz + 3 * v;
         double *y = other.xyz + 3 * ((7 * v + 3) % n);
         double c = cos(0.7), s = sin(0.7);
@@ -273,7 +275,8 @@ static void an_isometry_changes_nothing(void **state) {
         y[1] = c * x[2] + s * (s * x[0] + c * x[1]) - 2;
         y[2] = s * x[2] - c * (s * x[0] + c * x[1]) + 1;
     }
-    for (int k = 0; k < 3 * m.n_faces; k++) { /* the last face first, each begun elsewhere */
+    /* Faces in reverse order, each starting at another corner. */
+    for (int k = 0; k < 3 * m.n_faces; k++) {
         other.faces[3 * (m.n_faces - 1 - k / 3) + (k % 3 + 1) % 3] = (7 * m.faces[k] + 3) % n;
     }
     assert_true(mesh_write(path, &other, NULL, NULL, 0));
@@ -292,10 +295,8 @@ static void an_isometry_changes_nothing(void **state) {
     mesh_free(&m);
 }
 
-/* ---- reach ---- */
-
-/* The columns visited are the ancestors of the patch: what lies beyond never changes them. */
-static void reach_tells_the_tree(void **state) {
+/* The columns visited are the ancestors of the patch. No other part of the mesh changes them. */
+static void visited_columns_are_ancestors_of_the_patch(void **state) {
     (void)state;
     char csv[FILE_PATH_SIZE + 100];
     (void)snprintf(csv, sizeof csv, "%s", files_path("reach.csv"));
@@ -308,11 +309,12 @@ static void reach_tells_the_tree(void **state) {
         int parent = (int)r[2];
         in_patch += r[5] == 1;
         assert_true(r[0] == v && r[5] <= r[6]);
-        assert_true(parent < 0 || rows[7 * parent + 1] > r[1]);  /* parents come later */
+        assert_true(parent < 0 || rows[7 * parent + 1] > r[1]);  /* parents have higher numbers */
         assert_true(parent < 0 || r[6] <= rows[7 * parent + 6]); /* and are visited too */
     }
     assert_int_equal(in_patch, 50);
-    for (int v = 0; v < 1200; v++) { /* a visited column has the patch below it */
+    /* A visited column outside the patch has a visited child. */
+    for (int v = 0; v < 1200; v++) {
         if (rows[7 * v + 6] == 1 && rows[7 * v + 5] == 0) {
             int children = 0;
             for (int w = 0; w < 1200; w++) {
@@ -324,12 +326,14 @@ static void reach_tells_the_tree(void **state) {
     free(rows);
 }
 
-static sl_int component_without(const mesh *m, const sl_int *level_of, sl_int below, sl_int *mark) {
+static sl_int largest_component_without(const mesh *m, const sl_int *level_of, sl_int below,
+                                        sl_int *mark) {
     sl_int largest = 0;
     for (sl_int v = 0; v < m->n_vertices; v++) {
         mark[v] = level_of[v] >= 0 && level_of[v] < below ? -1 : v;
     }
-    for (bool changed = true; changed;) { /* the smallest number of each component wins */
+    /* The smallest number in a component wins. */
+    for (bool changed = true; changed;) {
         changed = false;
         for (sl_int k = 0; k < 3 * m->n_faces; k++) {
             sl_int a = m->faces[k], b = m->faces[k % 3 == 2 ? k - 2 : k + 1];
@@ -349,19 +353,20 @@ static sl_int component_without(const mesh *m, const sl_int *level_of, sl_int be
     return largest;
 }
 
-/* Without the separators of the first k levels, no part is larger than three quarters to the k of the mesh. */
-static void separators_separate(void **state) {
+/* Removing the separators of one more level leaves no component larger than three quarters of the
+ * largest before. */
+static void separators_divide_the_mesh(void **state) {
     (void)state;
     mesh m;
     sl_matrix *L = NULL;
     sl_symbolic *S = NULL;
     sl_options opt = options_none();
     opt.relaxation = SL_RELAXATION_NONE;
-    assert_true(surface_make(&m, "sphere:4", NULL, 0));
+    assert_true(surface_generate(&m, "sphere:4", NULL, 0));
     assert_true(laplacian_cotangent(&L, &m));
     sl_csc A = sl_matrix_view(L);
     SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    sl_symbolic_view_t view = sl_symbolic_view(S);
+    sl_symbolic_arrays view = sl_symbolic_view(S);
     sl_int *level = test_ints((size_t)view.n), *of = test_ints((size_t)view.n);
     sl_int *mark = test_ints((size_t)view.n);
     assert_int_equal(dissection_levels(level, &view, 4), 4);
@@ -371,9 +376,9 @@ static void separators_separate(void **state) {
     }
     sl_int whole = view.n;
     for (sl_int below = 1; below <= 4; below++) {
-        sl_int part = component_without(&m, of, below, mark);
-        assert_true(part < 3 * whole / 4);
-        whole = part;
+        sl_int component = largest_component_without(&m, of, below, mark);
+        assert_true(component < 3 * whole / 4);
+        whole = component;
     }
     free(mark);
     free(of);
@@ -381,7 +386,7 @@ static void separators_separate(void **state) {
     sl_symbolic_free(S);
     sl_matrix_free(L);
     mesh_free(&m);
-    const sl_symbolic_view_t none = {0};
+    const sl_symbolic_arrays none = {0};
     sl_int nothing;
     assert_int_equal(dissection_levels(&nothing, &none, 3), 0);
 }
@@ -415,9 +420,12 @@ static void pictures_are_drawn(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_eigenvectors),    cmocka_unit_test(heat_is_kept),
-        cmocka_unit_test(a_sphere_in_closed_form), cmocka_unit_test(an_isometry_changes_nothing),
-        cmocka_unit_test(reach_tells_the_tree),    cmocka_unit_test(separators_separate),
+        cmocka_unit_test(heat_matches_sums_over_eigenvectors),
+        cmocka_unit_test(heat_is_conserved),
+        cmocka_unit_test(heat_on_a_sphere_matches_the_closed_form),
+        cmocka_unit_test(an_isometry_changes_nothing),
+        cmocka_unit_test(visited_columns_are_ancestors_of_the_patch),
+        cmocka_unit_test(separators_divide_the_mesh),
         cmocka_unit_test(pictures_are_drawn),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

@@ -1,10 +1,10 @@
-/* test_tools_disk_damage.c: meshes damaged by chance: disks by the definition are taken, and nothing else is */
-#include "gen.h"
+/* test_disk_damage.c: randomly damaged meshes are accepted as disks only if they are disks */
+#include "tests/lib/gen_matrices.h"
 
-#include "bent_grids.h"
-#include "disk_checks.h"
+#include "tests/lib/surfaces.h"
+#include "tests/lib/check_disk.h"
 
-/* Gives the class of b to all of the class of a. */
+/* Gives all members of the class of a the class of b. */
 static void unite(sl_int *class_of, sl_int n, sl_int a, sl_int b) {
     sl_int from = class_of[a], to = class_of[b];
     for (sl_int k = 0; k < n; k++) {
@@ -12,15 +12,17 @@ static void unite(sl_int *class_of, sl_int n, sl_int a, sl_int b) {
     }
 }
 
-/* Is the whole mesh a disk, faces turned as one likes? By the definition: each edge in at most two faces, the faces
- * around each vertex one fan, all faces in one piece, V - E + F = 1. */
+/* Is the whole mesh a disk, for some orientation of its faces? By definition: every edge is in one
+ * or two faces, the faces around a vertex form one fan, all faces are connected, and
+ * V - E + F = 1. */
 static bool is_disk_by_definition(const mesh *m) {
     sl_int n = m->n_vertices, edges = 0, piece[64], corner[192];
     for (sl_int f = 0; f < m->n_faces; f++) {
         piece[f] = f;
     }
     for (sl_int k = 0; k < 3 * m->n_faces; k++) {
-        corner[k] = k; /* corners at one vertex, joined over the edges there */
+        /* Corners at one vertex are joined across the edges there. */
+        corner[k] = k;
     }
     for (sl_int u = 0; u < n; u++) {
         for (sl_int v = 0; v < u; v++) {
@@ -72,28 +74,29 @@ static bool is_disk_by_definition(const mesh *m) {
     return m->n_faces > 0 && n - edges + m->n_faces == 1;
 }
 
-/* Small meshes damaged by chance: what is taken for a disk is one, what is one is taken, and what grows is one. */
-static void damaged_meshes(void **state) {
+/* Small meshes, randomly damaged: a mesh is accepted exactly if it is a disk, and what grows is a
+ * disk. */
+static void exactly_the_disks_are_accepted(void **state) {
     (void)state;
     uint64_t chance = 21;
     sl_int disks = 0, others = 0, *list = first_vertices(16);
     for (int round = 0; round < 3000; round++) {
         mesh m = round % 3 ? flat_grid(4, 0) : torus_grid(4, 4);
         incidence a;
-        disk d;
+        disk_patch d;
         for (sl_int damage = gen_below(&chance, 4); damage > 0; damage--) {
             sl_int f = gen_below(&chance, m.n_faces), g = gen_below(&chance, m.n_faces);
             sl_int how = gen_below(&chance, 4), c = gen_below(&chance, 3);
-            if (how == 0) { /* a face less */
+            if (how == 0) { /* one face removed */
                 memcpy(m.faces + 3 * f, m.faces + 3 * (m.n_faces - 1), 3 * sizeof(sl_int));
                 m.n_faces--;
-            } else if (how == 1) { /* one twice, in place of another */
+            } else if (how == 1) { /* one face repeated in place of another */
                 memcpy(m.faces + 3 * f, m.faces + 3 * g, 3 * sizeof(sl_int));
-            } else if (how == 2) { /* turned over */
+            } else if (how == 2) { /* one face turned over */
                 sl_int v = m.faces[3 * f];
                 m.faces[3 * f] = m.faces[3 * f + 1];
                 m.faces[3 * f + 1] = v;
-            } else { /* another corner, not one of its own */
+            } else { /* one corner moved to another vertex */
                 sl_int v = gen_below(&chance, 16);
                 if (m.faces[3 * f] != v && m.faces[3 * f + 1] != v && m.faces[3 * f + 2] != v) {
                     m.faces[3 * f + c] = v;
@@ -102,21 +105,21 @@ static void damaged_meshes(void **state) {
         }
         assert_true(incidence_create(&a, &m));
         bool wanted = is_disk_by_definition(&m);
-        assert_int_equal(disk_of_list(&d, &a, list, 16, NULL, 0), wanted);
+        assert_int_equal(disk_patch_from_vertices(&d, &a, list, 16, NULL, 0), wanted);
         if (wanted) {
-            is_disk(&d);
-            disk_free(&d);
+            assert_is_disk(&d);
+            disk_patch_free(&d);
         }
         disks += wanted;
         others += !wanted;
         sl_int start = gen_below(&chance, 16);
         if (a.begin[start] < a.begin[start + 1]) {
-            assert_true(disk_grow(&d, &a, start, 3 + gen_below(&chance, 14), NULL, NULL, 0));
-            is_disk(&d);
+            assert_true(disk_patch_grow(&d, &a, start, 3 + gen_below(&chance, 14), NULL, NULL, 0));
+            assert_is_disk(&d);
             assert_true(is_disk_by_definition(&d.p.m));
-            disk_free(&d);
+            disk_patch_free(&d);
         }
-        scratch_is_clean(&a);
+        assert_scratch_is_clean(&a);
         incidence_free(&a);
         mesh_free(&m);
     }
@@ -127,7 +130,7 @@ static void damaged_meshes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_meshes),
+        cmocka_unit_test(exactly_the_disks_are_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

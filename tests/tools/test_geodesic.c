@@ -1,25 +1,26 @@
-/* test_tools_geodesic.c: distances by the heat method, local against full; cells of the nearest site; refusals */
-#include "gen.h"
+/* test_geodesic.c: distances by the heat method, within a radius and global; nearest sites */
+#include "tests/lib/gen_matrices.h"
 
-#include "each_mesh.h"
-#include "heat_subject.h"
+#include "tests/lib/real_meshes.h"
+#include "tests/lib/heat_mesh.h"
 
-#include "../tools/ball.h"
-#include "../tools/surface.h"
+#include "tools/mesh/graph_ball.h"
+#include "tools/mesh/surface_generator.h"
 
-/* Heat on the ball is that of the full solve, to the bit; distances are those of the full method but for the rim. */
-static void local_against_full(void **state) {
+/* Within a radius the heat has the bits of the full solve, and distances agree with the full method
+ * except near the rim. */
+static void local_distances_match_full_ones(void **state) {
     (void)state;
-    subject_t y;
+    heat_mesh_t y;
     sl_int source = 1000;
-    const heat_reach near = {1.0, 0, 0}, cut = {1.0, 0, 1}, everything = {100, 0, 3};
-    subject_make(&y, torus_grid(80, 50), 4);
+    const heat_options near = {1.0, 0, 0}, cut = {1.0, 0, 1}, everything = {100, 0, 3};
+    heat_mesh_make(&y, torus_grid(80, 50), 4);
     heat_field full, local;
     SL_CHECK(heat_distance(&full, &y.s, &source, 1, NULL));
     SL_CHECK(heat_distance(&local, &y.s, &source, 1, &near));
     assert_int_equal(full.n, y.m.n_vertices);
-    assert_true(local.n_ball < y.m.n_vertices / 2 && local.n < local.n_ball);
-    assert_int_equal(full.cold, 0);
+    assert_true(local.n_patch < y.m.n_vertices / 2 && local.n < local.n_patch);
+    assert_int_equal(full.faces_without_gradient, 0);
     double *by = test_reals((size_t)y.m.n_vertices), *heat = test_reals((size_t)y.m.n_vertices);
     for (sl_int k = 0; k < full.n; k++) {
         by[full.vertices[k]] = full.distance[k];
@@ -33,7 +34,7 @@ static void local_against_full(void **state) {
     }
     assert_true(worst <= 0.02);
     heat_field_free(&local);
-    /* X cut at the rim is worse than a rim through which nothing flows */
+    /* Cutting X at the rim is less accurate than a rim without flux. */
     SL_CHECK(heat_distance(&local, &y.s, &source, 1, &cut));
     double cut_worst = 0;
     assert_int_equal(local.solves, 1);
@@ -42,7 +43,7 @@ static void local_against_full(void **state) {
     }
     assert_true(cut_worst > worst);
     heat_field_free(&local);
-    /* a radius that holds everything is the full method */
+    /* With a radius that covers the mesh this is the full method. */
     SL_CHECK(heat_distance(&local, &y.s, &source, 1, &everything));
     assert_int_equal(local.n, full.n);
     for (sl_int k = 0; k < local.n; k++) {
@@ -52,37 +53,37 @@ static void local_against_full(void **state) {
     heat_field_free(&full);
     free(heat);
     free(by);
-    subject_free(&y);
+    heat_mesh_free(&y);
 }
 
-/* What a radius of so many edges touches does not depend on the mesh around it. */
-static void cost_of_a_radius(void **state) {
+/* What a radius of a given number of edges touches does not depend on the size of the mesh. */
+static void local_cost_does_not_depend_on_the_mesh(void **state) {
     (void)state;
     sl_int ball_before = 0;
     for (sl_int side = 60; side <= 240; side *= 2) {
-        subject_t y;
+        heat_mesh_t y;
         heat_field f;
         sl_int source = side * (side / 2) + side / 2;
-        const heat_reach near = {8.1 / (side - 1), 0, 0};
+        const heat_options near = {8.1 / (side - 1), 0, 0};
         sl_stats all;
-        subject_make(&y, flat_grid(side, 0), 1);
+        heat_mesh_make(&y, flat_grid(side, 0), 1);
         SL_CHECK(heat_distance(&f, &y.s, &source, 1, &near));
         sl_symbolic_stats(y.s.S, &all);
-        assert_true(ball_before == 0 || f.n_ball == ball_before);
-        assert_true(f.heat_stats.x_entries < all.nnz_panels / 2);
-        assert_true(f.heat_stats.b_entries <= f.heat_stats.x_entries);
-        ball_before = f.n_ball;
+        assert_true(ball_before == 0 || f.n_patch == ball_before);
+        assert_true(f.heat_stats.plan.x_entries < all.symbolic.nnz_panels / 2);
+        assert_true(f.heat_stats.plan.b_entries <= f.heat_stats.plan.x_entries);
+        ball_before = f.n_patch;
         heat_field_free(&f);
-        subject_free(&y);
+        heat_mesh_free(&y);
     }
 }
 
-/* Distances along edges: an independent relaxation until nothing changes. */
-static void balls(void **state) {
+/* Distances along edges, compared with a relaxation that runs until nothing changes. */
+static void balls_hold_the_vertices_within_a_radius(void **state) {
     (void)state;
-    subject_t y;
+    heat_mesh_t y;
     const sl_int sources[3] = {5, 300, 5};
-    subject_make(&y, sphere_grid(20, 1), 1);
+    heat_mesh_make(&y, sphere_grid(20, 1), 1);
     sl_int n = y.m.n_vertices;
     double *d = test_reals((size_t)n);
     for (sl_int v = 0; v < n; v++) {
@@ -92,7 +93,7 @@ static void balls(void **state) {
         changed = false;
         for (size_t k = 0; k < 3 * (size_t)y.m.n_faces; k++) {
             sl_int u = y.m.faces[k], v = y.m.faces[k / 3 * 3 + (k + 1) % 3];
-            double length = in_space(y.m.xyz + 3 * (size_t)u, y.m.xyz + 3 * (size_t)v);
+            double length = euclidean_distance(y.m.xyz + 3 * (size_t)u, y.m.xyz + 3 * (size_t)v);
             if (d[u] + length < d[v] - 1e-14) {
                 d[v] = d[u] + length;
                 changed = true;
@@ -105,27 +106,28 @@ static void balls(void **state) {
     }
     static const double radii[] = {-1, 0, 0.1, 0.5, INFINITY};
     for (size_t k = 0; k < sizeof radii / sizeof *radii; k++) {
-        ball b;
+        graph_ball b;
         sl_int wanted = 0;
-        assert_true(ball_find(&b, &y.s.around, sources, 3, radii[k]));
+        assert_true(graph_ball_create(&b, &y.s.inc, sources, 3, radii[k]));
         for (sl_int v = 0; v < n; v++) {
             wanted += d[v] <= radii[k];
         }
         assert_int_equal(b.n, wanted);
         for (sl_int j = 0; j < b.n; j++) {
-            assert_true(fabs(b.along_edges[j] - d[b.vertices[j]]) <= 1e-13);
-            assert_true(j == 0 || b.along_edges[j] >= b.along_edges[j - 1]);
+            assert_true(fabs(b.path_length[j] - d[b.vertices[j]]) <= 1e-13);
+            assert_true(j == 0 || b.path_length[j] >= b.path_length[j - 1]);
         }
-        ball_free(&b);
+        graph_ball_free(&b);
     }
     free(d);
-    subject_free(&y);
+    heat_mesh_free(&y);
 }
 
-/* Two squares side by side and a lone vertex: what no face joins to a source has no distance. */
-static void pieces_and_many_sources(void **state) {
+/* Two squares side by side and an isolated vertex: only vertices connected to a source have a
+ * distance. */
+static void only_connected_vertices_have_distances(void **state) {
     (void)state;
-    subject_t y;
+    heat_mesh_t y;
     mesh one = flat_grid(15, 0.1), m = {2 * 225 + 1, 2 * one.n_faces, NULL, NULL};
     m.xyz = test_reals(3 * (size_t)m.n_vertices);
     m.faces = test_ints(3 * (size_t)m.n_faces);
@@ -138,16 +140,20 @@ static void pieces_and_many_sources(void **state) {
         m.faces[3 * one.n_faces + k] = one.faces[k] + 225;
     }
     mesh_free(&one);
-    subject_make(&y, m, 4);
+    heat_mesh_make(&y, m, 4);
     const sl_int left[2] = {0, 224}, both[3] = {0, 224, 225 + 112}, lone[2] = {450, 7};
-    double *d = by_vertex(&y, left, 2, NULL), *first = by_vertex(&y, left, 1, NULL);
-    double *second = by_vertex(&y, left + 1, 1, NULL), *e = by_vertex(&y, both, 3, NULL);
-    double *alone = by_vertex(&y, lone, 2, NULL);
+    double *d = distance_by_vertex(&y, left, 2, NULL),
+           *first = distance_by_vertex(&y, left, 1, NULL);
+    double *second = distance_by_vertex(&y, left + 1, 1, NULL),
+           *e = distance_by_vertex(&y, both, 3, NULL);
+    double *alone = distance_by_vertex(&y, lone, 2, NULL);
     for (sl_int v = 0; v < 451; v++) {
         assert_int_equal(isnan(d[v]), v >= 225);
         assert_int_equal(isnan(e[v]), v == 450);
         assert_int_equal(isnan(alone[v]), v >= 225 && v != 450);
-        if (v < 225) { /* within two edges: the method rounds off where distances meet */
+        /* Within two edges, because the method rounds off the ridge where distances from two
+         * sources meet. */
+        if (v < 225) {
             assert_true(fabs(d[v] - fmin(first[v], second[v])) <= 2.0 / 14);
             assert_true(fabs(d[v] - e[v]) <= 1e-9);
         }
@@ -158,13 +164,13 @@ static void pieces_and_many_sources(void **state) {
     free(first);
     free(second);
     free(alone);
-    subject_free(&y);
+    heat_mesh_free(&y);
 }
 
-/* Distances do not depend on the numbers of the vertices, nor on where the mesh stands; they grow with its size. */
-static void renumbered_moved_and_scaled(void **state) {
+/* Distances do not depend on vertex numbers or position, and scale with the mesh. */
+static void distances_are_invariant(void **state) {
     (void)state;
-    subject_t y, z;
+    heat_mesh_t y, z;
     mesh m = sphere_grid(24, 1), moved = sphere_grid(24, 1);
     sl_int n = m.n_vertices, *to = test_ints((size_t)n), source = 200;
     uint64_t chance = 11;
@@ -183,18 +189,19 @@ static void renumbered_moved_and_scaled(void **state) {
     for (size_t k = 0; k < 3 * (size_t)m.n_faces; k++) {
         moved.faces[k] = to[m.faces[k]];
     }
-    subject_make(&y, m, 1);
-    subject_make(&z, moved, 1);
+    heat_mesh_make(&y, m, 1);
+    heat_mesh_make(&z, moved, 1);
     sl_int there = to[source];
-    const heat_reach near = {0.4, 0, 0}, ten_times = {4, 0, 0};
-    double *d = by_vertex(&y, &source, 1, NULL), *e = by_vertex(&z, &there, 1, NULL);
+    const heat_options near = {0.4, 0, 0}, ten_times = {4, 0, 0};
+    double *d = distance_by_vertex(&y, &source, 1, NULL),
+           *e = distance_by_vertex(&z, &there, 1, NULL);
     for (sl_int v = 0; v < n; v++) {
         assert_true(fabs(10 * d[v] - e[to[v]]) <= 1e-8);
     }
     free(d);
     free(e);
-    d = by_vertex(&y, &source, 1, &near);
-    e = by_vertex(&z, &there, 1, &ten_times);
+    d = distance_by_vertex(&y, &source, 1, &near);
+    e = distance_by_vertex(&z, &there, 1, &ten_times);
     for (sl_int v = 0; v < n; v++) {
         bool near_the_rim = fabs(d[v] - 0.4) < 1e-6 || fabs(e[to[v]] - 4) < 1e-5;
         assert_true(near_the_rim || isnan(d[v]) == isnan(e[to[v]]));
@@ -203,16 +210,17 @@ static void renumbered_moved_and_scaled(void **state) {
     free(d);
     free(e);
     free(to);
-    subject_free(&y);
-    subject_free(&z);
+    heat_mesh_free(&y);
+    heat_mesh_free(&z);
 }
 
-/* Every vertex that is clearly nearer to one site belongs to it; local cells are the full ones where they reach. */
-static void cells(void **state) {
+/* A vertex that is clearly nearest to one site is in its cell. Local cells equal the full ones
+ * within their radius. */
+static void cells_belong_to_the_nearest_site(void **state) {
     (void)state;
-    subject_t y;
+    heat_mesh_t y;
     sl_int sites[21], wrong = 0, clear = 0;
-    subject_make(&y, flat_grid(80, 0.2), 1);
+    heat_mesh_make(&y, flat_grid(80, 0.2), 1);
     sl_int n = y.m.n_vertices, *cell = test_ints((size_t)n), *near = test_ints((size_t)n);
     double *most = test_reals((size_t)n);
     uint64_t chance = 3;
@@ -226,7 +234,7 @@ static void cells(void **state) {
         double best = INFINITY, next = INFINITY;
         int which = -1;
         for (int k = 0; k < 21; k++) {
-            double d = in_space(y.m.xyz + 3 * (size_t)v, y.m.xyz + 3 * (size_t)sites[k]);
+            double d = euclidean_distance(y.m.xyz + 3 * (size_t)v, y.m.xyz + 3 * (size_t)sites[k]);
             if (d < best) {
                 next = best;
                 best = d;
@@ -235,7 +243,8 @@ static void cells(void **state) {
                 next = d;
             }
         }
-        if (next > 1.15 * best) { /* edges of a grid favour some directions by about a tenth */
+        /* The edges of a grid favor some directions by about a tenth. */
+        if (next > 1.15 * best) {
             clear++;
             wrong += cell[v] != which;
         }
@@ -254,7 +263,8 @@ static void cells(void **state) {
     for (sl_int v = 0; v < n; v++) {
         double d = INFINITY;
         for (int k = 0; k < 21; k++) {
-            d = fmin(d, in_space(y.m.xyz + 3 * (size_t)v, y.m.xyz + 3 * (size_t)sites[k]));
+            d = fmin(d,
+                     euclidean_distance(y.m.xyz + 3 * (size_t)v, y.m.xyz + 3 * (size_t)sites[k]));
         }
         assert_true(d <= 0.1 || near[v] == -1);
         assert_true(d > 0.06 || near[v] == cell[v]);
@@ -264,28 +274,28 @@ static void cells(void **state) {
     free(most);
     free(near);
     free(cell);
-    subject_free(&y);
+    heat_mesh_free(&y);
 }
 
-/* Long faces with obtuse angles: with a small time heat falls below 0, with a larger one not; changing the time gives
- * what a solver made with it gives. */
-static void obtuse_faces_need_time(void **state) {
+/* Long faces with obtuse angles: with a small time the heat is negative somewhere, with a larger
+ * one it is not. Changing the time gives the bits of a solver created with it. */
+static void obtuse_faces_need_a_larger_time(void **state) {
     (void)state;
-    subject_t y, z;
+    heat_mesh_t y, z;
     heat_field f;
     sl_int source = 100;
     mesh m, same;
-    assert_true(surface_make(&m, "star:5", NULL, 0));
-    assert_true(surface_make(&same, "star:5", NULL, 0));
-    subject_make(&y, m, 1);
-    subject_make(&z, same, 32);
+    assert_true(surface_generate(&m, "star:5", NULL, 0));
+    assert_true(surface_generate(&same, "star:5", NULL, 0));
+    heat_mesh_make(&y, m, 1);
+    heat_mesh_make(&z, same, 32);
     SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
     assert_true(f.negative > 100);
     heat_field_free(&f);
     SL_CHECK(heat_solver_set_time(&y.s, z.s.t));
     SL_CHECK(heat_distance(&f, &y.s, &source, 1, NULL));
     assert_int_equal(f.negative, 0);
-    double *d = by_vertex(&z, &source, 1, NULL);
+    double *d = distance_by_vertex(&z, &source, 1, NULL);
     for (sl_int k = 0; k < f.n; k++) {
         assert_true(d[f.vertices[k]] == f.distance[k]);
         assert_true(f.distance[k] <= 1.1 * f.path[k] + 0.1);
@@ -294,20 +304,20 @@ static void obtuse_faces_need_time(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, heat_solver_set_time(&y.s, NAN));
     free(d);
     heat_field_free(&f);
-    subject_free(&y);
-    subject_free(&z);
+    heat_mesh_free(&y);
+    heat_mesh_free(&z);
 }
 
-static void refusals(void **state) {
+static void wrong_arguments_are_refused(void **state) {
     (void)state;
-    subject_t y;
+    heat_mesh_t y;
     heat_field f;
     heat_solver s;
     const sl_int twice[2] = {3, 3}, beyond[1] = {100}, low[1] = {-1}, fine[1] = {3};
-    const heat_reach negative = {-1, 0, 0}, no_number = {NAN, 0, 0}, bad_margin = {1, -1, 0};
+    const heat_options negative = {-1, 0, 0}, no_number = {NAN, 0, 0}, bad_margin = {1, -1, 0};
     sl_int cell[100];
     double most[100];
-    subject_make(&y, flat_grid(10, 0), 1);
+    heat_mesh_make(&y, flat_grid(10, 0), 1);
     SL_EXPECT(SL_ERR_ARGUMENT, heat_distance(&f, &y.s, twice, 2, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, heat_distance(&f, &y.s, beyond, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, heat_distance(&f, &y.s, low, 1, NULL));
@@ -324,18 +334,18 @@ static void refusals(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, heat_solver_create(&s, &y.m, 1));
     assert_null(s.S);
     y.m.faces[5] = 0;
-    subject_free(&y);
+    heat_mesh_free(&y);
 }
 
-/* The development meshes, non-manifold ones too: finite, 0 at the source, within what edges and straight lines allow. */
-static void try_mesh(const char *name, mesh m) {
-    subject_t y;
+/* Distances are finite, 0 at the source and bounded by the radius, on non-manifold meshes too. */
+static void check_mesh(const char *name, mesh m) {
+    heat_mesh_t y;
     heat_field f;
     (void)name;
-    subject_make(&y, m, 4);
+    heat_mesh_make(&y, m, 4);
     double h = mesh_mean_edge_length(&y.m);
     sl_int source = y.m.faces[0];
-    const heat_reach near = {10 * h, 0, 0};
+    const heat_options near = {10 * h, 0, 0};
     SL_CHECK(heat_distance(&f, &y.s, &source, 1, &near));
     assert_true(f.n >= 1 && f.vertices[0] == source && f.distance[0] == 0);
     for (sl_int j = 0; j < f.n; j++) {
@@ -347,25 +357,25 @@ static void try_mesh(const char *name, mesh m) {
         assert_true(isfinite(f.distance[j]) && f.path[j] >= 0);
     }
     heat_field_free(&f);
-    subject_free(&y);
+    heat_mesh_free(&y);
 }
 
-static void real_meshes(void **state) {
+static void real_meshes_have_finite_distances(void **state) {
     (void)state;
-    each_mesh(NULL, 0, 60000, try_mesh);
+    each_mesh(NULL, 0, 60000, check_mesh);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(local_against_full),
-        cmocka_unit_test(cost_of_a_radius),
-        cmocka_unit_test(balls),
-        cmocka_unit_test(pieces_and_many_sources),
-        cmocka_unit_test(renumbered_moved_and_scaled),
-        cmocka_unit_test(cells),
-        cmocka_unit_test(obtuse_faces_need_time),
-        cmocka_unit_test(refusals),
-        cmocka_unit_test(real_meshes),
+        cmocka_unit_test(local_distances_match_full_ones),
+        cmocka_unit_test(local_cost_does_not_depend_on_the_mesh),
+        cmocka_unit_test(balls_hold_the_vertices_within_a_radius),
+        cmocka_unit_test(only_connected_vertices_have_distances),
+        cmocka_unit_test(distances_are_invariant),
+        cmocka_unit_test(cells_belong_to_the_nearest_site),
+        cmocka_unit_test(obtuse_faces_need_a_larger_time),
+        cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(real_meshes_have_finite_distances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,13 @@
-/* test_laplacian.c: cotangent and graph Laplacians, masses and systems M + t L, on known and real meshes */
+/* test_laplacian.c: cotangent and graph Laplacians, masses and systems M + t L */
 #define _POSIX_C_SOURCE 200809L
-#include "laplacian_checks.h"
+#include "tests/lib/check_laplacian.h"
 
-#include "../tools/dataset.h"
-#include "../tools/grid.h"
+#include "tools/io/dataset.h"
+#include "tools/mesh/grid.h"
 
-static void known_triangles(void **state) {
+static void triangles_have_the_known_laplacian(void **state) {
     (void)state;
-    /* right angle at 0, 45 degrees at 1 and 2: cotangents 0, 1, 1 */
+    /* A right angle at 0, 45 degrees at 1 and 2: cotangents 0, 1, 1. */
     mesh m = mesh_of(known_triangle_xyz, 3, one_face, 1);
     sl_matrix *L = NULL;
     assert_true(laplacian_cotangent(&L, &m));
@@ -17,7 +17,8 @@ static void known_triangles(void **state) {
     free(full);
     sl_matrix_free(L);
 
-    /* equilateral in space, side sqrt(2): each cotangent 1 / sqrt(3), area sqrt(3) / 2 */
+    /* An equilateral triangle in space of side sqrt(2): each cotangent is 1 / sqrt(3), the area
+     * sqrt(3) / 2. */
     double xyz[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     m = mesh_of(xyz, 3, one_face, 1);
     assert_true(laplacian_cotangent(&L, &m));
@@ -32,7 +33,7 @@ static void known_triangles(void **state) {
     assert_true(near(mass[0], sqrt(3.0) / 6, 1) && near(mass[2], sqrt(3.0) / 6, 1));
     assert_true(near(mesh_mean_edge_length(&m), sqrt(2.0), 1));
 
-    /* 120 degrees at 0: a negative weight on the far edge */
+    /* 120 degrees at 0: a negative weight on the opposite edge. */
     double obtuse[9] = {0, 0, 0, 1, 0, 0, -0.5, sqrt(3.0) / 2, 0};
     m = mesh_of(obtuse, 3, one_face, 1);
     assert_true(laplacian_cotangent(&L, &m));
@@ -43,7 +44,7 @@ static void known_triangles(void **state) {
     sl_matrix_free(L);
 }
 
-static void regular_grid_is_the_5_point_laplacian(void **state) {
+static void a_regular_grid_gives_the_5_point_laplacian(void **state) {
     (void)state;
     const sl_int nx = 7, ny = 5;
     mesh m;
@@ -66,7 +67,7 @@ static void regular_grid_is_the_5_point_laplacian(void **state) {
     mesh_free(&m);
 }
 
-static void planar_meshes(void **state) {
+static void linear_functions_are_harmonic_on_planar_meshes(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 5; seed++) {
         const sl_int nx = 20, ny = 20, n = nx * ny;
@@ -75,13 +76,14 @@ static void planar_meshes(void **state) {
         assert_true(mesh_grid(&m, nx, ny, 0.24, seed));
         assert_true(laplacian_cotangent(&L, &m));
         sl_csc A = sl_matrix_view(L);
-        rows_sum_to(&A, 0);
+        assert_rows_sum_to(&A, 0);
         double *f = test_reals((size_t)n), *y = test_reals((size_t)n),
                *mass = test_reals((size_t)n);
         for (sl_int v = 0; v < n; v++) {
             f[v] = 3 * m.xyz[3 * v] - 2 * m.xyz[3 * v + 1] + 1;
         }
-        /* a linear function is harmonic, and its Dirichlet energy is its squared slope times the area, 1 here */
+        /* A linear function is harmonic. Its Dirichlet energy is its squared slope times the area,
+         * here 1. */
         SL_CHECK(sl_csc_multiply(&A, SL_AS_SYMMETRIC, y, (size_t)n, f, (size_t)n, 1));
         for (sl_int v = 0; v < n; v++) {
             bool inside = v % nx > 0 && v % nx < nx - 1 && v / nx > 0 && v / nx < ny - 1;
@@ -103,7 +105,7 @@ static void planar_meshes(void **state) {
     }
 }
 
-/* Three triangles on one edge: the sum of what each gives alone. */
+/* Three triangles at one edge: the Laplacian is the sum of the three. */
 static void faces_of_an_edge_are_summed(void **state) {
     (void)state;
     double xyz[15] = {0, 0, -3.6, 0, -2, 1.5, 3, 0, 0, 0, 2, 1.5, -3, 0, 0};
@@ -116,11 +118,11 @@ static void faces_of_an_edge_are_summed(void **state) {
     for (sl_int f = 0; f < 3; f++) {
         mesh one = mesh_of(xyz, 5, faces + 3 * f, 1);
         assert_true(laplacian_cotangent(&L, &one));
-        double *part = dense_of(L);
+        double *one_face_alone = dense_of(L);
         for (int k = 0; k < 25; k++) {
-            all[k] -= part[k];
+            all[k] -= one_face_alone[k];
         }
-        free(part);
+        free(one_face_alone);
         sl_matrix_free(L);
     }
     for (int k = 0; k < 25; k++) {
@@ -146,7 +148,7 @@ static void systems_share_one_pattern(void **state) {
         assert_memory_equal(A.p, B.p, 55 * sizeof *A.p);
         assert_memory_equal(A.i, B.i, (size_t)A.p[54] * sizeof *A.i);
     }
-    /* M + t L, entry by entry */
+    /* M + t L, entry by entry. */
     sl_csc S = sl_matrix_view(M[1]), L = sl_matrix_view(M[2]), U = sl_matrix_view(M[3]);
     double *mass = test_reals(54);
     laplacian_mass(mass, &b);
@@ -157,7 +159,7 @@ static void systems_share_one_pattern(void **state) {
             assert_true(S.i[p] == j || U.x[p] == -1);
         }
     }
-    rows_sum_to(&U, 0.5);
+    assert_rows_sum_to(&U, 0.5);
     free(mass);
     for (int k = 0; k < 4; k++) {
         sl_matrix_free(M[k]);
@@ -166,8 +168,9 @@ static void systems_share_one_pattern(void **state) {
     mesh_free(&b);
 }
 
-/* t = h^2 on every real mesh: sound, semi-definite on random vectors, and, where it is quick, all pivots positive. */
-static void check_real(const char *path) {
+/* The system with t = h^2 is valid, the Laplacian is semidefinite on a random vector, and, where
+ * that is quick to check, all pivots are positive. */
+static void check_mesh(const char *path) {
     mesh m;
     sl_matrix *M = NULL;
     char message[300];
@@ -177,7 +180,7 @@ static void check_real(const char *path) {
     }
     assert_true(laplacian_cotangent(&M, &m));
     sl_csc A = sl_matrix_view(M);
-    rows_sum_to(&A, 0);
+    assert_rows_sum_to(&A, 0);
     double *x = test_reals((size_t)m.n_vertices);
     uint64_t seed = 7;
     for (sl_int v = 0; v < m.n_vertices; v++) {
@@ -191,7 +194,7 @@ static void check_real(const char *path) {
     assert_true(h > 0 && isfinite(h));
     assert_true(laplacian_system(&M, &m, h * h));
     A = sl_matrix_view(M);
-    is_good_system(&A);
+    assert_is_valid_system(&A);
     if (m.n_vertices <= 12000) {
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
@@ -199,7 +202,7 @@ static void check_real(const char *path) {
         memset(&stats, 0, sizeof stats);
         SL_CHECK(sl_symbolic_create(&S, &A, NULL, &stats));
         SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
-        assert_int_equal(stats.positive, m.n_vertices);
+        assert_int_equal(stats.factor.positive, m.n_vertices);
         sl_factor_free(F);
         sl_symbolic_free(S);
     }
@@ -207,7 +210,7 @@ static void check_real(const char *path) {
     mesh_free(&m);
 }
 
-static void real_meshes(void **state) {
+static void real_laplacians_are_semidefinite(void **state) {
     (void)state;
     dataset d;
     if (!dataset_list(&d, NULL, "meshes")) {
@@ -215,7 +218,7 @@ static void real_meshes(void **state) {
         skip();
     }
     for (size_t k = 0; k < d.count; k++) {
-        check_real(d.paths[k]);
+        check_mesh(d.paths[k]);
     }
     print_message("%lu real meshes\n", (unsigned long)d.count);
     dataset_free(&d);
@@ -223,12 +226,12 @@ static void real_meshes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_triangles),
-        cmocka_unit_test(regular_grid_is_the_5_point_laplacian),
-        cmocka_unit_test(planar_meshes),
+        cmocka_unit_test(triangles_have_the_known_laplacian),
+        cmocka_unit_test(a_regular_grid_gives_the_5_point_laplacian),
+        cmocka_unit_test(linear_functions_are_harmonic_on_planar_meshes),
         cmocka_unit_test(faces_of_an_edge_are_summed),
         cmocka_unit_test(systems_share_one_pattern),
-        cmocka_unit_test(real_meshes),
+        cmocka_unit_test(real_laplacians_are_semidefinite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,16 @@
-/* test_laplacian_bad.c: Laplacians of bad meshes: faces without area, huge and tiny ones, lone vertices, refusals */
+/* test_laplacian_degenerate.c: Laplacians of meshes with degenerate, huge or tiny faces */
 #define _POSIX_C_SOURCE 200809L
-#include "laplacian_checks.h"
+#include "tests/lib/check_laplacian.h"
 
-static void unmeasurable_faces_give_nothing(void **state) {
+static void degenerate_faces_have_zero_weights(void **state) {
     (void)state;
     const double nan = strtod("nan", NULL), inf = HUGE_VAL;
     double cases[9][9] = {
         {0, 0, 0, 1, 0, 0, 2, 0, 0},      /* on a line */
-        {1, 2, 3, 1, 2, 3, 1, 2, 3},      /* one place */
-        {0, 0, 0, 0, 0, 0, 1, 1, 1},      /* two of three */
-        {0, 0, 0, 1, 0, 0, 0.5, 1e-9, 0}, /* flatter than can be measured */
-        {0, 0, 0, 1, 0, 0, nan, 1, 0},    /* not numbers */
+        {1, 2, 3, 1, 2, 3, 1, 2, 3},      /* one point */
+        {0, 0, 0, 0, 0, 0, 1, 1, 1},      /* two equal corners of three */
+        {0, 0, 0, 1, 0, 0, 0.5, 1e-9, 0}, /* too flat to be measured */
+        {0, 0, 0, 1, 0, 0, nan, 1, 0},    /* not a number */
         {0, 0, 0, inf, 0, 0, 0, 1, 0},
         {-inf, 0, 0, inf, 0, 0, 0, inf, 0},
         {1e308, 0, 0, -1e308, 0, 0, 0, 1e308, 0}, /* the edge overflows */
@@ -28,7 +28,7 @@ static void unmeasurable_faces_give_nothing(void **state) {
         sl_matrix_free(M);
         assert_true(laplacian_system(&M, &m, 0.5));
         A = sl_matrix_view(M);
-        is_good_system(&A);
+        assert_is_valid_system(&A);
         sl_matrix_free(M);
         double mass[3];
         laplacian_mass(mass, &m);
@@ -37,8 +37,8 @@ static void unmeasurable_faces_give_nothing(void **state) {
     }
 }
 
-/* Areas that fit a double one by one, but not summed. */
-static void masses_cannot_overflow(void **state) {
+/* Each area fits a double, their sum does not. */
+static void masses_do_not_overflow(void **state) {
     (void)state;
     double xyz[9] = {0, 0, 0, 1.3e154, 0, 0, 0, 1.3e154, 0};
     sl_int faces[24];
@@ -52,12 +52,12 @@ static void masses_cannot_overflow(void **state) {
     sl_matrix *M = NULL;
     assert_true(laplacian_system(&M, &m, 1));
     sl_csc A = sl_matrix_view(M);
-    is_good_system(&A);
+    assert_is_valid_system(&A);
     sl_matrix_free(M);
 }
 
-/* Cotangents do not depend on the size of a triangle, down and up to the ends of what a double holds. */
-static void scale_does_not_matter(void **state) {
+/* Cotangents do not depend on the size of a triangle, over nearly the whole range of a double. */
+static void cotangents_do_not_depend_on_scale(void **state) {
     (void)state;
     for (double scale = 1e-300; scale < 1e145; scale *= 1e5) {
         double xyz[9] = {0, 0, 0, scale, 0, 0, 0, scale, 0};
@@ -69,12 +69,12 @@ static void scale_does_not_matter(void **state) {
         sl_matrix_free(L);
         assert_true(laplacian_system(&L, &m, 1e200));
         A = sl_matrix_view(L);
-        is_good_system(&A);
+        assert_is_valid_system(&A);
         sl_matrix_free(L);
     }
 }
 
-static void repeated_vertices_and_lone_vertices(void **state) {
+static void repeated_and_isolated_vertices_work(void **state) {
     (void)state;
     double xyz[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 6, 6};
     sl_int faces[12] = {0, 1, 2, 0, 0, 1, 2, 2, 2, 3, 1, 3};
@@ -91,14 +91,14 @@ static void repeated_vertices_and_lone_vertices(void **state) {
     assert_true(near(mass[0], 1.0 / 6, 1) && mass[3] == 1 && mass[4] == 1);
     assert_true(laplacian_system(&M, &m, 1));
     sl_csc A = sl_matrix_view(M);
-    is_good_system(&A);
+    assert_is_valid_system(&A);
     assert_int_equal(A.p[5] - A.p[4], 1);
     sl_matrix_free(M);
-    /* edges 0-1, 1-2, 0-2, 1-3 */
+    /* The edges are 0-1, 1-2, 0-2, 1-3. */
     assert_true(near(mesh_mean_edge_length(&m), (2 + sqrt(2.0) + sqrt(66.0)) / 4, 4));
 }
 
-static void refusals_and_nothing(void **state) {
+static void bad_meshes_are_refused_and_empty_ones_work(void **state) {
     (void)state;
     sl_int beyond[3] = {0, 1, 3}, below[3] = {0, -1, 2};
     mesh m = mesh_of(known_triangle_xyz, 3, beyond, 1);
@@ -125,11 +125,11 @@ static void refusals_and_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unmeasurable_faces_give_nothing),
-        cmocka_unit_test(masses_cannot_overflow),
-        cmocka_unit_test(scale_does_not_matter),
-        cmocka_unit_test(repeated_vertices_and_lone_vertices),
-        cmocka_unit_test(refusals_and_nothing),
+        cmocka_unit_test(degenerate_faces_have_zero_weights),
+        cmocka_unit_test(masses_do_not_overflow),
+        cmocka_unit_test(cotangents_do_not_depend_on_scale),
+        cmocka_unit_test(repeated_and_isolated_vertices_work),
+        cmocka_unit_test(bad_meshes_are_refused_and_empty_ones_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-/* test_tools_layout_commands.c: param, arap, scp and geodesic as programs: what they write, say and refuse */
+/* test_layout_commands.c: the commands param, arap, scp, geodesic: files, output, refusals */
 #define _POSIX_C_SOURCE 200809L
-#include "run_command.h"
+#include "tests/lib/run_command.h"
 
-#include "../tools/mesh.h"
+#include "tools/mesh/mesh.h"
 
-/* words with the folder of temporary files for each @ */
-static const char *with_paths(const char *words) {
+/* Replaces each @ in words by the folder of temporary files. */
+static const char *expand_paths(const char *words) {
     static char text[1024];
     size_t used = 0;
     for (; *words != '\0' && used + FILE_PATH_SIZE < sizeof text; words++) {
@@ -19,14 +19,14 @@ static const char *with_paths(const char *words) {
     return text;
 }
 
-static char *said_by(int (*command)(int argc, char **argv), const char *words) {
+static char *output_of(int (*command)(int argc, char **argv), const char *words) {
     int status;
-    char *said = run_command(command, with_paths(words), &status);
+    char *output = run_command(command, expand_paths(words), &status);
     assert_int_equal(status, 0);
-    return said;
+    return output;
 }
 
-static int lines_that_begin(const char *text, const char *with) {
+static int lines_starting_with(const char *text, const char *with) {
     int count = 0;
     for (const char *at = text; at != NULL; at = strchr(at, '\n')) {
         at += *at == '\n';
@@ -35,8 +35,8 @@ static int lines_that_begin(const char *text, const char *with) {
     return count;
 }
 
-/* A picture's size and how many of its pixels are drawn. */
-static void picture_is(const char *name, int width, int height) {
+/* Checks the size of a picture and that enough of its pixels are drawn. */
+static void assert_picture(const char *name, int width, int height) {
     size_t length;
     int w = 0, h = 0;
     unsigned long drawn = 0;
@@ -46,21 +46,22 @@ static void picture_is(const char *name, int width, int height) {
     free(text);
 }
 
-static void a_patch_with_texture_coordinates(void **state) {
+static void param_writes_texture_coordinates(void **state) {
     (void)state;
     size_t length;
     mesh m;
     char message[300];
-    char *said =
-        said_by(command_param,
-                "param --center 500 --patch 300 --csv @a.csv --out @a.obj --png @a.png --layout "
-                "@b.png --close @c.png --size 200x150 sphere:4");
-    assert_true(number_after(said, "patch      ") == 300);
-    free(said);
+    char *output =
+        output_of(command_param,
+                  "param --center 500 --patch 300 --csv @a.csv --out @a.obj --png @a.png --layout "
+                  "@b.png --close @c.png --size 200x150 sphere:4");
+    assert_true(number_after(output, "patch      ") == 300);
+    free(output);
     char *text = files_get(files_path("a.obj"), &length);
-    assert_int_equal(lines_that_begin(text, "vt "), 300);
+    assert_int_equal(lines_starting_with(text, "vt "), 300);
     const char *at = strstr(text, "vt ");
-    for (int k = 0; k < 300; k++) { /* all in the unit square */
+    /* All coordinates are in the unit square. */
+    for (int k = 0; k < 300; k++) {
         double u = -1, v = -1;
         assert_int_equal(sscanf(at, "vt %lf %lf", &u, &v), 2);
         assert_true(u >= 0 && u <= 1 && v >= 0 && v <= 1);
@@ -71,18 +72,18 @@ static void a_patch_with_texture_coordinates(void **state) {
     assert_true(m.n_vertices == 300 && m.n_faces > 500);
     mesh_free(&m);
     text = files_get(files_path("a.csv"), &length);
-    assert_int_equal(lines_that_begin(text, ""), 1 + 300 + 1);
+    assert_int_equal(lines_starting_with(text, ""), 1 + 300 + 1);
     free(text);
-    picture_is("a.png", 200, 150);
-    picture_is("b.png", 200, 150);
-    picture_is("c.png", 200, 150);
+    assert_picture("a.png", 200, 150);
+    assert_picture("b.png", 200, 150);
+    assert_picture("c.png", 200, 150);
 }
 
-/* The same patch grown and listed; the comparison judges itself. */
-static void lists_and_comparisons(void **state) {
+/* The same patch grown and listed. The command checks its own comparison. */
+static void lists_and_comparisons_agree(void **state) {
     (void)state;
     (void)files_put_text("list.txt", "# a fan\n0 1\n2 20\n21 22 40 41 42\n");
-    command_says(command_param, with_paths("param grid:20x20 --list-file @list.txt"), 0,
+    command_says(command_param, expand_paths("param grid:20x20 --list-file @list.txt"), 0,
                  "patch      9 vertices, 8 faces, 8 on its boundary");
     command_says(command_param, "param grid:20x20 --list 0-2,20-22,40-42 --compare", 0,
                  "refactorize the patch and solve");
@@ -91,60 +92,62 @@ static void lists_and_comparisons(void **state) {
     command_says(command_param, "param grid:40x40 --center 820 --sweep 50,200", 0, "     200 ");
     command_says(command_param, "param grid:20x20 --sweep 2", 1, "3 or more");
     command_says(command_param, "param grid:20x20 --dirichlet", 0, "Dirichlet");
-    char *said = said_by(command_param, "param grid:30x30 --center 440 --patch 200 --boundary "
-                                        "unrolled --system patch");
-    /* a flat patch by its own boundary: nothing is bent, stretched or turned over */
-    assert_true(fabs(number_after(said, "Neumann")) <= 1e-12);
-    free(said);
+    char *output = output_of(command_param, "param grid:30x30 --center 440 --patch 200 --boundary "
+                                            "unrolled --system patch");
+    /* A flat patch with its own boundary is neither bent, stretched nor turned over. */
+    assert_true(fabs(number_after(output, "Neumann")) <= 1e-12);
+    free(output);
 }
 
-static void layouts_get_better(void **state) {
+static void layouts_lower_their_energy(void **state) {
     (void)state;
-    static const char *const ways[] = {"arap hills:40x40 --patch 500 --center 800",
-                                       "arap hills:40x40 --patch 500 --center 800 --own-factor",
-                                       "scp hills:40x40 --patch 500 --center 800",
-                                       "scp hills:40x40 --patch 500 --center 800 --descend 4"};
+    static const char *const command_lines[] = {
+        "arap hills:40x40 --patch 500 --center 800",
+        "arap hills:40x40 --patch 500 --center 800 --own-factor",
+        "scp hills:40x40 --patch 500 --center 800",
+        "scp hills:40x40 --patch 500 --center 800 --descend 4"};
     static const char *const ends[] = {"as rigid as possible", "as rigid as possible",
                                        "spectral conformal", "conformal, by descent"};
     for (int k = 0; k < 4; k++) {
-        char *said = said_by(k < 2 ? command_arap : command_scp, ways[k]);
-        assert_true(number_after(said, ends[k]) < 0.2 * number_after(said, "harmonic "));
-        free(said);
+        char *output = output_of(k < 2 ? command_arap : command_scp, command_lines[k]);
+        assert_true(number_after(output, ends[k]) < 0.2 * number_after(output, "harmonic "));
+        free(output);
     }
-    char *said = said_by(command_arap, "arap --iterations 3 hills:30x30");
-    assert_non_null(strstr(said, "after 3"));
-    assert_null(strstr(said, "after 4"));
-    free(said);
+    char *output = output_of(command_arap, "arap --iterations 3 hills:30x30");
+    assert_non_null(strstr(output, "after 3"));
+    assert_null(strstr(output, "after 4"));
+    free(output);
 }
 
-static void distances_and_cells(void **state) {
+static void geodesic_writes_distances_and_cells(void **state) {
     (void)state;
     size_t length;
-    char *said = said_by(command_geodesic,
-                         "geodesic sphere:4 --exact sphere --from 9 --csv @d.csv --out @d.ply "
-                         "--png @d.png --size 120x90");
-    assert_true(number_after(said, "mean error ") < 0.03);
-    free(said);
+    char *output = output_of(command_geodesic,
+                             "geodesic sphere:4 --exact sphere --from 9 --csv @d.csv --out @d.ply "
+                             "--png @d.png --size 120x90");
+    assert_true(number_after(output, "mean error ") < 0.03);
+    free(output);
     char *text = files_get(files_path("d.csv"), &length);
-    assert_int_equal(lines_that_begin(text, ""),
-                     1 + 2562 + 1); /* a head, and nothing behind the last line's end */
+    /* A line of column names, and nothing after the last newline. */
+    assert_int_equal(lines_starting_with(text, ""), 1 + 2562 + 1);
     assert_non_null(strstr(text, "\n9,0,"));
     free(text);
-    picture_is("d.png", 120, 90);
-    said = said_by(command_geodesic, "geodesic grid:60x60 --exact plane --from 1830 --radius 0.2");
-    assert_true(number_after(said, "mean error ") < 0.01);
-    double near = number_after(said, "touched    ");
+    assert_picture("d.png", 120, 90);
+    output =
+        output_of(command_geodesic, "geodesic grid:60x60 --exact plane --from 1830 --radius 0.2");
+    assert_true(number_after(output, "mean error ") < 0.01);
+    double near = number_after(output, "touched    ");
     assert_true(near < 3600 / 2);
-    free(said);
-    said = said_by(command_geodesic, "geodesic grid:60x60 --from 1830 --radius 0.2 --cut");
-    assert_true(number_after(said, "entries of each factor, ") == 1);
-    free(said);
-    said = said_by(command_geodesic,
-                   "geodesic torus:50x30 --voronoi --from random:7 --csv @v.csv --png @v.png");
-    assert_true(number_after(said, "cells      of ") == 7);
-    free(said);
+    free(output);
+    output = output_of(command_geodesic, "geodesic grid:60x60 --from 1830 --radius 0.2 --cut");
+    assert_true(number_after(output, "entries of each factor, ") == 1);
+    free(output);
+    output = output_of(command_geodesic,
+                       "geodesic torus:50x30 --voronoi --from random:7 --csv @v.csv --png @v.png");
+    assert_true(number_after(output, "cells      of ") == 7);
+    free(output);
     text = files_get(files_path("v.csv"), &length);
-    assert_int_equal(lines_that_begin(text, ""), 1 + 1500 + 1);
+    assert_int_equal(lines_starting_with(text, ""), 1 + 1500 + 1);
     assert_null(strstr(text, ",-1"));
     free(text);
     command_says(command_geodesic, "geodesic grid:30x30 --voronoi --from 0 --radius 0.2", 0,
@@ -152,7 +155,7 @@ static void distances_and_cells(void **state) {
     command_says(command_geodesic, "geodesic grid:9x9 --scaled-time 1e-9", 0, "warning");
 }
 
-static void helps_and_refusals(void **state) {
+static void help_is_shown_and_bad_input_refused(void **state) {
     (void)state;
     static const struct {
         int (*command)(int argc, char **argv);
@@ -172,7 +175,7 @@ static void helps_and_refusals(void **state) {
         {command_param, "param grid:9x9 --list 0-81", 1, "no vertex 81"},
         {command_param, "param grid:9x9 --list 0 --list-file x", 2, "one of them"},
         {command_param, "param grid:9x9 --list-file /nowhere/x", 1, "/nowhere/x"},
-        {command_param, "param grid:9x9 --center 81", 1, "no vertex 81"},
+        {command_param, "param grid:9x9 --center 81", 1, "vertex 81: the mesh has no such vertex"},
         {command_param, "param grid:9x9 --patch 2", 1, "3 or more"},
         {command_param, "param grid:9x9 --boundary square", 2, "circle or unrolled"},
         {command_param, "param grid:9x9 --system half", 2, "mesh or patch"},
@@ -192,37 +195,37 @@ static void helps_and_refusals(void **state) {
         command_says(cases[k].command, cases[k].words, cases[k].status, cases[k].text);
     }
     (void)files_put_text("words.txt", "1 2 three\n");
-    command_says(command_param, with_paths("param grid:9x9 --list-file @words.txt"), 1,
-                 "words.txt:1: not the number of a vertex");
+    command_says(command_param, expand_paths("param grid:9x9 --list-file @words.txt"), 1,
+                 "words.txt:1: not a vertex number");
     (void)files_put_text("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
-    command_says(command_geodesic, with_paths("geodesic @point.obj"), 1, "no length");
-    /* three faces at an edge, faces with a corner twice, a vertex alone: what is no surface is passed over */
+    command_says(command_geodesic, expand_paths("geodesic @point.obj"), 1, "no length");
+    /* Three faces at an edge, faces with a corner twice, an isolated vertex: where the mesh is not
+     * a surface, patches avoid it. */
     (void)files_put_text("fan.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 1 2 4\n"
                          "f 2 1 5\nf 1 1 2\nf 1 2 2\n");
-    command_says(command_param, with_paths("param @fan.obj --compare --png @fan.png"), 0,
+    command_says(command_param, expand_paths("param @fan.obj --compare --png @fan.png"), 0,
                  "patch  ");
-    command_says(command_param, with_paths("param @fan.obj --list 0-4"), 1,
-                 "three faces at the edge");
-    command_says(command_param, with_paths("param @fan.obj --center 5"), 1,
-                 "no face is at vertex 5");
-    command_says(command_scp, with_paths("scp @fan.obj"), 0, "spectral conformal");
-    command_says(command_geodesic, with_paths("geodesic @fan.obj --png @fan.png"), 0,
+    command_says(command_param, expand_paths("param @fan.obj --list 0-4"), 1, "has three faces");
+    command_says(command_param, expand_paths("param @fan.obj --center 5"), 1,
+                 "vertex 5: it has no face");
+    command_says(command_scp, expand_paths("scp @fan.obj"), 0, "spectral conformal");
+    command_says(command_geodesic, expand_paths("geodesic @fan.obj --png @fan.png"), 0,
                  "distances  of 5 vertices");
-    command_says(command_geodesic, with_paths("geodesic @fan.obj --from 5"), 0,
+    command_says(command_geodesic, expand_paths("geodesic @fan.obj --from 5"), 0,
                  "distances  of 1 vertices");
-    /* one face without an area: laid out as well as may be, and alive */
-    command_says(command_param, with_paths("param @point.obj"), 0, "patch      3 vertices");
-    command_says(command_arap, with_paths("arap @point.obj"), 0, "energy");
+    /* One face without area: it is laid out somehow, without a crash. */
+    command_says(command_param, expand_paths("param @point.obj"), 0, "patch      3 vertices");
+    command_says(command_arap, expand_paths("arap @point.obj"), 0, "energy");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_patch_with_texture_coordinates),
-        cmocka_unit_test(lists_and_comparisons),
-        cmocka_unit_test(layouts_get_better),
-        cmocka_unit_test(distances_and_cells),
-        cmocka_unit_test(helps_and_refusals),
+        cmocka_unit_test(param_writes_texture_coordinates),
+        cmocka_unit_test(lists_and_comparisons_agree),
+        cmocka_unit_test(layouts_lower_their_energy),
+        cmocka_unit_test(geodesic_writes_distances_and_cells),
+        cmocka_unit_test(help_is_shown_and_bad_input_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -1,10 +1,11 @@
-/* test_matrix_file.c: reading Matrix Market, Rutherford-Boeing and triplet files, whole, odd, damaged and real */
+/* test_matrix_file.c: reads Matrix Market, Rutherford-Boeing and triplet files, good and bad */
 #define _POSIX_C_SOURCE 200809L
-#include "files.h"
+#include "tests/lib/temporary_files.h"
 
-#include "../tools/matrix_file.h"
+#include "tools/io/matrix_file.h"
 
-/* The lower triangle of a 3 x 3 matrix with an explicit zero and a duplicate (1.5 + 2.5) in most files. */
+/* The lower triangle of a 3 x 3 matrix with an explicit zero. Most files store one entry as two
+ * parts, 1.5 + 2.5. */
 static const sl_int small_p[4] = {0, 2, 4, 5};
 static const sl_int small_i[5] = {0, 2, 1, 2, 2};
 static const double small_x[5] = {4, -1, 3, 0, -200};
@@ -20,7 +21,7 @@ static sl_matrix *read_or_fail(const char *path) {
     return M;
 }
 
-static void is_small(const char *path) {
+static void assert_is_small(const char *path) {
     sl_matrix *M = read_or_fail(path);
     sl_csc A = sl_matrix_view(M);
     SL_CHECK(sl_csc_check(&A, NULL));
@@ -32,7 +33,7 @@ static void is_small(const char *path) {
     sl_matrix_free(M);
 }
 
-static void is_refused(const char *path, const char *words) {
+static void assert_is_refused(const char *path, const char *words) {
     sl_matrix *M = (sl_matrix *)(void *)files_folder;
     char message[300] = "";
     assert_false(matrix_file_read(&M, path, message, sizeof message));
@@ -44,7 +45,7 @@ static void is_refused(const char *path, const char *words) {
     assert_false(matrix_file_read(&M, path, NULL, 0));
 }
 
-static bool is_sound(const char *path) {
+static bool read_is_valid(const char *path) {
     sl_matrix *M = NULL;
     char message[300];
     bool ok = matrix_file_read(&M, path, message, sizeof message);
@@ -66,7 +67,7 @@ static const char csparse[] = "0 0 1.5\n2 0 -1\n0 0 2.5\n1 1 3\n\n2 1 0\n2 2 -2e
 static const char cholmod[] =
     "% small\n3 3 6 -1\n0 0 1.5\n2 0 -1\n0 0 2.5\n1 1 3\n1 2 0\n2 2 -2e2\n";
 
-/* Fields that touch, a value without E in its exponent, one with D, a line that is full. */
+/* Adjacent fields without spaces, an exponent without E, one with D, a full line. */
 static const char rb[] =
     "small matrix of a test                                                  |small   \n"
     "             5             1             1             3\n"
@@ -78,20 +79,21 @@ static const char rb[] =
     "-1.000E+00 3.000+000\n"
     " 0.000E+00-2.000E+02\n";
 
-static void formats_agree(void **state) {
+static void all_formats_give_the_same_matrix(void **state) {
     (void)state;
-    is_small(files_put_text("small.mtx", mtx));
-    is_small(files_put_gz("small.mtx.gz", mtx, strlen(mtx)));
-    is_small(files_put_text("small_csparse.txt", csparse));
-    is_small(files_put_gz("small_csparse.txt.gz", csparse, strlen(csparse)));
-    is_small(files_put_text("small_cholmod.txt", cholmod));
-    is_small(files_put_text("small_cholmod.txt",
-                            "3 3 6\r\n0 0 1.5\r\n2 0 -1\r\n0 0 2.5\r\n1 1 3\r\n2 1 0\r\n2 2 -2e2"));
-    is_small(files_put_text("small.rb", rb));
-    is_small(files_put_gz("small.rb.gz", rb, strlen(rb)));
+    assert_is_small(files_put_text("small.mtx", mtx));
+    assert_is_small(files_put_gz("small.mtx.gz", mtx, strlen(mtx)));
+    assert_is_small(files_put_text("small_csparse.txt", csparse));
+    assert_is_small(files_put_gz("small_csparse.txt.gz", csparse, strlen(csparse)));
+    assert_is_small(files_put_text("small_cholmod.txt", cholmod));
+    assert_is_small(
+        files_put_text("small_cholmod.txt",
+                       "3 3 6\r\n0 0 1.5\r\n2 0 -1\r\n0 0 2.5\r\n1 1 3\r\n2 1 0\r\n2 2 -2e2"));
+    assert_is_small(files_put_text("small.rb", rb));
+    assert_is_small(files_put_gz("small.rb.gz", rb, strlen(rb)));
 }
 
-static void upper_triangle_stays_upper(void **state) {
+static void an_upper_triangle_stays_upper(void **state) {
     (void)state;
     sl_matrix *M =
         read_or_fail(files_put_text("upper_cholmod.txt", "2 2 3 1\n0 0 1\n1 0 5\n1 1 2\n"));
@@ -102,7 +104,7 @@ static void upper_triangle_stays_upper(void **state) {
     sl_matrix_free(M);
 }
 
-static void patterns_get_ones(void **state) {
+static void pattern_files_get_ones(void **state) {
     (void)state;
     static const char pattern_rb[] =
         "pattern\n 2 1 1 0\nPUA 2 3 4 0\n(26I3) (40I2)\n  1  2  4  5\n 2 1 2 1\n";
@@ -128,7 +130,7 @@ static void patterns_get_ones(void **state) {
     }
 }
 
-static void empty_matrices(void **state) {
+static void empty_matrices_are_read(void **state) {
     (void)state;
     sl_matrix *M = read_or_fail(files_put_text("e_cholmod.txt", "3 3 0\n"));
     sl_csc A = sl_matrix_view(M);
@@ -142,80 +144,92 @@ static void empty_matrices(void **state) {
     sl_matrix_free(M);
 }
 
-static void text_refusals(void **state) {
+static void bad_text_files_are_refused(void **state) {
     (void)state;
-    is_refused(files_path("missing.mtx"), "cannot be opened");
-    is_refused(files_put_text("small.dat", mtx), "not a name of a matrix");
-    is_refused(files_put_text("small.txt", csparse), "not a name of a matrix");
-    is_refused(
+    assert_is_refused(files_path("missing.mtx"), "cannot be opened");
+    assert_is_refused(files_put_text("small.dat", mtx), "unknown matrix format");
+    assert_is_refused(files_put_text("small.txt", csparse), "unknown matrix format");
+    assert_is_refused(
         files_put_text("a.mtx",
                        "%%MatrixMarket matrix coordinate real symmetric\n3 3 2\n1 1 1\n4 1 1\n"),
         ":4: ");
-    is_refused(files_put_text(
-                   "b.mtx", "%%MatrixMarket matrix coordinate complex symmetric\n1 1 1\n1 1 1 1\n"),
-               sl_status_string(SL_ERR_UNSUPPORTED));
-    is_refused(files_put_text("a_csparse.txt", "\n"), "no entries");
-    is_refused(files_put_text("b_csparse.txt", "0 0 1\n0 1\n"), ":2: is not a line 'i j value'");
-    is_refused(files_put_text("c_csparse.txt", "0 0 1 2\n"), "is not a line");
-    is_refused(files_put_text("d_csparse.txt", "0 0.5 1\n"), "is not a line");
-    is_refused(files_put_text("e_csparse.txt", "0 -1 1\n"), ":1: entry (0, -1) is out of range");
-    is_refused(files_put_text("f_csparse.txt", "0 2000000000 1\n"),
-               "too large for a file of this length");
-    is_refused(files_put_text("g_csparse.txt", "0 2147483647 1\n"), "out of range");
-    is_refused(files_put_text("h_csparse.txt", "0 x 1\n"), "is not a line");
-    is_refused(files_put_text("a_cholmod.txt", ""), "needs a header");
-    is_refused(files_put_text("b_cholmod.txt", "3 3\n"), ":1: needs a header");
-    is_refused(files_put_text("c_cholmod.txt", "3 3 -1\n"), "needs a header");
-    is_refused(files_put_text("d_cholmod.txt", "3 3 1 7\n0 0 1\n"), "stype 7");
-    is_refused(files_put_text("e_cholmod.txt", "3 4 1 1\n0 0 1\n"), "stype 1 of a 3 x 4");
-    is_refused(files_put_text("f_cholmod.txt", "3 3 2\n0 0 1\n"), "truncated: 1 of 2");
-    is_refused(files_put_text("g_cholmod.txt", "3 3 1\n0 0 1\n1 1 1\n"), ":3: more than the 1");
-    is_refused(files_put_text("h_cholmod.txt", "3 3 1\n0 3 1\n"),
-               ":2: entry (0, 3) is out of range");
-    is_refused(files_put_text("i_cholmod.txt", "2000000000 3 1\n0 1 1\n"),
-               "too large for a file of this length");
-    is_refused(files_put_text("j_cholmod.txt", "3 3 2000000000\n0 1 1\n"),
-               "truncated: 1 of 2000000000");
+    assert_is_refused(
+        files_put_text("b.mtx",
+                       "%%MatrixMarket matrix coordinate complex symmetric\n1 1 1\n1 1 1 1\n"),
+        sl_status_string(SL_ERR_UNSUPPORTED));
+    assert_is_refused(files_put_text("a_csparse.txt", "\n"), "no entries");
+    assert_is_refused(files_put_text("b_csparse.txt", "0 0 1\n0 1\n"),
+                      ":2: a line 'i j value' is expected");
+    assert_is_refused(files_put_text("c_csparse.txt", "0 0 1 2\n"),
+                      "a line 'i j value' is expected");
+    assert_is_refused(files_put_text("d_csparse.txt", "0 0.5 1\n"),
+                      "a line 'i j value' is expected");
+    assert_is_refused(files_put_text("e_csparse.txt", "0 -1 1\n"),
+                      ":1: entry (0, -1) is out of range");
+    assert_is_refused(files_put_text("f_csparse.txt", "0 2000000000 1\n"),
+                      "too large for a file of this length");
+    assert_is_refused(files_put_text("g_csparse.txt", "0 2147483647 1\n"), "out of range");
+    assert_is_refused(files_put_text("h_csparse.txt", "0 x 1\n"), "a line 'i j value' is expected");
+    assert_is_refused(files_put_text("a_cholmod.txt", ""), "a header");
+    assert_is_refused(files_put_text("b_cholmod.txt", "3 3\n"), ":1: a header");
+    assert_is_refused(files_put_text("c_cholmod.txt", "3 3 -1\n"), "a header");
+    assert_is_refused(files_put_text("d_cholmod.txt", "3 3 1 7\n0 0 1\n"), "stype 7");
+    assert_is_refused(files_put_text("e_cholmod.txt", "3 4 1 1\n0 0 1\n"),
+                      "stype 1 is not supported for a 3 x 4");
+    assert_is_refused(files_put_text("f_cholmod.txt", "3 3 2\n0 0 1\n"), "truncated: 1 of 2");
+    assert_is_refused(files_put_text("g_cholmod.txt", "3 3 1\n0 0 1\n1 1 1\n"),
+                      ":3: more entries than the 1");
+    assert_is_refused(files_put_text("h_cholmod.txt", "3 3 1\n0 3 1\n"),
+                      ":2: entry (0, 3) is out of range");
+    assert_is_refused(files_put_text("i_cholmod.txt", "2000000000 3 1\n0 1 1\n"),
+                      "too large for a file of this length");
+    assert_is_refused(files_put_text("j_cholmod.txt", "3 3 2000000000\n0 1 1\n"),
+                      "truncated: 1 of 2000000000");
 }
 
-static void rb_refusals(void **state) {
+static void bad_rutherford_boeing_files_are_refused(void **state) {
     (void)state;
 #define RB_TWO_LINES "title\n 3 1 1 1\n"
 #define RB_FORMATS "(3I2) (3I2) (3E5.1)\n"
-    is_refused(files_put_text("a.rb", "title\n"), "truncated in the header");
-    is_refused(files_put_text("b.rb", RB_TWO_LINES "cua 1 1 1 0\n"), ":3: type 'CUA' is not read");
-    is_refused(files_put_text("c.rb", RB_TWO_LINES "rza 1 1 1 0\n"), "type 'RZA'");
-    is_refused(files_put_text("d.rb", RB_TWO_LINES "rse 1 1 1 0\n"), "type 'RSE'");
-    is_refused(files_put_text("e.rb", RB_TWO_LINES "rsa 1 1\n"), "needs the counts");
-    is_refused(files_put_text("f.rb", RB_TWO_LINES "rsa 1 2 1 0\n" RB_FORMATS), "needs the counts");
-    is_refused(files_put_text("g.rb", RB_TWO_LINES "rsa 2000000000 2000000000 1 0\n" RB_FORMATS),
-               "too large");
-    is_refused(files_put_text("h.rb", RB_TWO_LINES "rsa 1 1 2000000000 0\n" RB_FORMATS),
-               "needs the counts");
-    is_refused(files_put_text("i.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3X2) (3I2) (3E5.1)\n"),
-               ":4: a format");
-    is_refused(files_put_text("j.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3I2) (3I99) (3E5.1)\n"),
-               ":4: a format");
-    is_refused(files_put_text("k.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3I2) (3I2)\n"), ":4: a format");
-    is_refused(files_put_text("l.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3I2) (3I2) (3E5.1\n"),
-               ":4: a format");
-    is_refused(files_put_text("m.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1\n"),
-               "pointer 1: truncated");
-    is_refused(files_put_text("n.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 3\n"),
-               "pointer 1 is out of range");
-    is_refused(files_put_text("o.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 1\n"),
-               "do not run from 1");
-    is_refused(files_put_text("p.rb", RB_TWO_LINES "rsa 2 2 1 0\n" RB_FORMATS " 1 2 1\n"),
-               "pointer 2 is out of range");
-    is_refused(files_put_text("q.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 2\n 2\n"),
-               "index 1: ");
-    is_refused(files_put_text("r.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 2\n 1\n"),
-               "value 1: truncated");
-    is_refused(files_put_text("s.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 2\n 1\n  1x0\n"),
-               "value 1: ");
+    assert_is_refused(files_put_text("a.rb", "title\n"), "truncated in the header");
+    assert_is_refused(files_put_text("b.rb", RB_TWO_LINES "cua 1 1 1 0\n"),
+                      ":3: type 'CUA' is not supported");
+    assert_is_refused(files_put_text("c.rb", RB_TWO_LINES "rza 1 1 1 0\n"), "type 'RZA'");
+    assert_is_refused(files_put_text("d.rb", RB_TWO_LINES "rse 1 1 1 0\n"), "type 'RSE'");
+    assert_is_refused(files_put_text("e.rb", RB_TWO_LINES "rsa 1 1\n"), "counts of rows");
+    assert_is_refused(files_put_text("f.rb", RB_TWO_LINES "rsa 1 2 1 0\n" RB_FORMATS),
+                      "counts of rows");
+    assert_is_refused(
+        files_put_text("g.rb", RB_TWO_LINES "rsa 2000000000 2000000000 1 0\n" RB_FORMATS),
+        "too large");
+    assert_is_refused(files_put_text("h.rb", RB_TWO_LINES "rsa 1 1 2000000000 0\n" RB_FORMATS),
+                      "counts of rows");
+    assert_is_refused(files_put_text("i.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3X2) (3I2) (3E5.1)\n"),
+                      ":4: unsupported format");
+    assert_is_refused(files_put_text("j.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3I2) (3I99) (3E5.1)\n"),
+                      ":4: unsupported format");
+    assert_is_refused(files_put_text("k.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3I2) (3I2)\n"),
+                      ":4: unsupported format");
+    assert_is_refused(files_put_text("l.rb", RB_TWO_LINES "rsa 1 1 1 0\n(3I2) (3I2) (3E5.1\n"),
+                      ":4: unsupported format");
+    assert_is_refused(files_put_text("m.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1\n"),
+                      "pointer 1: missing");
+    assert_is_refused(files_put_text("n.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 3\n"),
+                      "pointer 1 is out of range");
+    assert_is_refused(files_put_text("o.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 1\n"),
+                      "must run from 1");
+    assert_is_refused(files_put_text("p.rb", RB_TWO_LINES "rsa 2 2 1 0\n" RB_FORMATS " 1 2 1\n"),
+                      "pointer 2 is out of range");
+    assert_is_refused(files_put_text("q.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 2\n 2\n"),
+                      "index 1: ");
+    assert_is_refused(files_put_text("r.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 2\n 1\n"),
+                      "value 1: missing");
+    assert_is_refused(
+        files_put_text("s.rb", RB_TWO_LINES "rsa 1 1 1 0\n" RB_FORMATS " 1 2\n 1\n  1x0\n"),
+        "value 1: ");
 }
 
-static void damaged_anywhere(void **state) {
+static void damaged_files_are_refused_or_read(void **state) {
     (void)state;
     static const struct {
         const char *name;
@@ -227,8 +241,9 @@ static void damaged_anywhere(void **state) {
     for (size_t s = 0; s < sizeof all / sizeof all[0]; s++) {
         size_t length = strlen(all[s].text);
         for (size_t cut = 0; cut < length; cut++) {
-            bool read = is_sound(files_put(all[s].name, all[s].text, cut));
-            /* a count is missed where there is one: only the last digits of a last number go unnoticed */
+            bool read = read_is_valid(files_put(all[s].name, all[s].text, cut));
+            /* A missing count is detected where the format has one. Only cuts within the last
+             * number go unnoticed. */
             assert_false(read && s != 1 && cut + 5 < length);
         }
         for (int round = 0; round < 2000; round++) {
@@ -240,12 +255,12 @@ static void damaged_anywhere(void **state) {
                                 : (char)(files_random(&seed) % 128);
                 text[files_random(&seed) % length] = what;
             }
-            (void)is_sound(files_put(all[s].name, text, length));
+            (void)read_is_valid(files_put(all[s].name, text, length));
         }
     }
 }
 
-static void real_matrices(void **state) {
+static void real_matrices_are_read(void **state) {
     (void)state;
     static const struct {
         const char *name;
@@ -299,8 +314,8 @@ static void real_matrices(void **state) {
     dataset_free(&d);
 }
 
-/* The same matrix in two formats, one the lower and one the upper triangle. */
-static void real_twins_agree(void **state) {
+/* The same matrix in two formats, one with the lower and one with the upper triangle. */
+static void real_files_of_one_matrix_agree(void **state) {
     (void)state;
     const char *root = getenv("SL_DATA");
     char lower_path[FILE_PATH_SIZE];
@@ -310,7 +325,7 @@ static void real_twins_agree(void **state) {
     (void)snprintf(upper_path, sizeof upper_path, "%s/matrices/k01up_cholmod.txt",
                    root != NULL ? root : "");
     if (root == NULL || access(lower_path, R_OK) != 0 || access(upper_path, R_OK) != 0) {
-        print_message("SL_DATA has not both bcsstk01.rb and k01up_cholmod.txt: not compared\n");
+        print_message("SL_DATA lacks bcsstk01.rb or k01up_cholmod.txt: not compared\n");
         skip();
     }
     sl_matrix *lower = read_or_fail(lower_path);
@@ -323,8 +338,8 @@ static void real_twins_agree(void **state) {
     assert_memory_equal(A.p, B.p, 49 * sizeof *A.p);
     assert_memory_equal(A.i, B.i, (size_t)A.p[48] * sizeof *A.i);
     for (sl_int p = 0; p < A.p[48]; p++) {
-        assert_true(fabs(A.x[p] - B.x[p]) <=
-                    1e-11 * fabs(A.x[p])); /* the .rb file holds 12 digits */
+        /* The .rb file stores 12 digits. */
+        assert_true(fabs(A.x[p] - B.x[p]) <= 1e-11 * fabs(A.x[p]));
     }
     sl_matrix_free(lower);
     sl_matrix_free(upper);
@@ -333,11 +348,15 @@ static void real_twins_agree(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formats_agree),     cmocka_unit_test(upper_triangle_stays_upper),
-        cmocka_unit_test(patterns_get_ones), cmocka_unit_test(empty_matrices),
-        cmocka_unit_test(text_refusals),     cmocka_unit_test(rb_refusals),
-        cmocka_unit_test(damaged_anywhere),  cmocka_unit_test(real_matrices),
-        cmocka_unit_test(real_twins_agree),
+        cmocka_unit_test(all_formats_give_the_same_matrix),
+        cmocka_unit_test(an_upper_triangle_stays_upper),
+        cmocka_unit_test(pattern_files_get_ones),
+        cmocka_unit_test(empty_matrices_are_read),
+        cmocka_unit_test(bad_text_files_are_refused),
+        cmocka_unit_test(bad_rutherford_boeing_files_are_refused),
+        cmocka_unit_test(damaged_files_are_refused_or_read),
+        cmocka_unit_test(real_matrices_are_read),
+        cmocka_unit_test(real_files_of_one_matrix_agree),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -1,6 +1,6 @@
-/* test_mesh_damage.c: mesh files of every format gzipped, cut at every byte, and damaged at random */
+/* test_mesh_damage.c: mesh files of every format: gzipped, truncated, randomly damaged */
 #define _POSIX_C_SOURCE 200809L
-#include "pyramid.h"
+#include "tests/lib/pyramid_mesh.h"
 
 typedef struct sample_t {
     const char *name;
@@ -22,44 +22,46 @@ static size_t samples(sample_t list[5]) {
     return 5;
 }
 
-static void gz_is_read_alike(void **state) {
+static void gzipped_files_are_read(void **state) {
     (void)state;
     sample_t list[5];
     for (size_t s = samples(list); s-- > 0;) {
         char name[40];
         (void)snprintf(name, sizeof name, "%s.gz", list[s].name);
-        is_pyramid(files_put_gz(name, list[s].bytes, list[s].length));
+        assert_is_pyramid(files_put_gz(name, list[s].bytes, list[s].length));
         (void)snprintf(name, sizeof name, "%s.GZ", list[s].name);
-        is_pyramid(files_put_gz(name, list[s].bytes, list[s].length));
-        is_pyramid(files_put(name, list[s].bytes, list[s].length)); /* only called .gz */
+        assert_is_pyramid(files_put_gz(name, list[s].bytes, list[s].length));
+        /* named .gz but not compressed */
+        assert_is_pyramid(files_put(name, list[s].bytes, list[s].length));
     }
 }
 
-/* A text may be cut behind its last needed digit and still be whole; a list of faces without counts anywhere. */
-static void truncated_anywhere(void **state) {
+/* Truncated text is complete if only its last number lost digits. OBJ has no counts, so it may end
+ * anywhere. */
+static void truncated_files_are_refused(void **state) {
     (void)state;
     sample_t list[5];
     for (size_t s = samples(list); s-- > 0;) {
         for (size_t length = 0; length < list[s].length; length++) {
-            bool read = is_sound(files_put(list[s].name, list[s].bytes, length));
+            bool read = read_is_valid(files_put(list[s].name, list[s].bytes, length));
             assert_false(read && s > 0 && length + (s > 2 ? 0 : 1) < list[s].length);
         }
     }
 }
 
-static void truncated_gz_is_refused(void **state) {
+static void truncated_gzip_is_refused(void **state) {
     (void)state;
     size_t length = 0;
     char *packed = files_get(files_put_gz("whole.obj.gz", obj_plain, strlen(obj_plain)), &length);
     for (size_t cut = 0; cut < length; cut++) {
-        assert_false(is_sound(files_put("cut.obj.gz", packed, cut)));
+        assert_false(read_is_valid(files_put("cut.obj.gz", packed, cut)));
     }
-    packed[length - 8] ^= 1; /* a bit of the checksum */
-    is_refused(files_put("cut.obj.gz", packed, length), "cannot be read");
+    packed[length - 8] ^= 1; /* one bit of the checksum */
+    assert_is_refused(files_put("cut.obj.gz", packed, length), "cannot be read");
     free(packed);
 }
 
-static void damaged_at_random(void **state) {
+static void damaged_files_are_refused_or_read(void **state) {
     (void)state;
     static const char spice[] = "-9 \n\r/#\\.ef\377";
     sample_t list[5];
@@ -74,17 +76,17 @@ static void damaged_at_random(void **state) {
                                 : (char)(files_random(&seed) % 128);
                 bytes[files_random(&seed) % list[s].length] = what;
             }
-            (void)is_sound(files_put(list[s].name, bytes, list[s].length));
+            (void)read_is_valid(files_put(list[s].name, bytes, list[s].length));
         }
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gz_is_read_alike),
-        cmocka_unit_test(truncated_anywhere),
-        cmocka_unit_test(truncated_gz_is_refused),
-        cmocka_unit_test(damaged_at_random),
+        cmocka_unit_test(gzipped_files_are_read),
+        cmocka_unit_test(truncated_files_are_refused),
+        cmocka_unit_test(truncated_gzip_is_refused),
+        cmocka_unit_test(damaged_files_are_refused_or_read),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

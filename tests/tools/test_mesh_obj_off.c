@@ -1,31 +1,30 @@
-/* test_mesh.c: reading OBJ and OFF meshes, plain and odd, and refusing what is none; real meshes of any format */
+/* test_mesh_obj_off.c: reads OBJ and OFF meshes, refuses bad files; real meshes */
 #define _POSIX_C_SOURCE 200809L
-#include "pyramid.h"
+#include "tests/lib/pyramid_mesh.h"
 
-/* ---- OBJ ---- */
-
-static void obj_forms(void **state) {
+static void obj_variants_are_read(void **state) {
     (void)state;
-    is_pyramid(files_put_text("plain.obj", obj_plain));
-    is_pyramid(files_put_text("plain.OBJ", obj_plain));
-    is_pyramid(files_put_text(
+    assert_is_pyramid(files_put_text("plain.obj", obj_plain));
+    assert_is_pyramid(files_put_text("plain.OBJ", obj_plain));
+    assert_is_pyramid(files_put_text(
         "corners.obj", "# a pyramid\nmtllib a.mtl\no p\n" OBJ_VERTICES
                        "vt 0 0\nvn 0 0 1\ns off\n  f 1/1 4/1 3/1 2/1 # base\n\n"
                        "f 1//1 2//1 5//1\nf 2/1/1 3/1/1 5/1/1\nf\t3 4/1 5/1/1\nf 4/-1 1/-1 5/-1"));
-    is_pyramid(files_put_text("negative.obj", OBJ_VERTICES
-                              "f -5 -2 -3 -4\nf -5 2 -1\nf -4 3 -1\nf -3 4 -1\nf -2 1 -1\n"));
-    is_pyramid(files_put_text(
+    assert_is_pyramid(
+        files_put_text("negative.obj",
+                       OBJ_VERTICES "f -5 -2 -3 -4\nf -5 2 -1\nf -4 3 -1\nf -3 4 -1\nf -2 1 -1\n"));
+    assert_is_pyramid(files_put_text(
         "early.obj", "v 0 0 0 1.0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 4 3 2\nf 1 2 5\nf 2 3 5\n"
                      "f 3 4 5\nf 4 1 5\nv .5 .25 -2.5 0.1 0.2 0.3\n"));
-    is_pyramid(files_put_text("continued.obj",
-                              "# ends in a backslash \\\n" OBJ_VERTICES
-                              "f 1 4 \\\n 3 2\nf \\\r\n1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\\\n\n"));
-    is_pyramid(files_put_text("returns.obj",
-                              "v 0 0 0\r\nv 1 0 0\rv 1 1 0\r\nv 0 1 0\r\nv .5 .25 -2.5\r\n"
-                              "f 1 4 3 2\r\nf 1 2 5\r\nf 2 3 5\r\nf 3 4 5\r\nf 4 1 5\r\n"));
+    assert_is_pyramid(files_put_text(
+        "continued.obj", "# ends in a backslash \\\n" OBJ_VERTICES
+                         "f 1 4 \\\n 3 2\nf \\\r\n1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\\\n\n"));
+    assert_is_pyramid(files_put_text("returns.obj",
+                                     "v 0 0 0\r\nv 1 0 0\rv 1 1 0\r\nv 0 1 0\r\nv .5 .25 -2.5\r\n"
+                                     "f 1 4 3 2\r\nf 1 2 5\r\nf 2 3 5\r\nf 3 4 5\r\nf 4 1 5\r\n"));
 }
 
-static void obj_keeps_everything(void **state) {
+static void obj_keeps_repeated_and_unused_vertices(void **state) {
     (void)state;
     mesh m;
     const char *path = files_put_text(
@@ -42,94 +41,94 @@ static void obj_keeps_everything(void **state) {
     mesh_free(&m);
 }
 
-static void obj_refusals(void **state) {
+static void bad_obj_files_are_refused(void **state) {
     (void)state;
-    is_refused(files_put_text("a.obj", ""), "no vertices");
-    is_refused(files_put_text("b.obj", "hello\nworld\n"), "no vertices");
-    is_refused(files_put_text("c.obj", "v 0 0\n"), ":1: v: needs three numbers");
-    is_refused(files_put_text("d.obj", "v 0 0 x\n"), ":1: v: needs three numbers");
-    is_refused(files_put_text("e.obj", "\nv 0 nan 0\n"),
-               ":2: vertex 0: a coordinate is not finite");
-    is_refused(files_put_text("f.obj", "v 0 0 1e999\n"), "not finite");
-    is_refused(files_put_text("g.obj", OBJ_VERTICES "f 1 2 3\nf 1 2 6\nf 1 2 3\n"),
-               ":7: face 1: vertex 5");
-    is_refused(files_put_text("h.obj", OBJ_VERTICES "f 1 2 0\n"), ":6: f: index 0 is out of range");
-    is_refused(files_put_text("i.obj", OBJ_VERTICES "f 1 2 -6\n"),
-               ":6: f: index -6 is out of range");
-    is_refused(files_put_text("j.obj", OBJ_VERTICES "f 1 2 9999999999\n"), "out of range");
-    is_refused(files_put_text("k.obj", OBJ_VERTICES "f 1 2 99999999999999999999\n"),
-               "not an index");
-    is_refused(files_put_text("l.obj", OBJ_VERTICES "f 1 2\n"), "has 2 corners");
-    is_refused(files_put_text("m.obj", OBJ_VERTICES "f 1 2 x\n"), "not an index");
-    is_refused(files_put_text("n.obj", OBJ_VERTICES "f 1 2 3.5\n"), "not an index");
-    is_refused(files_put_text("o.obj", OBJ_VERTICES "f 1/a 2 3\n"), "v/vt");
-    is_refused(files_put_text("p.obj", OBJ_VERTICES "f 1 2 2147483648\n"), "out of range");
+    assert_is_refused(files_put_text("a.obj", ""), "no vertices");
+    assert_is_refused(files_put_text("b.obj", "hello\nworld\n"), "no vertices");
+    assert_is_refused(files_put_text("c.obj", "v 0 0\n"), ":1: v: three numbers expected");
+    assert_is_refused(files_put_text("d.obj", "v 0 0 x\n"), ":1: v: three numbers expected");
+    assert_is_refused(files_put_text("e.obj", "\nv 0 nan 0\n"),
+                      ":2: vertex 0: a coordinate is not finite");
+    assert_is_refused(files_put_text("f.obj", "v 0 0 1e999\n"), "not finite");
+    assert_is_refused(files_put_text("g.obj", OBJ_VERTICES "f 1 2 3\nf 1 2 6\nf 1 2 3\n"),
+                      ":7: face 1: vertex 5");
+    assert_is_refused(files_put_text("h.obj", OBJ_VERTICES "f 1 2 0\n"),
+                      ":6: f: index 0 is out of range");
+    assert_is_refused(files_put_text("i.obj", OBJ_VERTICES "f 1 2 -6\n"),
+                      ":6: f: index -6 is out of range");
+    assert_is_refused(files_put_text("j.obj", OBJ_VERTICES "f 1 2 9999999999\n"), "out of range");
+    assert_is_refused(files_put_text("k.obj", OBJ_VERTICES "f 1 2 99999999999999999999\n"),
+                      "not an index");
+    assert_is_refused(files_put_text("l.obj", OBJ_VERTICES "f 1 2\n"), "has 2 corners");
+    assert_is_refused(files_put_text("m.obj", OBJ_VERTICES "f 1 2 x\n"), "not an index");
+    assert_is_refused(files_put_text("n.obj", OBJ_VERTICES "f 1 2 3.5\n"), "not an index");
+    assert_is_refused(files_put_text("o.obj", OBJ_VERTICES "f 1/a 2 3\n"), "v/vt");
+    assert_is_refused(files_put_text("p.obj", OBJ_VERTICES "f 1 2 2147483648\n"), "out of range");
 }
 
-/* ---- OFF ---- */
-
-static void off_forms(void **state) {
+static void off_variants_are_read(void **state) {
     (void)state;
-    is_pyramid(files_put_text("plain.off", OFF_TEXT));
-    is_pyramid(files_put_text("same_line.off", "OFF 5 5 8\n" OFF_VERTICES OFF_FACES));
-    is_pyramid(files_put_text("two_counts.off", "OFF\n5 5\n" OFF_VERTICES OFF_FACES));
-    is_pyramid(files_put_text("no_word.off", "5 5 8\n" OFF_VERTICES OFF_FACES));
-    is_pyramid(files_put_text(
+    assert_is_pyramid(files_put_text("plain.off", OFF_TEXT));
+    assert_is_pyramid(files_put_text("same_line.off", "OFF 5 5 8\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("two_counts.off", "OFF\n5 5\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("no_word.off", "5 5 8\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text(
         "comments.off", "# a\nOFF # b\n\n# c\n5 5 8 # d\n\n0 0 0 # e\n1 0 0\n# f\n1 1 0\n0 1 0\n"
                         "0.5 0.25 -2.5\n#g\n\n" OFF_FACES "# h"));
-    is_pyramid(files_put_text(
-        "colours.off", "COFF\r\n5 5 8\r\n0 0 0 1 0 0 1\r\n1 0 0 1 0 0 1\r\n1 1 0 255 0 0 255\r\n"
-                       "0 1 0 1 0 0\r\n.5 .25 -2.5 1 1 1 1\r\n4 0 3 2 1 255 0 0\r\n"
-                       "3 0 1 4 7\r\n3 1 2 4 .5 .5 .5 1\r\n3 2 3 4\r\n3 3 0 4"));
-    is_pyramid(files_put_text("normals.off",
-                              "NOFF\n5 5 8\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n"
-                              "0.5 0.25 -2.5 0 0 1\n" OFF_FACES));
-    is_pyramid(files_put_text("all.off", "STCNOFF\n5 5 8\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text(
+        "colors.off", "COFF\r\n5 5 8\r\n0 0 0 1 0 0 1\r\n1 0 0 1 0 0 1\r\n1 1 0 255 0 0 255\r\n"
+                      "0 1 0 1 0 0\r\n.5 .25 -2.5 1 1 1 1\r\n4 0 3 2 1 255 0 0\r\n"
+                      "3 0 1 4 7\r\n3 1 2 4 .5 .5 .5 1\r\n3 2 3 4\r\n3 3 0 4"));
+    assert_is_pyramid(files_put_text(
+        "normals.off", "NOFF\n5 5 8\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n"
+                       "0.5 0.25 -2.5 0 0 1\n" OFF_FACES));
+    assert_is_pyramid(files_put_text("all.off", "STCNOFF\n5 5 8\n" OFF_VERTICES OFF_FACES));
     mesh m;
     assert_true(mesh_read(&m, files_put_text("empty.off", "OFF\n0 0 0\n"), NULL, 0));
     assert_int_equal(m.n_vertices, 0);
     mesh_free(&m);
 }
 
-static void off_refusals(void **state) {
+static void bad_off_files_are_refused(void **state) {
     (void)state;
-    is_refused(files_put_text("a.off", ""), "empty");
-    is_refused(files_put_text("b.off", "hello\n"), ":1: neither OFF nor a count");
-    is_refused(files_put_text("c.off", "OFF BINARY\n5 5 0\n"), "binary");
-    is_refused(files_put_text("d.off", "4OFF\n5 5 0\n"), "three coordinates");
-    is_refused(files_put_text("e.off", "nOFF\n3\n5 5 0\n"), "three coordinates");
-    is_refused(files_put_text("f.off", "OFF\n-5 5 0\n"), ":2: needs the counts");
-    is_refused(files_put_text("g.off", "OFF\n5\n"), "needs the counts");
-    is_refused(files_put_text("h.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"),
-               "vertex 1: needs three numbers");
-    is_refused(files_put_text("i.off", "OFF\n99999999999999 5 0\n" OFF_VERTICES),
-               "needs three numbers");
-    is_refused(files_put_text("j.off", "OFF\n5 5 0\n" OFF_VERTICES "3 0 1 2\n"),
-               "face 1: needs a count");
-    is_refused(files_put_text("k.off", "OFF\n5 1 0\n" OFF_VERTICES "3 0 1\n"),
-               ":8: face 0: needs 3 corners");
-    is_refused(files_put_text("l.off", "OFF\n5 1 0\n" OFF_VERTICES "3 0 1 5\n"),
-               ":8: face 0: vertex 5");
-    is_refused(files_put_text("m.off", "OFF\n5 1 0\n" OFF_VERTICES "3 0 1 -1\n"),
-               ":8: face 0: vertex -1");
-    is_refused(files_put_text("n.off", "OFF\n5 1 0\n" OFF_VERTICES "2 0 1\n"), "has 2 corners");
-    is_refused(files_put_text("o.off", "OFF\n5 1 0\n" OFF_VERTICES "-3 0 1 2\n"), "has 0 corners");
-    is_refused(files_put_text("p.off", "OFF\n5 1 0\n" OFF_VERTICES "2000000000 0 1 2\n"),
-               "needs 2000000000 corners");
-    is_refused(files_put_text("q.off", "OFF\n1 0 0\n0 0 inf\n"), "not finite");
+    assert_is_refused(files_put_text("a.off", ""), "empty");
+    assert_is_refused(files_put_text("b.off", "hello\n"),
+                      ":1: not an OFF mesh: begins with neither OFF nor a count");
+    assert_is_refused(files_put_text("c.off", "OFF BINARY\n5 5 0\n"), "binary");
+    assert_is_refused(files_put_text("d.off", "4OFF\n5 5 0\n"), "three coordinates");
+    assert_is_refused(files_put_text("e.off", "nOFF\n3\n5 5 0\n"), "three coordinates");
+    assert_is_refused(files_put_text("f.off", "OFF\n-5 5 0\n"), ":2: counts of vertices");
+    assert_is_refused(files_put_text("g.off", "OFF\n5\n"), "counts of vertices");
+    assert_is_refused(files_put_text("h.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"),
+                      "vertex 1: three numbers expected");
+    assert_is_refused(files_put_text("i.off", "OFF\n99999999999999 5 0\n" OFF_VERTICES),
+                      "three numbers expected");
+    assert_is_refused(files_put_text("j.off", "OFF\n5 5 0\n" OFF_VERTICES "3 0 1 2\n"),
+                      "face 1: number of corners");
+    assert_is_refused(files_put_text("k.off", "OFF\n5 1 0\n" OFF_VERTICES "3 0 1\n"),
+                      ":8: face 0: 3 corners expected");
+    assert_is_refused(files_put_text("l.off", "OFF\n5 1 0\n" OFF_VERTICES "3 0 1 5\n"),
+                      ":8: face 0: vertex 5");
+    assert_is_refused(files_put_text("m.off", "OFF\n5 1 0\n" OFF_VERTICES "3 0 1 -1\n"),
+                      ":8: face 0: vertex -1");
+    assert_is_refused(files_put_text("n.off", "OFF\n5 1 0\n" OFF_VERTICES "2 0 1\n"),
+                      "has 2 corners");
+    assert_is_refused(files_put_text("o.off", "OFF\n5 1 0\n" OFF_VERTICES "-3 0 1 2\n"),
+                      "has 0 corners");
+    assert_is_refused(files_put_text("p.off", "OFF\n5 1 0\n" OFF_VERTICES "2000000000 0 1 2\n"),
+                      "2000000000 corners expected");
+    assert_is_refused(files_put_text("q.off", "OFF\n1 0 0\n0 0 inf\n"), "not finite");
 }
-
-/* ---- other files ---- */
 
 static void other_files_are_refused(void **state) {
     (void)state;
-    is_refused(files_path("missing.obj"), "cannot be opened");
-    is_refused(files_put_text("mesh.3ds", obj_plain), "not a name of a mesh");
-    is_refused(files_put_text("obj", obj_plain), "not a name of a mesh");
+    assert_is_refused(files_path("missing.obj"), "cannot be opened");
+    assert_is_refused(files_put_text("mesh.3ds", obj_plain), "unknown mesh format");
+    assert_is_refused(files_put_text("obj", obj_plain), "unknown mesh format");
     char folder[FILE_PATH_SIZE + 100];
     (void)snprintf(folder, sizeof folder, "%s", files_path("folder.obj"));
     assert_int_equal(mkdir(folder, 0777), 0);
-    is_refused(folder, "cannot be");
+    assert_is_refused(folder, "cannot be");
     assert_int_equal(rmdir(folder), 0);
     mesh m;
     char tiny[8];
@@ -139,9 +138,7 @@ static void other_files_are_refused(void **state) {
     assert_string_equal(tiny, "");
 }
 
-/* ---- real meshes ---- */
-
-static void real_meshes(void **state) {
+static void real_meshes_are_read(void **state) {
     (void)state;
     static const struct {
         const char *name;
@@ -192,10 +189,13 @@ static void real_meshes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(obj_forms),    cmocka_unit_test(obj_keeps_everything),
-        cmocka_unit_test(obj_refusals), cmocka_unit_test(off_forms),
-        cmocka_unit_test(off_refusals), cmocka_unit_test(other_files_are_refused),
-        cmocka_unit_test(real_meshes),
+        cmocka_unit_test(obj_variants_are_read),
+        cmocka_unit_test(obj_keeps_repeated_and_unused_vertices),
+        cmocka_unit_test(bad_obj_files_are_refused),
+        cmocka_unit_test(off_variants_are_read),
+        cmocka_unit_test(bad_off_files_are_refused),
+        cmocka_unit_test(other_files_are_refused),
+        cmocka_unit_test(real_meshes_are_read),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

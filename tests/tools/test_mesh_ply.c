@@ -1,11 +1,11 @@
-/* test_mesh_ply.c: reading PLY meshes: ascii and binary, any order and types of properties, and refusals */
+/* test_mesh_ply.c: reads PLY meshes: ASCII and binary, any properties, bad files */
 #define _POSIX_C_SOURCE 200809L
-#include "pyramid.h"
+#include "tests/lib/pyramid_mesh.h"
 
-static void ply_ascii_forms(void **state) {
+static void ascii_variants_are_read(void **state) {
     (void)state;
-    is_pyramid(files_put_text("plain.ply", ply_ascii));
-    is_pyramid(files_put_text(
+    assert_is_pyramid(files_put_text("plain.ply", ply_ascii));
+    assert_is_pyramid(files_put_text(
         "order.ply", PLY_ASCII_HEADER
         "obj_info from a test\nelement camera 1\nproperty list int float lens\n"
         "property int id\nelement vertex 5\nproperty uint8 red\nproperty float64 z\n"
@@ -15,7 +15,7 @@ static void ply_ascii_forms(void **state) {
         "property list uchar float texcoord\nelement edge 1\nproperty int a\nend_header\n"
         "2 0.5 0.5 7\n9 0 0 0 0\n9 0 1 5 0 1\n9 0 2 5 6 1 1\n9 0 0 1 0\n9 -2.5 0 0.25 0.5\n"
         "1 4 0 3 2 1 0\n1 3 0 1 4 2 .5 .5\n1 3 1 2 4 0\n1 3 2 3 4 0\n1 3 3 0 4 0\n1\n"));
-    is_pyramid(files_put_text(
+    assert_is_pyramid(files_put_text(
         "faces_first.ply", PLY_ASCII_HEADER
         "element face 5\nproperty list uchar int vertex_indices\nelement vertex 5\n"
         "property float x\nproperty float y\nproperty float z\nend_header\n" OFF_FACES
@@ -30,7 +30,7 @@ static void ply_ascii_forms(void **state) {
     mesh_free(&m);
 }
 
-static void ply_binary_forms(void **state) {
+static void binary_variants_are_read(void **state) {
     (void)state;
     static const struct {
         const char *name;
@@ -40,12 +40,12 @@ static void ply_binary_forms(void **state) {
     for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
         for (int big = 0; big < 2; big++) {
             binary_t b = binary_pyramid(big != 0, types[k].name, types[k].bytes, line_ends[k % 3]);
-            is_pyramid(files_put("binary.ply", b.bytes, b.length));
+            assert_is_pyramid(files_put("binary.ply", b.bytes, b.length));
         }
     }
 }
 
-static void ply_types_have_signs(void **state) {
+static void property_types_keep_their_sign(void **state) {
     (void)state;
     for (int big = 0; big < 2; big++) {
         binary_t b;
@@ -74,8 +74,8 @@ static void ply_types_have_signs(void **state) {
     }
 }
 
-/* With lines that end in \r, a first byte of data that happens to be \n is not a part of the line end. */
-static void ply_data_that_look_like_a_line_end(void **state) {
+/* When lines end in \r, a first data byte that happens to be \n is not part of the line end. */
+static void data_that_look_like_a_line_end_are_read(void **state) {
     (void)state;
     for (int single = 0; single < 2; single++) {
         const char *end = single ? "\r" : "\r\n";
@@ -95,73 +95,80 @@ static void ply_data_that_look_like_a_line_end(void **state) {
     }
 }
 
-static void ply_refusals(void **state) {
+static void bad_files_are_refused(void **state) {
     (void)state;
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 #define LITTLE "ply\nformat binary_little_endian 1.0\n"
 #define FACE1 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    is_refused(files_put_text("a.ply", ""), "does not begin with ply");
-    is_refused(files_put_text("b.ply", "OFF\n"), "does not begin with ply");
-    is_refused(files_put_text("c.ply", "ply\nformat text 1.0\n"), ":2: 'text' is not a PLY format");
-    is_refused(files_put_text("d.ply", "ply\nelement vertex 0\n" XYZ "end_header\n"), "no format");
-    is_refused(files_put_text("e.ply", "ply\nformat ascii 1.0\nelement vertex\n"),
-               ":3: element vertex needs a count");
-    is_refused(files_put_text("f.ply", "ply\nformat ascii 1.0\nelement vertex -1\n"),
-               "needs a count");
-    is_refused(files_put_text("g.ply", "ply\nformat ascii 1.0\nproperty float x\n"),
-               "before the first element");
-    is_refused(
+    assert_is_refused(files_put_text("a.ply", ""), "not a PLY mesh");
+    assert_is_refused(files_put_text("b.ply", "OFF\n"), "not a PLY mesh");
+    assert_is_refused(files_put_text("c.ply", "ply\nformat text 1.0\n"),
+                      ":2: 'text' is not a PLY format");
+    assert_is_refused(files_put_text("d.ply", "ply\nelement vertex 0\n" XYZ "end_header\n"),
+                      "no format");
+    assert_is_refused(files_put_text("e.ply", "ply\nformat ascii 1.0\nelement vertex\n"),
+                      ":3: element vertex has no count");
+    assert_is_refused(files_put_text("f.ply", "ply\nformat ascii 1.0\nelement vertex -1\n"),
+                      "has no count");
+    assert_is_refused(files_put_text("g.ply", "ply\nformat ascii 1.0\nproperty float x\n"),
+                      "before the first element");
+    assert_is_refused(
         files_put_text("h.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty int128 x\n"),
         "'int128'");
-    is_refused(
+    assert_is_refused(
         files_put_text("i.ply",
                        "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar what x\n"),
         "'what'");
-    is_refused(files_put_text("j.ply", "ply\nformat ascii 1.0\nwhat\n"), "'what' is no word");
-    is_refused(files_put_text("k.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"),
-               "no element vertex");
-    is_refused(
+    assert_is_refused(files_put_text("j.ply", "ply\nformat ascii 1.0\nwhat\n"),
+                      "'what' is not a PLY header keyword");
+    assert_is_refused(
+        files_put_text("k.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"),
+        "no element vertex");
+    assert_is_refused(
         files_put_text(
             "l.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
-        "needs x, y and z");
-    is_refused(files_put_text("m.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
-                                       "property int x\nend_header\n"),
-               "needs x, y and z");
-    is_refused(files_put_text("n.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
-                                       "element face 1\nproperty int a\n"
-                                       "end_header\n0 0 0\n1\n"),
-               "needs one list vertex_indices");
-    is_refused(files_put_text("o.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
-                                       "0 0 0\n3 0 0 1\n"),
-               ":11: face 0: vertex 1");
-    is_refused(files_put_text("p.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
-                                       "0 0 0\n3 0 0 -1\n"),
-               ":11: face 0: -1 is not the index");
-    is_refused(files_put_text("q.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
-                                       "0 0 0\n3 0 0 0.5\n"),
-               "0.5 is not the index");
-    is_refused(files_put_text("r.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
-                                       "0 0 0\n-3 0 0 0\n"),
-               "list without a count");
-    is_refused(files_put_text("s.ply",
-                              "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1 "0 0 0\n1 0\n"),
-               "1 corners");
-    is_refused(files_put_text("t.ply", LITTLE "element vertex 2000000000\n" XYZ "end_header\n0123"),
-               "vertex 0: truncated");
-    is_refused(files_put_text("u.ply", LITTLE "element vertex 0\n" XYZ
-                                              "element skip 9000000000000000000\nproperty char a\n"
-                                              "end_header\nabc"),
-               "skip 3: truncated");
-    is_refused(files_put_text("v.ply", LITTLE "element vertex 0\n" XYZ
-                                              "element face 1\nproperty list uint int "
-                                              "vertex_indices\nend_header\n\377\377\377\377"),
-               "face 0: truncated");
-    is_refused(files_put_text("w.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
-                                       "end_header\n0 0 nan\n"),
-               "not finite");
-    is_refused(files_put_text("x.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ),
-               "truncated in the header");
-    /* no properties, nothing to read, however many there are said to be */
+        "must have x, y and z");
+    assert_is_refused(files_put_text("m.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
+                                              "property int x\nend_header\n"),
+                      "must have x, y and z");
+    assert_is_refused(files_put_text("n.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
+                                              "element face 1\nproperty int a\n"
+                                              "end_header\n0 0 0\n1\n"),
+                      "must have one list vertex_indices");
+    assert_is_refused(files_put_text("o.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
+                                              "0 0 0\n3 0 0 1\n"),
+                      ":11: face 0: vertex 1");
+    assert_is_refused(files_put_text("p.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
+                                              "0 0 0\n3 0 0 -1\n"),
+                      ":11: face 0: -1 is not a vertex index");
+    assert_is_refused(files_put_text("q.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
+                                              "0 0 0\n3 0 0 0.5\n"),
+                      "0.5 is not a vertex index");
+    assert_is_refused(files_put_text("r.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
+                                              "0 0 0\n-3 0 0 0\n"),
+                      "list has no valid count");
+    assert_is_refused(files_put_text("s.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ FACE1
+                                              "0 0 0\n1 0\n"),
+                      "1 corners");
+    assert_is_refused(
+        files_put_text("t.ply", LITTLE "element vertex 2000000000\n" XYZ "end_header\n0123"),
+        "vertex 0: truncated");
+    assert_is_refused(files_put_text("u.ply",
+                                     LITTLE "element vertex 0\n" XYZ
+                                            "element skip 9000000000000000000\nproperty char a\n"
+                                            "end_header\nabc"),
+                      "skip 3: truncated");
+    assert_is_refused(files_put_text("v.ply",
+                                     LITTLE "element vertex 0\n" XYZ
+                                            "element face 1\nproperty list uint int "
+                                            "vertex_indices\nend_header\n\377\377\377\377"),
+                      "face 0: truncated");
+    assert_is_refused(files_put_text("w.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
+                                              "end_header\n0 0 nan\n"),
+                      "not finite");
+    assert_is_refused(files_put_text("x.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ),
+                      "truncated in the header");
+    /* An element without properties needs no data, however large its count. */
     mesh m;
     assert_true(mesh_read(&m,
                           files_put_text("y.ply", LITTLE "element vertex 0\n" XYZ
@@ -173,11 +180,11 @@ static void ply_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ply_ascii_forms),
-        cmocka_unit_test(ply_binary_forms),
-        cmocka_unit_test(ply_types_have_signs),
-        cmocka_unit_test(ply_data_that_look_like_a_line_end),
-        cmocka_unit_test(ply_refusals),
+        cmocka_unit_test(ascii_variants_are_read),
+        cmocka_unit_test(binary_variants_are_read),
+        cmocka_unit_test(property_types_keep_their_sign),
+        cmocka_unit_test(data_that_look_like_a_line_end_are_read),
+        cmocka_unit_test(bad_files_are_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -1,11 +1,11 @@
-/* test_mesh_write.c: meshes written and read back; fields, colours and texture coordinates in the files */
+/* test_mesh_write.c: written meshes read back: fields, colors, texture coordinates */
 #define _POSIX_C_SOURCE 200809L
-#include "pyramid.h"
+#include "tests/lib/pyramid_mesh.h"
 
-#include "../tools/mesh_write.h"
-#include "../tools/surface.h"
+#include "tools/mesh/mesh_write.h"
+#include "tools/mesh/surface_generator.h"
 
-static void reads_back(const mesh *m, const char *name, const mesh_extra *extra) {
+static void assert_reads_back(const mesh *m, const char *name, const mesh_extra *extra) {
     mesh back;
     char message[300];
     const char *path = files_path(name);
@@ -21,13 +21,13 @@ static void reads_back(const mesh *m, const char *name, const mesh_extra *extra)
     mesh_free(&back);
 }
 
-static void bits_survive(void **state) {
+static void coordinates_keep_their_bits(void **state) {
     (void)state;
     static const char *const names[] = {"a.ply", "a.obj", "a.ply.gz", "a.obj.gz", "A.PLY"};
     static const char *const surfaces[] = {"blob:2", "hills:7x5", "grid:1x1"};
     for (size_t s = 0; s < 3; s++) {
         mesh m;
-        assert_true(surface_make(&m, surfaces[s], NULL, 0));
+        assert_true(surface_generate(&m, surfaces[s], NULL, 0));
         size_t n = (size_t)m.n_vertices;
         double *value = test_reals(n), *uv = test_reals(2 * n),
                *corner_uv = test_reals(6 * (size_t)m.n_faces);
@@ -41,10 +41,10 @@ static void bits_survive(void **state) {
                          corners = {NULL, corner_uv, NULL, fields, 1},
                          one = {NULL, NULL, NULL, fields, 1};
         for (size_t k = 0; k < 5; k++) {
-            reads_back(&m, names[k], NULL);
-            reads_back(&m, names[k], &all);
-            reads_back(&m, names[k], &corners);
-            reads_back(&m, names[k], &one);
+            assert_reads_back(&m, names[k], NULL);
+            assert_reads_back(&m, names[k], &all);
+            assert_reads_back(&m, names[k], &corners);
+            assert_reads_back(&m, names[k], &one);
         }
         free(color);
         free(corner_uv);
@@ -55,7 +55,7 @@ static void bits_survive(void **state) {
 }
 
 /* A triangle, byte by byte. */
-static void ply_layout(void **state) {
+static void ply_bytes_are_as_specified(void **state) {
     (void)state;
     double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, value[3] = {0.5, -2, 1e300},
            uv[6] = {1, 2, 3, 4, 5, 6};
@@ -95,7 +95,7 @@ static void ply_layout(void **state) {
     free(got);
 }
 
-static void obj_lines(void **state) {
+static void obj_lines_are_as_specified(void **state) {
     (void)state;
     double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, value[3] = {2, 4, 3}, uv[6] = {0, 0, 0.5, 0, 0, 1};
     sl_int faces[3] = {2, 0, 1};
@@ -117,17 +117,17 @@ static void obj_lines(void **state) {
     free(got);
 }
 
-static void refusals(void **state) {
+static void bad_paths_are_refused(void **state) {
     (void)state;
     const mesh none = {0, 0, NULL, NULL};
     char message[300];
     assert_false(mesh_write(files_path("a.off"), &none, NULL, message, sizeof message));
-    assert_non_null(strstr(message, "a.off: a mesh is written as .obj or .ply"));
+    assert_non_null(strstr(message, "a.off: unknown mesh format"));
     assert_false(mesh_write(files_path("no/folder.ply"), &none, NULL, message, sizeof message));
     assert_non_null(strstr(message, "cannot be written"));
     if (access("/dev/full", W_OK) == 0 && symlink("/dev/full", files_path("full.ply")) == 0) {
         assert_false(mesh_write(files_path("full.ply"), &none, NULL, message, sizeof message));
-        assert_non_null(strstr(message, "full.ply: was not written whole"));
+        assert_non_null(strstr(message, "full.ply: could not be written completely"));
         (void)remove(files_path("full.ply"));
     }
     assert_true(mesh_write(files_path("none.ply"), &none, NULL, message, sizeof message));
@@ -135,10 +135,10 @@ static void refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_survive),
-        cmocka_unit_test(ply_layout),
-        cmocka_unit_test(obj_lines),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(coordinates_keep_their_bits),
+        cmocka_unit_test(ply_bytes_are_as_specified),
+        cmocka_unit_test(obj_lines_are_as_specified),
+        cmocka_unit_test(bad_paths_are_refused),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

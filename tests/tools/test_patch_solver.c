@@ -1,15 +1,15 @@
-/* test_tools_patch_solver.c: Poisson problems on patches by the factor of the whole mesh, against other ways */
-#include "gen.h"
+/* test_patch_solver.c: Poisson problems on patches by the mesh's factor, against other methods */
+#include "tests/lib/gen_matrices.h"
 
-#include "bent_grids.h"
-#include "each_mesh.h"
-#include "patch_checks.h"
+#include "tests/lib/surfaces.h"
+#include "tests/lib/real_meshes.h"
+#include "tests/lib/mesh_patch.h"
 
-#include "../tools/cg.h"
-#include "../tools/harmonic_map.h"
-#include "../tools/product.h"
+#include "tools/matrix/cg.h"
+#include "tools/geometry/harmonic_map.h"
+#include "tools/matrix/sparse_product.h"
 
-/* Right-hand sides that sum to 0. */
+/* Random right-hand sides that sum to 0. */
 static double *random_flux(sl_int n, sl_int nrhs, uint64_t seed) {
     double *B = test_reals((size_t)n * (size_t)nrhs);
     gen_reals(B, (size_t)n * (size_t)nrhs, seed);
@@ -25,21 +25,22 @@ static double *random_flux(sl_int n, sl_int nrhs, uint64_t seed) {
     return B;
 }
 
-/* The paper's problem: the rows of a full solve, to the bit; harmonic inside, where rows of L are those of N. */
-static void the_mesh_problem_is_the_full_solve(void **state) {
+/* The paper's problem: the solution has the bits of the full solve and is harmonic inside, where
+ * the rows of L are those of N. */
+static void the_mesh_problem_equals_the_full_solve(void **state) {
     (void)state;
-    whole_t w;
-    whole_make(&w, torus_grid(30, 20));
-    disk d = grown_disk(&w, 100, 150);
+    mesh_factor_t w;
+    mesh_factor_make(&w, torus_grid(30, 20));
+    disk_patch d = grown_disk(&w, 100, 150);
     sl_int n = d.p.m.n_vertices, all = w.m.n_vertices, nb = d.n_boundary;
     double *edge = test_reals(2 * (size_t)nb), *b = test_reals(2 * (size_t)nb);
     double *B = test_reals(2 * (size_t)n), *X = test_reals(2 * (size_t)n);
     double *full = test_reals(2 * (size_t)all);
-    patch_solver s = solver_of(&w, &d.p);
-    boundary_on_circle(edge, &d);
-    boundary_neumann(b, edge, nb);
-    boundary_spread(B, b, &d);
-    SL_CHECK(patch_solver_mesh(&s, X, B, 2));
+    patch_solver s = patch_solver_of(&w, &d.p);
+    boundary_to_circle(edge, &d);
+    boundary_neumann_rhs(b, edge, nb);
+    boundary_scatter(B, b, &d);
+    SL_CHECK(patch_solver_solve_mesh(&s, X, B, 2));
     for (sl_int v = 0; v < n; v++) {
         full[d.p.vertices[v]] = B[v];
         full[all + d.p.vertices[v]] = B[n + v];
@@ -49,8 +50,8 @@ static void the_mesh_problem_is_the_full_solve(void **state) {
         assert_true(X[v] == full[d.p.vertices[v]] && X[n + v] == full[all + d.p.vertices[v]]);
     }
     SL_CHECK(patch_solver_apply(&s, B, X, 2));
-    for (sl_int k = 0; k < d.p.n_rim; k++) {
-        B[d.p.rim[k]] = B[n + d.p.rim[k]] = 0;
+    for (sl_int k = 0; k < d.p.n_interface; k++) {
+        B[d.p.interface[k]] = B[n + d.p.interface[k]] = 0;
     }
     assert_true(largest(B, 2 * (size_t)n) <= 1e-13 * largest(X, 2 * (size_t)n));
     patch_solver_free(&s);
@@ -59,28 +60,29 @@ static void the_mesh_problem_is_the_full_solve(void **state) {
     free(B);
     free(b);
     free(edge);
-    disk_free(&d);
-    whole_free(&w);
+    disk_patch_free(&d);
+    mesh_factor_free(&w);
 }
 
-/* The part's own problem by the mesh's factor, by a factor of its own, and by conjugate gradients. */
-static void three_ways_agree(const part *p, patch_solver *s, int most_solves) {
+/* Solves the problem of the patch with the factor of the mesh, with a factor of its own, and by
+ * conjugate gradients. */
+static void assert_three_methods_agree(const submesh *p, patch_solver *s, int max_solves) {
     sl_int n = p->m.n_vertices;
     double *B = random_flux(n, 3, 9), *X = test_reals(3 * (size_t)n);
     double *Y = test_reals(3 * (size_t)n), *work = test_reals(4 * (size_t)n);
     const sl_csc N = sl_matrix_view(s->N);
     sl_matrix *both;
-    int solves = most_solves;
-    assert_true(csc_both_triangles(&both, &N));
+    int solves = max_solves;
+    assert_true(csc_expand_symmetric(&both, &N));
     const sl_csc A = sl_matrix_view(both);
-    SL_CHECK(patch_solver_part(s, X, B, 3, 1e-11, &solves));
-    SL_CHECK(refactor_solve(Y, &N, B, 3));
-    assert_true(solves < most_solves);
+    SL_CHECK(patch_solver_solve_patch(s, X, B, 3, 1e-11, &solves));
+    SL_CHECK(factor_and_solve(Y, &N, B, 3));
+    assert_true(solves < max_solves);
     for (sl_int c = 0; c < 3; c++) {
         double size = largest(Y + c * n, (size_t)n);
-        assert_true(apart(X + c * n, Y + c * n, n) <= 1e-8 * size);
+        assert_true(largest_difference(X + c * n, Y + c * n, n) <= 1e-8 * size);
         (void)cg_jacobi(&A, X + c * n, B + c * n, 1e-12, 100000, work);
-        assert_true(apart(X + c * n, Y + c * n, n) <= 1e-7 * size);
+        assert_true(largest_difference(X + c * n, Y + c * n, n) <= 1e-7 * size);
     }
     sl_matrix_free(both);
     free(work);
@@ -89,112 +91,115 @@ static void three_ways_agree(const part *p, patch_solver *s, int most_solves) {
     free(B);
 }
 
-static void the_part_problem_by_the_factor_of_the_mesh(void **state) {
+static void three_methods_agree_on_the_patch_problem(void **state) {
     (void)state;
     for (int which = 0; which < 3; which++) {
-        whole_t w;
-        whole_make(&w, which == 0   ? flat_grid(50, 0.2)
-                       : which == 1 ? torus_grid(60, 40)
-                                    : sphere_grid(50, 2));
+        mesh_factor_t w;
+        mesh_factor_make(&w, which == 0   ? flat_grid(50, 0.2)
+                             : which == 1 ? torus_grid(60, 40)
+                                          : sphere_grid(50, 2));
         for (sl_int count = 4; count < w.m.n_vertices; count *= 4) {
-            disk d = grown_disk(&w, w.m.n_vertices / 2 + 25, count);
-            patch_solver s = solver_of(&w, &d.p);
-            three_ways_agree(&d.p, &s, 40);
+            disk_patch d = grown_disk(&w, w.m.n_vertices / 2 + 25, count);
+            patch_solver s = patch_solver_of(&w, &d.p);
+            assert_three_methods_agree(&d.p, &s, 40);
             patch_solver_free(&s);
-            disk_free(&d);
+            disk_patch_free(&d);
         }
-        whole_free(&w);
+        mesh_factor_free(&w);
     }
 }
 
-/* Down to a residual that is rounding, and rounding alone on the right: no correction is refused. */
-static void corrections_of_rounding(void **state) {
+/* Tolerances below rounding, where the right-hand side of a correction is only rounding, are not
+ * refused. */
+static void tolerances_below_rounding_work(void **state) {
     (void)state;
-    whole_t w;
-    whole_make(&w, flat_grid(60, 0));
-    disk d = grown_disk(&w, 1830, 300);
+    mesh_factor_t w;
+    mesh_factor_make(&w, flat_grid(60, 0));
+    disk_patch d = grown_disk(&w, 1830, 300);
     sl_int n = d.p.m.n_vertices, nb = d.n_boundary;
-    patch_solver s = solver_of(&w, &d.p);
+    patch_solver s = patch_solver_of(&w, &d.p);
     double *edge = test_reals(2 * (size_t)nb), *b = test_reals(2 * (size_t)nb);
     double *B = test_reals(2 * (size_t)n), *X = test_reals(2 * (size_t)n);
-    boundary_on_circle(edge, &d);
-    boundary_neumann(b, edge, nb);
-    boundary_spread(B, b, &d);
+    boundary_to_circle(edge, &d);
+    boundary_neumann_rhs(b, edge, nb);
+    boundary_scatter(B, b, &d);
     int solves = 60;
-    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-10, &solves));
+    SL_CHECK(patch_solver_solve_patch(&s, X, B, 2, 1e-10, &solves));
     assert_true(solves > 1 && solves < 60);
     solves = 60;
-    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-18, &solves));
+    SL_CHECK(patch_solver_solve_patch(&s, X, B, 2, 1e-18, &solves));
     assert_true(isfinite(largest(X, 2 * (size_t)n)));
     free(X);
     free(B);
     free(b);
     free(edge);
     patch_solver_free(&s);
-    disk_free(&d);
-    whole_free(&w);
+    disk_patch_free(&d);
+    mesh_factor_free(&w);
 }
 
-static void refusals(void **state) {
+static void wrong_arguments_are_refused(void **state) {
     (void)state;
-    whole_t w;
-    whole_make(&w, flat_grid(6, 0));
-    disk d = grown_disk(&w, 7, 10);
-    patch_solver s = solver_of(&w, &d.p);
+    mesh_factor_t w;
+    mesh_factor_make(&w, flat_grid(6, 0));
+    disk_patch d = grown_disk(&w, 7, 10);
+    patch_solver s = patch_solver_of(&w, &d.p);
     double X[50] = {0}, B[50] = {0};
     int solves = 3;
-    SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_part(&s, X, B, 5, 1e-10, &solves));
+    SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_solve_patch(&s, X, B, 5, 1e-10, &solves));
     assert_int_equal(solves, 0);
     solves = 3;
-    SL_CHECK(patch_solver_part(&s, X, B, 0, 1e-10, &solves)); /* no right-hand side */
+    SL_CHECK(patch_solver_solve_patch(&s, X, B, 0, 1e-10, &solves)); /* no right-hand side */
     solves = 3;
-    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-10, &solves)); /* b = 0 */
+    SL_CHECK(patch_solver_solve_patch(&s, X, B, 2, 1e-10, &solves)); /* b = 0 */
     assert_int_equal(solves, 1);
     patch_solver_free(&s);
     d.p.vertices[3] = d.p.vertices[2];
     SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_create(&s, w.S, w.F, &d.p));
     d.p.vertices[3] = 36;
     SL_EXPECT(SL_ERR_ARGUMENT, patch_solver_create(&s, w.S, w.F, &d.p));
-    assert_null(s.whole);
-    disk_free(&d);
-    whole_free(&w);
+    assert_null(s.patch_plan);
+    disk_patch_free(&d);
+    mesh_factor_free(&w);
 }
 
-/* What a patch of one size costs is the paths above it: an ever smaller part of the factor. */
-static void cost_of_a_patch(void **state) {
+/* A solve on a patch of one size reads the paths above it, a share of the factor that falls as the
+ * mesh grows. */
+static void the_share_of_the_factor_read_falls_with_the_mesh(void **state) {
     (void)state;
     double before = 1;
     for (sl_int side = 50; side <= 200; side *= 4) {
-        whole_t w;
-        whole_make(&w, flat_grid(side, 0));
-        disk d = grown_disk(&w, (side / 2) * side + side / 2, 300);
-        patch_solver s = solver_of(&w, &d.p);
+        mesh_factor_t w;
+        mesh_factor_make(&w, flat_grid(side, 0));
+        disk_patch d = grown_disk(&w, (side / 2) * side + side / 2, 300);
+        patch_solver s = patch_solver_of(&w, &d.p);
         sl_stats all;
         sl_symbolic_stats(w.S, &all);
         assert_int_equal(d.p.m.n_vertices, 300);
-        double share = (double)s.stats.x_entries / (double)all.nnz_panels;
+        double share = (double)s.stats.plan.x_entries / (double)all.symbolic.nnz_panels;
         print_message("%d x %d: %.3f of the factor\n", (int)side, (int)side, share);
-        assert_true(s.stats.b_entries == s.stats.x_entries && share < 0.8 * before);
+        assert_true(s.stats.plan.b_entries == s.stats.plan.x_entries && share < 0.8 * before);
         before = share;
         patch_solver_free(&s);
-        disk_free(&d);
-        whole_free(&w);
+        disk_patch_free(&d);
+        mesh_factor_free(&w);
     }
 }
 
-/* Patches of the development meshes: the mesh's problem is finite, the part's by two ways the same. */
-static void try_mesh(const char *name, mesh m) {
-    whole_t w;
-    whole_make(&w, m);
-    disk d = grown_disk(&w, w.m.faces[0], 800);
+/* The solution of the mesh's problem is finite, and the residual of the patch's problem is
+ * small. */
+static void check_mesh(const char *name, mesh m) {
+    mesh_factor_t w;
+    mesh_factor_make(&w, m);
+    disk_patch d = grown_disk(&w, w.m.faces[0], 800);
     sl_int n = d.p.m.n_vertices;
-    patch_solver s = solver_of(&w, &d.p);
+    patch_solver s = patch_solver_of(&w, &d.p);
     double *B = random_flux(n, 2, 5), *X = test_reals(2 * (size_t)n);
     double *R = test_reals(2 * (size_t)n);
     int solves = 200;
-    SL_CHECK(patch_solver_mesh(&s, X, B, 2));
+    SL_CHECK(patch_solver_solve_mesh(&s, X, B, 2));
     assert_true(isfinite(largest(X, 2 * (size_t)n)));
-    SL_CHECK(patch_solver_part(&s, X, B, 2, 1e-8, &solves));
+    SL_CHECK(patch_solver_solve_patch(&s, X, B, 2, 1e-8, &solves));
     SL_CHECK(patch_solver_apply(&s, R, X, 2));
     for (sl_int i = 0; i < 2 * n; i++) {
         R[i] -= B[i];
@@ -206,23 +211,23 @@ static void try_mesh(const char *name, mesh m) {
     free(X);
     free(B);
     patch_solver_free(&s);
-    disk_free(&d);
-    whole_free(&w);
+    disk_patch_free(&d);
+    mesh_factor_free(&w);
 }
 
-static void real_meshes(void **state) {
+static void real_meshes_are_solved(void **state) {
     (void)state;
-    each_mesh(NULL, 0, 60000, try_mesh);
+    each_mesh(NULL, 0, 60000, check_mesh);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mesh_problem_is_the_full_solve),
-        cmocka_unit_test(the_part_problem_by_the_factor_of_the_mesh),
-        cmocka_unit_test(corrections_of_rounding),
-        cmocka_unit_test(refusals),
-        cmocka_unit_test(cost_of_a_patch),
-        cmocka_unit_test(real_meshes),
+        cmocka_unit_test(the_mesh_problem_equals_the_full_solve),
+        cmocka_unit_test(three_methods_agree_on_the_patch_problem),
+        cmocka_unit_test(tolerances_below_rounding_work),
+        cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(the_share_of_the_factor_read_falls_with_the_mesh),
+        cmocka_unit_test(real_meshes_are_solved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,14 @@
-/* test_harmonic.c: sparse products and k-harmonic systems against dense computations, and their refusals */
-#include "test.h"
+/* test_polyharmonic.c: sparse products, and k-harmonic systems made of them, against dense ones */
+#include "tests/lib/test.h"
 
-#include "../tools/grid.h"
-#include "../tools/harmonic.h"
-#include "../tools/laplacian.h"
-#include "../tools/product.h"
-#include "../tools/triplets.h"
-#include "ref.h"
+#include "tools/mesh/grid.h"
+#include "tools/geometry/polyharmonic.h"
+#include "tools/geometry/laplacian.h"
+#include "tools/matrix/sparse_product.h"
+#include "tools/matrix/triplets.h"
+#include "tests/lib/dense_reference.h"
 
-/* Entry by entry as stored, n_rows x n_cols, column-major. */
+/* The entries as stored: n_rows x n_cols, column-major. */
 static double *dense_as_stored(const sl_csc *A) {
     double *M = test_reals((size_t)A->n_rows * (size_t)A->n_cols);
     for (sl_int j = 0; j < A->n_cols; j++) {
@@ -45,7 +45,7 @@ static sl_matrix *random_matrix(sl_int rows, sl_int cols, int entries, uint64_t 
     return M;
 }
 
-static void products_match_dense_ones(void **state) {
+static void products_match_dense_products(void **state) {
     (void)state;
     static const sl_int sizes[][3] = {{1, 1, 1}, {7, 5, 9}, {20, 30, 10}, {3, 40, 3}, {12, 1, 12}};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -75,7 +75,7 @@ static void products_match_dense_ones(void **state) {
     }
 }
 
-static void triangles_and_back(void **state) {
+static void symmetrizing_recovers_the_triangle(void **state) {
     (void)state;
     sl_matrix *lower = NULL, *upper = NULL, *both = NULL, *again = NULL;
     assert_true(grid_laplacian_3d(&lower, 3, 4, 5, 0.5));
@@ -84,10 +84,10 @@ static void triangles_and_back(void **state) {
     for (int k = 0; k < 3; k++) {
         const sl_csc from = sl_matrix_view(k == 0 ? lower : k == 1 ? upper : both);
         sl_matrix *full = NULL;
-        assert_true(csc_both_triangles(&full, &from));
+        assert_true(csc_expand_symmetric(&full, &from));
         const sl_csc F = sl_matrix_view(full);
         assert_int_equal(F.p[60], 2 * A.p[60] - 60);
-        assert_true(csc_symmetrized(&again, &F));
+        assert_true(csc_symmetric_part(&again, &F));
         const sl_csc B = sl_matrix_view(again);
         assert_memory_equal(A.p, B.p, 61 * sizeof *A.p);
         assert_memory_equal(A.i, B.i, (size_t)A.p[60] * sizeof *A.i);
@@ -101,7 +101,7 @@ static void triangles_and_back(void **state) {
     sl_matrix_free(lower);
 }
 
-/* M + t (L M^-1)^(k-1) L of dense matrices; the caller frees it. */
+/* M + t (L M^-1)^(k-1) L computed densely. The caller frees it. */
 static double *dense_harmonic(const mesh *m, int k, double t) {
     const sl_int n = m->n_vertices;
     sl_matrix *M = NULL;
@@ -130,26 +130,27 @@ static double *dense_harmonic(const mesh *m, int k, double t) {
     return all;
 }
 
-static void systems_match_dense_ones(void **state) {
+static void systems_match_dense_systems(void **state) {
     (void)state;
     mesh m;
     assert_true(mesh_grid(&m, 9, 7, 0.2, 5));
     const sl_int n = m.n_vertices;
     const double steps[] = {0, 1e-4, 1};
-    for (int k = 1; k <= HARMONIC_MOST; k++) {
+    for (int k = 1; k <= POLYHARMONIC_MAX_ORDER; k++) {
         for (int s = 0; s < 3; s++) {
             sl_matrix *H = NULL;
-            assert_true(harmonic_system(&H, &m, k, steps[s]));
+            assert_true(polyharmonic_system(&H, &m, k, steps[s]));
             const sl_csc A = sl_matrix_view(H);
             SL_CHECK(sl_csc_check(&A, NULL));
-            double *got = ref_dense(&A), *wanted = dense_harmonic(&m, k, steps[s]), most = 0;
+            double *got = ref_dense(&A), *wanted = dense_harmonic(&m, k, steps[s]), largest = 0;
             for (sl_int j = 0; j < n; j++) {
                 assert_int_equal(A.i[A.p[j]], j); /* lower triangle, diagonal first */
-                most = fmax(most, fabs(AT(wanted, j, j)));
+                largest = fmax(largest, fabs(AT(wanted, j, j)));
             }
             for (sl_int j = 0; j < n; j++) {
                 for (sl_int i = 0; i < n; i++) {
-                    assert_true(fabs(AT(got, i, j) - AT(wanted, i, j)) <= 64 * DBL_EPSILON * most);
+                    assert_true(fabs(AT(got, i, j) - AT(wanted, i, j)) <=
+                                64 * DBL_EPSILON * largest);
                 }
             }
             free(wanted);
@@ -160,8 +161,8 @@ static void systems_match_dense_ones(void **state) {
     mesh_free(&m);
 }
 
-/* What makes them k-harmonic: constants are in the kernel of L, so A 1 = M 1; and all pivots are positive. */
-static void systems_keep_constants_and_are_definite(void **state) {
+/* Constants are in the kernel of L, so A 1 = M 1. All pivots are positive. */
+static void systems_map_constants_to_masses_and_are_definite(void **state) {
     (void)state;
     mesh m;
     assert_true(mesh_grid(&m, 20, 20, 0.2, 9));
@@ -171,23 +172,23 @@ static void systems_keep_constants_and_are_definite(void **state) {
     for (size_t i = 0; i < n; i++) {
         ones[i] = 1;
     }
-    for (int k = 1; k <= HARMONIC_MOST; k++) {
+    for (int k = 1; k <= POLYHARMONIC_MAX_ORDER; k++) {
         sl_matrix *H = NULL;
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         const double t = pow(0.1, 2 * k);
-        assert_true(harmonic_system(&H, &m, k, t));
+        assert_true(polyharmonic_system(&H, &m, k, t));
         const sl_csc A = sl_matrix_view(H);
         SL_CHECK(sl_csc_multiply(&A, SL_AS_SYMMETRIC, y, n, ones, n, 1));
         for (size_t i = 0; i < n; i++) {
-            const double size = A.x[A.p[i]]; /* the diagonal, the largest of its row */
+            const double size = A.x[A.p[i]]; /* the diagonal, the largest entry of its row */
             assert_true(fabs(y[i] - mass[i]) <= 400 * DBL_EPSILON * size);
         }
         SL_CHECK(sl_symbolic_create(&S, &A, NULL, &stats));
         SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
-        assert_int_equal(stats.positive, m.n_vertices);
+        assert_int_equal(stats.factor.positive, m.n_vertices);
         sl_factor_free(F);
         sl_symbolic_free(S);
         sl_matrix_free(H);
@@ -198,22 +199,22 @@ static void systems_keep_constants_and_are_definite(void **state) {
     mesh_free(&m);
 }
 
-static void refusals_and_nothing(void **state) {
+static void wrong_arguments_are_refused_and_empty_meshes_work(void **state) {
     (void)state;
     double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     sl_int face[3] = {0, 1, 2}, beyond[3] = {0, 1, 3};
     mesh m = {3, 1, xyz, face};
     sl_matrix *M = (sl_matrix *)(void *)&m;
-    assert_false(harmonic_system(&M, &m, 0, 1));
+    assert_false(polyharmonic_system(&M, &m, 0, 1));
     assert_null(M);
-    assert_false(harmonic_system(&M, &m, HARMONIC_MOST + 1, 1));
-    assert_false(harmonic_system(&M, &m, 2, -1));
-    assert_false(harmonic_system(&M, &m, 2, strtod("nan", NULL)));
+    assert_false(polyharmonic_system(&M, &m, POLYHARMONIC_MAX_ORDER + 1, 1));
+    assert_false(polyharmonic_system(&M, &m, 2, -1));
+    assert_false(polyharmonic_system(&M, &m, 2, strtod("nan", NULL)));
     m.faces = beyond;
-    assert_false(harmonic_system(&M, &m, 2, 1));
+    assert_false(polyharmonic_system(&M, &m, 2, 1));
     m.n_vertices = m.n_faces = 0;
-    for (int k = 1; k <= HARMONIC_MOST; k++) {
-        assert_true(harmonic_system(&M, &m, k, 1));
+    for (int k = 1; k <= POLYHARMONIC_MAX_ORDER; k++) {
+        assert_true(polyharmonic_system(&M, &m, k, 1));
         assert_int_equal(sl_matrix_view(M).n_cols, 0);
         sl_matrix_free(M);
     }
@@ -222,19 +223,19 @@ static void refusals_and_nothing(void **state) {
     const sl_csc square = {2, 2, p, i, x}, pattern = {2, 2, p, i, NULL}, wide = {1, 2, p, i, x};
     assert_false(csc_product(&M, &square, &wide));
     assert_false(csc_product(&M, &square, &pattern));
-    assert_false(csc_both_triangles(&M, &wide));
-    assert_false(csc_symmetrized(&M, &wide));
-    assert_false(csc_symmetrized(&M, &pattern));
+    assert_false(csc_expand_symmetric(&M, &wide));
+    assert_false(csc_symmetric_part(&M, &wide));
+    assert_false(csc_symmetric_part(&M, &pattern));
     assert_null(M);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(products_match_dense_ones),
-        cmocka_unit_test(triangles_and_back),
-        cmocka_unit_test(systems_match_dense_ones),
-        cmocka_unit_test(systems_keep_constants_and_are_definite),
-        cmocka_unit_test(refusals_and_nothing),
+        cmocka_unit_test(products_match_dense_products),
+        cmocka_unit_test(symmetrizing_recovers_the_triangle),
+        cmocka_unit_test(systems_match_dense_systems),
+        cmocka_unit_test(systems_map_constants_to_masses_and_are_definite),
+        cmocka_unit_test(wrong_arguments_are_refused_and_empty_meshes_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

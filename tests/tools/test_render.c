@@ -1,9 +1,9 @@
-/* test_render.c: pixels of known triangles: where they are, which is in front, what colour; isolines, marks, layouts */
-#include "test.h"
+/* test_render.c: pixels of known triangles: position, visibility, color, isolines, marks */
+#include "tests/lib/test.h"
 
-#include "../tools/picture.h"
-#include "../tools/render.h"
-#include "../tools/surface.h"
+#include "tools/draw/picture.h"
+#include "tools/draw/render.h"
+#include "tools/mesh/surface_generator.h"
 
 static const rgb white = {255, 255, 255}, red = {200, 0, 0}, blue = {0, 0, 200};
 
@@ -16,7 +16,7 @@ static rgb pixel(const picture *p, int x, int y) {
     return p->at[y * p->width + x];
 }
 
-static render_view view_of(int width, int height) {
+static render_view view_with_size(int width, int height) {
     render_view view = render_view_default();
     view.width = width;
     view.height = height;
@@ -31,13 +31,13 @@ static int count_color(const picture *p, rgb color) {
     return count;
 }
 
-/* A right triangle in the plane, seen from above: it fills the picture but for a margin of 4 %. */
-static void a_known_triangle(void **state) {
+/* A right triangle in the plane seen from above fills the picture except for a margin of 4 %. */
+static void a_triangle_fills_the_expected_pixels(void **state) {
     (void)state;
     double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     sl_int faces[3] = {0, 1, 2};
     const mesh m = {3, 1, xyz, faces};
-    render_view view = view_of(100, 100);
+    render_view view = view_with_size(100, 100);
     render_style style;
     picture p;
     memset(&style, 0, sizeof style);
@@ -46,7 +46,8 @@ static void a_known_triangle(void **state) {
     assert_true(render_mesh(&p, &m, &view, &style));
     assert_true(p.width == 100 && p.height == 100);
     for (int y = 0; y < 100; y++) {
-        for (int x = 0; x < 100; x++) { /* inside: x >= 4, y <= 96, x - 4 <= y - 4 */
+        /* Inside: x >= 4, y <= 96, x - 4 <= y - 4. */
+        for (int x = 0; x < 100; x++) {
             bool inside = x >= 4 && y < 96 && x < y - 1, outside = x < 4 || y >= 96 || x > y + 1;
             rgb got = pixel(&p, x, y);
             assert_true(!inside || is_color(got, red));
@@ -54,20 +55,21 @@ static void a_known_triangle(void **state) {
         }
     }
     picture_free(&p);
-    view.zoom = 0.5; /* half as large around the middle */
+    view.zoom = 0.5; /* half as large around the center */
     assert_true(render_mesh(&p, &m, &view, &style));
     int half = count_color(&p, red);
     assert_true(abs(half - 46 * 46 / 2) < 60);
     picture_free(&p);
-    faces[1] = 2, faces[2] = 1; /* seen from behind it is the same */
+    faces[1] = 2, faces[2] = 1; /* it looks the same from behind */
     view.zoom = 1;
     assert_true(render_mesh(&p, &m, &view, &style));
     assert_true(is_color(pixel(&p, 20, 80), red));
     picture_free(&p);
 }
 
-/* Two squares, one behind the other: from the front one hides the other, whatever their order and the camera. */
-static void the_nearer_is_seen(void **state) {
+/* Two squares, one behind the other: the nearer one hides the other, whatever their order and the
+ * camera. */
+static void nearer_faces_hide_farther_ones(void **state) {
     (void)state;
     double xyz[24] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
     sl_int faces[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
@@ -78,13 +80,14 @@ static void the_nearer_is_seen(void **state) {
     style.face_color = color;
     style.unlit = true;
     for (int perspective = 0; perspective <= 3; perspective += 3) {
-        for (int side = 0; side < 6; side++) { /* around y, and from above z */
-            render_view view = view_of(60, 60);
+        /* Around y, then along z from above and below. */
+        for (int side = 0; side < 6; side++) {
+            render_view view = view_with_size(60, 60);
             picture p;
             view.azimuth = side < 4 ? 90 * side : 0;
             view.elevation = 0;
             view.perspective = perspective;
-            view.up = side < 4 ? RENDER_UP_Y : RENDER_UP_Z;
+            view.up = side < 4 ? CAMERA_UP_Y : CAMERA_UP_Z;
             view.elevation = side == 4 ? 90 : side == 5 ? -90 : 0;
             assert_true(render_mesh(&p, &m, &view, &style));
             if (side == 0 || side == 4) { /* from +z */
@@ -97,17 +100,18 @@ static void the_nearer_is_seen(void **state) {
     }
 }
 
-/* The eye's axes are right-handed for every view: a letter is never seen mirrored from its front. */
-static void nothing_is_mirrored(void **state) {
+/* The axes of the view are right-handed for every direction: a face seen from its front is never
+ * mirrored. */
+static void views_are_not_mirrored(void **state) {
     (void)state;
-    static const render_up ups[3] = {RENDER_UP_X, RENDER_UP_Y, RENDER_UP_Z};
+    static const camera_up ups[3] = {CAMERA_UP_X, CAMERA_UP_Y, CAMERA_UP_Z};
     double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     sl_int faces[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-    const mesh m = {4, 4, xyz, faces}; /* a corner: its faces look outwards */
+    const mesh m = {4, 4, xyz, faces}; /* a corner whose faces look outward */
     const rgb color[4] = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
     for (int u = 0; u < 3; u++) {
         for (int azimuth = -170; azimuth < 190; azimuth += 23) {
-            render_view view = view_of(80, 80);
+            render_view view = view_with_size(80, 80);
             render_style style;
             render_mark marks[3];
             picture p;
@@ -142,7 +146,8 @@ static void nothing_is_mirrored(void **state) {
                     x[c] /= weight[c];
                     y[c] /= weight[c];
                 }
-                /* the face 1 2 3 looks towards (1, 1, 1); counter-clockwise on the screen where it is seen */
+                /* The face 1 2 3 looks toward (1, 1, 1). On the screen it is counterclockwise
+                 * exactly if it is visible. */
                 double turn = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
                 bool seen = count_color(&p, color[3]) > 0;
                 assert_true(fabs(turn) < 40 || (turn < 0) == seen);
@@ -152,16 +157,16 @@ static void nothing_is_mirrored(void **state) {
     }
 }
 
-/* A scalar that is x: colours from the map's ends, isolines at the levels. */
-static void scalars_and_isolines(void **state) {
+/* A scalar equal to x: the colors of the map from end to end, isolines at the levels. */
+static void scalars_and_isolines_have_the_expected_colors(void **state) {
     (void)state;
     mesh m;
-    assert_true(surface_make(&m, "grid:21x21", NULL, 0));
+    assert_true(surface_generate(&m, "grid:21x21", NULL, 0));
     double *x = test_reals(441);
     for (int v = 0; v < 441; v++) {
         x[v] = m.xyz[3 * v];
     }
-    render_view view = view_of(200, 200);
+    render_view view = view_with_size(200, 200);
     render_style style;
     picture p;
     memset(&style, 0, sizeof style);
@@ -181,7 +186,8 @@ static void scalars_and_isolines(void **state) {
         double t = (column + 0.5 - 8) / 184;
         rgb got = pixel(&p, column, 100), want = color_map(t);
         bool plain = abs(want.r - got.r) + abs(want.g - got.g) + abs(want.b - got.b) < 12;
-        double off = fabs(t * 4 - floor(t * 4 + 0.5)) * 184 / 4; /* pixels from a level */
+        /* Distance to the nearest level in pixels. */
+        double off = fabs(t * 4 - floor(t * 4 + 0.5)) * 184 / 4;
         bool level = floor(t * 4 + 0.5) >= 1 && floor(t * 4 + 0.5) <= 3;
         assert_true(off < 2 || plain);
         assert_true(!(level && off < 0.5) || !plain);
@@ -197,35 +203,35 @@ static void scalars_and_isolines(void **state) {
     mesh_free(&m);
 }
 
-static void checks_and_layouts(void **state) {
+static void layouts_draw_a_checkerboard(void **state) {
     (void)state;
-    double xyz[12] = {0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1}; /* on edge as seen from z */
+    double xyz[12] = {0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1}; /* seen from z, on edge */
     double uv[8] = {0, 0, 2, 0, 2, 2, 0, 2};
     sl_int faces[6] = {0, 1, 2, 0, 2, 3};
     const mesh m = {4, 2, xyz, faces};
-    render_view view = view_of(100, 100);
+    render_view view = view_with_size(100, 100);
     render_style style;
     picture p;
     memset(&style, 0, sizeof style);
     style.uv = uv;
     style.checks = 1;
     assert_true(render_layout(&p, &m, uv, &view, &style));
-    /* a square of 2 x 2 fields, the colours of a diagonal equal */
+    /* A square of 2 x 2 fields with equal colors along a diagonal. */
     rgb a = pixel(&p, 27, 73), b = pixel(&p, 73, 73), c = pixel(&p, 27, 27), d = pixel(&p, 73, 27);
     assert_true(is_color(a, d) && is_color(b, c) && !is_color(a, b));
     picture_free(&p);
-    uv[4] = NAN; /* both faces have that corner: nothing is left */
+    uv[4] = NAN; /* Both faces have that corner, so nothing is drawn. */
     assert_true(render_layout(&p, &m, uv, &view, &style));
     assert_true(count_color(&p, white) == 10000);
     picture_free(&p);
 }
 
-static void odd_meshes(void **state) {
+static void degenerate_meshes_are_drawn(void **state) {
     (void)state;
     double xyz[12] = {0, 0, 0, 1e300, 0, 0, 0, 1, 0, 1, 1, 0};
     sl_int faces[9] = {0, 0, 0, 0, 1, 2, 2, 3, 0};
     mesh m = {4, 3, xyz, faces};
-    render_view view = view_of(50, 40);
+    render_view view = view_with_size(50, 40);
     render_style style;
     picture p;
     memset(&style, 0, sizeof style);
@@ -246,7 +252,7 @@ static void odd_meshes(void **state) {
     assert_false(render_mesh(&p, &m, &view, &style));
 }
 
-static void drawing(void **state) {
+static void lines_disks_and_boxes_cover_the_expected_pixels(void **state) {
     (void)state;
     picture p, q;
     assert_true(picture_create(&p, 40, 30, white));
@@ -270,7 +276,8 @@ static void drawing(void **state) {
     assert_false(picture_create(&p, 5, 20000, white));
     rgb low = {0x44, 0x01, 0x54}, high = {0xfd, 0xe7, 0x25};
     assert_true(is_color(color_map(-1), low) && is_color(color_map(2), high));
-    for (double t = 0, before = -1; t <= 1; t += 0.01) { /* lightness rises all the way */
+    /* Lightness rises monotonically. */
+    for (double t = 0, before = -1; t <= 1; t += 0.01) {
         rgb c = color_map(t);
         double light = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
         assert_true(light >= before - 1);
@@ -280,13 +287,13 @@ static void drawing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_known_triangle),
-        cmocka_unit_test(the_nearer_is_seen),
-        cmocka_unit_test(nothing_is_mirrored),
-        cmocka_unit_test(scalars_and_isolines),
-        cmocka_unit_test(checks_and_layouts),
-        cmocka_unit_test(odd_meshes),
-        cmocka_unit_test(drawing),
+        cmocka_unit_test(a_triangle_fills_the_expected_pixels),
+        cmocka_unit_test(nearer_faces_hide_farther_ones),
+        cmocka_unit_test(views_are_not_mirrored),
+        cmocka_unit_test(scalars_and_isolines_have_the_expected_colors),
+        cmocka_unit_test(layouts_draw_a_checkerboard),
+        cmocka_unit_test(degenerate_meshes_are_drawn),
+        cmocka_unit_test(lines_disks_and_boxes_cover_the_expected_pixels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

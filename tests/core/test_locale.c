@@ -1,0 +1,153 @@
+/* test_locale.c: Matrix Market files have the same bytes and bits in every locale */
+#define _POSIX_C_SOURCE 200809L /* mkstemp */
+
+#include "tests/lib/check_factor.h"
+
+#include <locale.h>
+#include <unistd.h>
+
+/* Decimal commas, and decimal points of two bytes; any that is not installed is left out. */
+static const char *const locales[] = {
+    "de_DE.UTF-8", "de_DE.utf8",  "de_DE",       "fr_FR.UTF-8", "fr_FR.utf8",  "fr_FR",
+    "es_ES.UTF-8", "it_IT.UTF-8", "nl_NL.UTF-8", "pl_PL.UTF-8", "pt_BR.UTF-8", "ru_RU.UTF-8",
+    "sv_SE.UTF-8", "cs_CZ.UTF-8", "da_DK.UTF-8", "fi_FI.UTF-8", "tr_TR.UTF-8", "ps_AF.UTF-8",
+    "ps_AF.utf8",  "ps_AF",       "fa_IR.UTF-8", "fa_IR",       "de-DE",       "German_Germany"};
+
+enum { LOCALES = sizeof locales / sizeof locales[0] };
+
+/* Calls body in every installed locale whose decimal point is not a point; returns their number. */
+static int in_each_locale(void (*body)(const char *point)) {
+    int used = 0;
+    for (int k = 0; k < LOCALES; k++) {
+        if (setlocale(LC_ALL, locales[k]) != NULL) {
+            char point[32];
+            (void)snprintf(point, sizeof point, "%s", localeconv()->decimal_point);
+            if (strcmp(point, ".") != 0) {
+                used++;
+                body(point);
+            }
+        }
+    }
+    assert_non_null(setlocale(LC_ALL, "C"));
+    return used;
+}
+
+static void in_each_locale_or_skip(void (*body)(const char *point)) {
+    if (in_each_locale(body) == 0) {
+        print_message("no locale with a decimal comma is installed\n");
+        skip();
+    }
+}
+
+#define HEAD(count) "%%MatrixMarket matrix coordinate real general\n5 1 " count "\n"
+
+static const char text[] =
+    HEAD("5") "1 1 0.1\n2 1 -2.5e-300\n3 1 +.75\n4 1 7\n5 1 1.7976931348623157e308\n";
+
+static sl_status parse(sl_matrix **M, const char *what, sl_stats *stats) {
+    return sl_matrix_parse(M, what, strlen(what), NULL, stats);
+}
+
+static void reads_points(const char *point) {
+    const double values[5] = {1.0 / 10, -2.5e-300, 0.75, 7, DBL_MAX};
+    sl_matrix *M = NULL;
+    (void)point;
+    SL_CHECK(parse(&M, text, NULL));
+    SAME_VALUES(sl_matrix_view(M).x, values, 5);
+    sl_matrix_free(M);
+}
+
+static void points_are_read(void **state) {
+    (void)state;
+    reads_points(".");
+    in_each_locale_or_skip(reads_points);
+}
+
+/* What only the locale takes for a number is refused, as in the C locale. */
+static void refuses(const char *point) {
+    static const char *const numbers[] = {"2%s5", "%s5", "2%s", "1.2%s5", "2%s5e3", "1%s000.5"};
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        char number[64], line[256];
+        sl_matrix *M = NULL;
+        sl_stats stats;
+        (void)snprintf(number, sizeof number, numbers[k], point);
+        (void)snprintf(line, sizeof line, "%s1 1 1.5\n2 1 %s\n", HEAD("2"), number);
+        SL_EXPECT(SL_ERR_IO, parse(&M, line, &stats));
+        assert_null(M);
+        assert_int_equal(stats.error.line, 4);
+    }
+}
+
+static void points_of_the_locale_are_refused(void **state) {
+    (void)state;
+    refuses(",");
+    refuses("\xd9\xab");
+    in_each_locale_or_skip(refuses);
+}
+
+static char *file_bytes(const char *name, size_t *size) {
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    char *bytes = (char *)test_array(1 << 16, 1);
+    *size = fread(bytes, 1, 1 << 16, file);
+    assert_true(*size > 0 && *size < 1 << 16);
+    assert_int_equal(fclose(file), 0);
+    return bytes;
+}
+
+static char name[512];
+static gen_matrix_t matrix;
+static char *expected;
+static size_t expected_size;
+
+/* The bytes that the C locale gives; read again, the same bits. */
+static void writes(const char *point) {
+    size_t size;
+    sl_matrix *M = NULL;
+    (void)point;
+    SL_CHECK(sl_csc_write(&matrix.view, SL_AS_STORED, name));
+    char *bytes = file_bytes(name, &size);
+    assert_int_equal(size, expected_size);
+    assert_memory_equal(bytes, expected, size);
+    SL_CHECK(sl_matrix_read(&M, name, NULL, NULL));
+    const sl_csc A = sl_matrix_view(M);
+    assert_int_equal(A.p[A.n_cols], matrix.view.p[A.n_cols]);
+    SAME_VALUES(A.x, matrix.view.x, (size_t)A.p[A.n_cols]);
+    sl_matrix_free(M);
+    free(bytes);
+}
+
+static void files_have_the_same_bytes(void **state) {
+    (void)state;
+    const char *folder = getenv("TMPDIR");
+    static const double odd[6] = {1e-300, -0.1, 1e300, 5e-324, 123456.789, -7.0};
+    gen_list_t t = gen_make(GEN_GRID2, 100, 1, 6);
+    (void)snprintf(name, sizeof name, "%s/sparse_local_XXXXXX", folder && *folder ? folder : ".");
+    const int handle = mkstemp(name);
+    assert_true(handle >= 0);
+    close(handle);
+    matrix = gen_store(&t, gen_style(0), 1);
+    for (int k = 0; k < 6; k++) {
+        matrix.x[k] = odd[k];
+    }
+    SL_CHECK(sl_csc_write(&matrix.view, SL_AS_STORED, name));
+    expected = file_bytes(name, &expected_size);
+    assert_null(memchr(expected, ',', expected_size));
+    const int used = in_each_locale(writes);
+    free(expected);
+    gen_matrix_free(&matrix);
+    gen_list_free(&t);
+    assert_int_equal(remove(name), 0);
+    if (used == 0) {
+        skip();
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_are_read),
+        cmocka_unit_test(points_of_the_locale_are_refused),
+        cmocka_unit_test(files_have_the_same_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,346 @@
+/* test_null_vectors.c: null pivots of Laplacians are those of the components, whatever rounding
+ * does: jittered meshes, slivers, weights over 14 decades, weak bridges */
+#include "tests/lib/factored.h"
+#include "tests/lib/graph_laplacian.h"
+#include "tests/lib/local_solve.h"
+#include "tests/lib/parallel_for.h"
+#include "tests/lib/zero_mean.h"
+
+enum { MESHES = 1000, FAMILIES = 4 };
+
+/* A Laplacian under construction: the entries off its diagonal are collected first. */
+typedef struct builder_t {
+    gen_list_t t;
+    double *diagonal;
+    sl_int *of; /* the representative row of each row's component */
+} builder_t;
+
+static void add_edge(builder_t *b, sl_int i, sl_int j, double w) {
+    gen_add(&b->t, i > j ? i : j, i > j ? j : i, -w);
+    b->diagonal[i] += w;
+    b->diagonal[j] += w;
+}
+
+static double uniform(uint64_t *seed) {
+    return 0.5 + 0.5 * gen_real(seed);
+}
+
+/* The cotangent of the angle at a, halved. */
+static double half_cotangent(const double *a, const double *b, const double *c) {
+    const double u[2] = {b[0] - a[0], b[1] - a[1]}, v[2] = {c[0] - a[0], c[1] - a[1]};
+    return 0.5 * (u[0] * v[0] + u[1] * v[1]) / fabs(u[0] * v[1] - u[1] * v[0]);
+}
+
+/* Weights of the edges from v to the right, up, and up right, in a grid of m columns. */
+static void cotangent_weights(double *w, const double *P, sl_int m, sl_int rows, sl_int v) {
+    const sl_int x = v % m, y = v / m;
+    w[0] = w[1] = w[2] = 0.0;
+    if (x + 1 < m && y + 1 < rows) {
+        w[0] += half_cotangent(P + 2 * (v + m + 1), P + 2 * v, P + 2 * (v + 1));
+        w[1] += half_cotangent(P + 2 * (v + m + 1), P + 2 * v, P + 2 * (v + m));
+        w[2] = half_cotangent(P + 2 * (v + 1), P + 2 * v, P + 2 * (v + m + 1)) +
+               half_cotangent(P + 2 * (v + m), P + 2 * v, P + 2 * (v + m + 1));
+    }
+    if (x + 1 < m && y > 0) {
+        w[0] += half_cotangent(P + 2 * (v - m), P + 2 * v, P + 2 * (v + 1));
+    }
+    if (y + 1 < rows && x > 0) {
+        w[1] += half_cotangent(P + 2 * (v - 1), P + 2 * v, P + 2 * (v + m));
+    }
+}
+
+/* Adds a grid of m x rows vertices that begins at row `first`. Family 0: springs over some decades;
+ * 1: cotangents of a jittered grid; 2: the same with slivers of 1 to 1e-6 degrees between two lines
+ * of the grid; 3: springs of 1. */
+static void add_grid(builder_t *b, sl_int first, sl_int m, sl_int rows, int family,
+                     uint64_t *seed) {
+    const double decades = 14.0 * uniform(seed), jitter = 0.98 * uniform(seed);
+    const double thin = pow(10.0, -6.0 * uniform(seed)) * 0.0175;
+    double *P = test_reals(2 * (size_t)(m * rows));
+    for (sl_int v = 0; v < m * rows; v++) {
+        P[2 * v] = v % m + (family == 1 ? jitter * (uniform(seed) - 0.5) : 0.0);
+        P[2 * v + 1] = v / m + (family == 1 ? jitter * (uniform(seed) - 0.5) : 0.0);
+        if (family == 2 && v / m > rows / 2) {
+            P[2 * v + 1] += thin - 1.0;
+        }
+    }
+    for (sl_int v = 0; v < m * rows; v++) {
+        const sl_int to[3] = {v + 1, v + m, v + m + 1};
+        const int is_edge[3] = {v % m + 1 < m, v / m + 1 < rows, v % m + 1 < m && v / m + 1 < rows};
+        double w[3];
+        cotangent_weights(w, P, m, rows, v);
+        for (int e = 0; e < 3; e++) {
+            const double spring = family == 0 ? pow(10.0, -decades * uniform(seed)) : 1.0;
+            if (is_edge[e]) {
+                add_edge(b, first + v, first + to[e], family == 1 || family == 2 ? w[e] : spring);
+            }
+        }
+    }
+    free(P);
+}
+
+/* A random mesh of 1 to 5 components, each of them one grid or two that a weak spring joins. */
+static gen_matrix_t random_mesh(uint64_t *seed, sl_int **of, sl_int *components) {
+    const sl_int m = 3 + gen_below(seed, 10), rows = 3 + gen_below(seed, 10), size = m * rows;
+    const sl_int grids = 1 + gen_below(seed, 5);
+    const sl_int n = grids * size;
+    builder_t b;
+    b.t = gen_list(n);
+    b.diagonal = test_reals((size_t)n);
+    b.of = test_ints((size_t)n);
+    *components = grids;
+    for (sl_int g = 0; g < grids; g++) {
+        add_grid(&b, g * size, m, rows, gen_below(seed, FAMILIES), seed);
+        sl_int own = g * size;
+        if (g > 0 && gen_below(seed, 2)) { /* a weak bridge to the grid before */
+            own = b.of[g * size - 1];
+            add_edge(&b, g * size, g * size - 1, pow(10.0, -1.0 - 14.0 * uniform(seed)));
+            --*components;
+        }
+        for (sl_int v = 0; v < size; v++) {
+            b.of[g * size + v] = own;
+        }
+    }
+    for (sl_int v = 0; v < n; v++) {
+        gen_add(&b.t, v, v, b.diagonal[v]);
+    }
+    gen_matrix_t M = gen_store(&b.t, gen_style(0), 1);
+    *of = b.of;
+    gen_list_free(&b.t);
+    free(b.diagonal);
+    return M;
+}
+
+/* One null pivot in each component, and in no component two. */
+static void assert_nulls(const sl_factor *F, const sl_stats *stats, const sl_int *of,
+                         sl_int components) {
+    sl_int rows[16], count = 0;
+    assert_int_equal(stats->factor.null, components);
+    assert_int_equal(stats->factor.regular, 0);
+    assert_int_equal(stats->factor.negative, 0);
+    SL_CHECK(sl_factor_null_rows(F, rows, 16, &count));
+    assert_int_equal(count, components);
+    for (sl_int k = 0; k < count; k++) {
+        for (sl_int other = 0; other < k; other++) {
+            assert_true(of[rows[k]] != of[rows[other]]);
+        }
+    }
+}
+
+/* b without its mean in each component is consistent: no solve refuses it. */
+static void assert_consistent_solve(const sl_csc *A, const sl_factor *F, const sl_int *of,
+                                    double *b) {
+    const size_t n = (size_t)A->n_cols;
+    double *sum = test_reals(n), *rows = test_reals(n), *x = test_reals(n);
+    for (size_t i = 0; i < n; i++) {
+        sum[of[i]] += b[i];
+        rows[of[i]] += 1.0;
+    }
+    for (size_t i = 0; i < n; i++) {
+        b[i] -= sum[of[i]] / rows[of[i]];
+    }
+    SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
+    BACKWARD_PASSES(A, x, n, b, n, 1);
+    free(sum);
+    free(rows);
+    free(x);
+}
+
+/* A combination, a batch and threads give the bits of a plain factorization. */
+static void assert_ways_agree(const sl_symbolic *S, const sl_csc *A, const sl_factor *F,
+                              const sl_options *plain) {
+    const double one[2] = {1.0, 1.0};
+    double *values = test_reals((size_t)sl_symbolic_entries(S) + 1);
+    const double *const terms[1] = {values};
+    sl_options opt = *plain;
+    sl_factor *G[2] = {NULL, NULL};
+    int calls = 0;
+    SL_CHECK(sl_symbolic_scatter(S, values, A, NULL));
+    SL_CHECK(sl_factor_create_combination(&G[0], S, one, terms, 1, FOR_FACTOR(&opt), NULL));
+    assert_same_bits(F, G[0]);
+    SL_CHECK(sl_factor_refactor_combination(G[0], one, terms, 1, NULL));
+    assert_same_bits(F, G[0]);
+    sl_factor_free(G[0]);
+    opt.threads.count = 3;
+    opt.threads.run = run_backwards;
+    opt.threads.context = &calls;
+    SL_CHECK(sl_batch_factor(G, 2, S, one, terms, 1, FOR_FACTOR(&opt), NULL, NULL));
+    assert_same_bits(F, G[0]);
+    assert_same_bits(F, G[1]);
+    sl_factor_free(G[0]);
+    sl_factor_free(G[1]);
+    free(values);
+}
+
+static void no_null_pivot_is_missed_or_dropped(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    uint64_t seed = 2024;
+    for (int mesh = 0; mesh < MESHES; mesh++) {
+        sl_int components = 0, *of = NULL;
+        gen_matrix_t M = random_mesh(&seed, &of, &components);
+        const size_t n = (size_t)M.view.n_cols;
+        double *m = weights((sl_int)n, seed), *b = test_reals(n), *x = test_reals(n);
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL, *G = NULL;
+        sl_stats stats;
+        sl_options opt = options_skip_null(&variants, mesh % variants.count);
+        opt.mass = m;
+        gen_reals(b, n, seed);
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+        assert_nulls(F, &stats, of, components);
+        SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
+        assert_zero_mean(&M.view, of, m, x, b);
+        local_solve_t q = local_solve_random(F, (sl_int)n, 3, 5, 3, 8);
+        local_solve_check(S, F, &q, NULL);
+        local_solve_free(&q);
+        opt.mass = NULL;
+        SL_CHECK(sl_factor_create(&G, S, &M.view, FOR_FACTOR(&opt), &stats));
+        assert_nulls(G, &stats, of, components);
+        assert_same_bits(F, G);
+        assert_ways_agree(S, &M.view, F, &opt);
+        assert_consistent_solve(&M.view, G, of, b);
+        SL_CHECK(sl_factor_refactor(G, &M.view, &stats));
+        assert_nulls(G, &stats, of, components);
+        assert_same_bits(F, G);
+        sl_int changed = 0;
+        SL_CHECK(sl_factor_refactor_changed(G, &M.view, &changed, 1, &stats));
+        assert_nulls(G, &stats, of, components);
+        sl_factor_free(F);
+        sl_factor_free(G);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        free(of);
+        free(m);
+        free(b);
+        free(x);
+    }
+}
+
+/* The Laplacian of a path of 3 vertices with weights 1 and w, plus a spring from row 0 to the
+ * ground. */
+static gen_matrix_t path3(double w, double ground) {
+    gen_list_t t = gen_list(3);
+    gen_add(&t, 0, 0, 1.0 + ground);
+    gen_add(&t, 1, 0, -1.0);
+    gen_add(&t, 1, 1, 1.0 + w);
+    gen_add(&t, 2, 1, -w);
+    gen_add(&t, 2, 2, w);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+static void regular_components_are_counted(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    const double m[3] = {1, 1, 1}, b[3] = {1, 0, 0};
+    const sl_int of[3] = {0, 0, 0};
+    for (double w = 1.0; w > 1e-14; w *= 0.3) {
+        gen_matrix_t M = path3(w, 0.0), firm = path3(w, 0.125);
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        for (int k = 0; k < variants.count; k++) {
+            sl_options opt = options_skip_null(&variants, k);
+            sl_factor *F = NULL;
+            sl_stats stats;
+            double x[3];
+            opt.mass = m;
+            SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+            assert_int_equal(stats.factor.null, 1);
+            assert_int_equal(stats.factor.regular, 0);
+            SL_CHECK(sl_factor_solve(F, x, 3, b, 3, 1, NULL));
+            assert_zero_mean(&M.view, of, m, x, b);
+            SL_CHECK(sl_factor_refactor(F, &firm.view, &stats));
+            assert_int_equal(stats.factor.null, 0);
+            assert_int_equal(stats.factor.regular, 1);
+            SL_CHECK(sl_factor_refactor(F, &M.view, &stats));
+            assert_int_equal(stats.factor.null, 1);
+            sl_factor_free(F);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_matrix_free(&firm);
+    }
+}
+
+/* S L S has the null vector S^-1 1. Given as an option, it finds the null pivot by construction. */
+static void a_null_vector_may_be_given(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    uint64_t seed = 7;
+    for (int mesh = 0; mesh < MESHES / 4; mesh++) {
+        sl_int components = 0, *of = NULL;
+        gen_matrix_t M = random_mesh(&seed, &of, &components);
+        const sl_int n = M.view.n_cols;
+        double *scale = weights(n, seed), *z = test_reals((size_t)n);
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        sl_options opt = options_skip_null(&variants, mesh % variants.count);
+        for (sl_int j = 0; j < n; j++) {
+            for (sl_int p = M.p[j]; p < M.p[j + 1]; p++) {
+                M.x[p] *= scale[j] * scale[M.i[p]];
+            }
+            z[j] = 1.0 / scale[j];
+        }
+        opt.null_vector = z;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+        assert_nulls(F, &stats, of, components);
+        sl_factor_free(F);
+        z[n / 2] = NAN;
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+        assert_int_equal(stats.error.row, n / 2);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        free(scale);
+        free(z);
+        free(of);
+    }
+}
+
+/* Indefinite matrices: a zero diagonal, a negative pivot, and null pivots whose columns are not
+ * null. */
+static void indefinite_matrices_are_refused(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    const double entries[4][6] = {/* a00 a10 a20 a11 a21 a22 */
+                                  {0, 1, 0, 0, 0, 5},
+                                  {1, 2, 0, 1, 0, 5},
+                                  {1, 1, 1, 1, -1, 1},
+                                  {-1, 1, 0, 2, 0, 5}};
+    for (int c = 0; c < 4; c++) {
+        gen_list_t t = gen_list(3);
+        for (sl_int j = 0, at = 0; j < 3; j++) {
+            for (sl_int i = j; i < 3; i++, at++) {
+                gen_add(&t, i, j, entries[c][at]);
+            }
+        }
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        for (int k = 0; k < variants.count; k++) {
+            sl_options opt = options_skip_null(&variants, k);
+            sl_factor *F = NULL;
+            sl_stats stats;
+            SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+            assert_null(F);
+            assert_in_range(stats.error.row, 0, 2);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_null_pivot_is_missed_or_dropped),
+        cmocka_unit_test(regular_components_are_counted),
+        cmocka_unit_test(a_null_vector_may_be_given),
+        cmocka_unit_test(indefinite_matrices_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

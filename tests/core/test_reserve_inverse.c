@@ -1,0 +1,359 @@
+/* test_reserve_inverse.c: reserved workspaces: inverse, selected, region calls never allocate */
+#include "tests/lib/check_inverse.h"
+#include "tests/lib/parallel_for.h"
+
+/* ---- sets of rows ---- */
+
+enum { SETS = 4 };
+
+/* Rows side by side, as far apart as they can be, at random, and one row over and over. */
+static void make_rows(sl_int *rows, sl_int count, sl_int n, int set, uint64_t *seed) {
+    const sl_int start = n / 3;
+    for (sl_int k = 0; k < count; k++) {
+        rows[k] = set == 0 ? (start + k) % n : set == 1 ? (sl_int)((int64_t)k * n / count) : start;
+    }
+    if (set == 2) {
+        random_rows(rows, count, n, seed);
+    }
+}
+
+/* The other row of each pair: entries in the pattern of A, so that a traversal is possible. */
+static void make_columns(sl_int *columns, const sl_int *rows, sl_int count, const sl_csc *A) {
+    for (sl_int k = 0; k < count; k++) {
+        const sl_int j = rows[k], first = A->p[j], last = A->p[j + 1];
+        columns[k] = last > first ? A->i[first + k % (last - first)] : j;
+    }
+}
+
+/* ---- factors ---- */
+
+static const struct problem {
+    gen_kind_t kind;
+    sl_int size;
+} problems[] = {{GEN_NONE, 0},     {GEN_ONE, 1},       {GEN_DIAGONAL, 300}, {GEN_PATH, 3000},
+                {GEN_STAR, 300},   {GEN_ARROW, 300},   {GEN_GRID2, 4900},   {GEN_GRID3, 1000},
+                {GEN_FOREST, 500}, {GEN_DENSE, 50},    {GEN_RANDOM, 400},   {GEN_COMPONENTS, 400},
+                {GEN_KKT, 300},    {GEN_SINGULAR, 400}};
+
+enum { PROBLEMS = sizeof problems / sizeof problems[0], THREAD_CASES = 2 };
+
+static const int thread_counts[THREAD_CASES] = {1, 6};
+
+/* A problem whose memory, threads and instruction set are the test's. */
+static factored_t make_problem(int which, int threads, sl_isa isa, counter_t *counter, int *calls) {
+    gen_list_t t = gen_make(problems[which].kind, problems[which].size, 1, 42);
+    factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
+    sl_options opt = options_counted(counter);
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
+    opt.isa = isa;
+    opt.null_pivots = problems[which].kind == GEN_KKT ? SL_NULL_PIVOT_REFUSE : SL_NULL_PIVOT_SKIP;
+    opt.threads.count = threads;
+    opt.threads.run = run_backwards;
+    opt.threads.context = calls;
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+    gen_list_free(&t);
+    return y;
+}
+
+static sl_work *make_work(counter_t *counter) {
+    const sl_options opt = options_counted(counter);
+    sl_work *W = NULL;
+    SL_CHECK(sl_work_create(&W, &opt));
+    return W;
+}
+
+typedef void (*body_t)(const factored_t *y, int threads, counter_t *counter);
+
+static void for_each_subject(body_t body) {
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        for (int which = 0; which < PROBLEMS; which++) {
+            for (int t = 0; t < THREAD_CASES; t++) {
+                counter_t counter = counter_make();
+                int calls = 0;
+                factored_t y = make_problem(which, thread_counts[t], isas.isa[k], &counter, &calls);
+                body(&y, thread_counts[t], &counter);
+                factored_free(&y);
+                COUNTER_CLEAN(&counter);
+            }
+        }
+    }
+}
+
+/* ---- the calls ---- */
+
+static sl_int smaller(sl_int a, sl_int b) {
+    return a < b ? a : b;
+}
+
+static void entries(const factored_t *y, int threads, counter_t *counter) {
+    static const sl_int counts[] = {1, 2, 3, 7, 40, 300, INT32_MAX};
+    const sl_int n = y->M.view.n_cols;
+    sl_int *rows = test_ints((size_t)n), *columns = test_ints((size_t)n);
+    double *out = test_reals((size_t)n), *values = test_reals((size_t)n);
+    uint64_t seed = 5;
+    (void)threads;
+    gen_reals(values, (size_t)n, 3);
+    for (size_t c = 0; c < sizeof counts / sizeof counts[0] && n > 0; c++) {
+        const sl_int count = smaller(counts[c], n), nb = count / 2;
+        sl_work *W = make_work(counter);
+        SL_CHECK(sl_work_reserve_inverse(W, y->F, count));
+        const size_t calls = counter->calls;
+        for (int set = 0; set < SETS; set++) {
+            make_rows(rows, count, n, set, &seed);
+            make_columns(columns, rows, count, &y->M.view);
+            SL_CHECK(sl_inverse_diagonal(y->F, out, rows, count, W, NULL));
+            SL_CHECK(sl_inverse_pairs(y->F, out, rows, columns, count, W, NULL));
+            SL_CHECK(sl_inverse_bilinear(y->F, out, rows, values, nb, columns, values, count - nb,
+                                         W, NULL));
+            random_rows(columns, count, n, &seed);
+            SL_CHECK(sl_inverse_pairs(y->F, out, rows, columns, count, W, NULL));
+        }
+        if (count == n) {
+            SL_CHECK(sl_inverse_diagonal(y->F, out, NULL, 0, W, NULL));
+            SL_CHECK(sl_inverse_bilinear(y->F, out, NULL, values, 0, rows, values, 0, W, NULL));
+            /* the same array twice is one set */
+            SL_CHECK(sl_inverse_bilinear(y->F, out, NULL, values, 0, NULL, values, 0, W, NULL));
+        }
+        assert_int_equal(counter->calls, calls);
+        sl_work_free(W);
+    }
+    free(rows);
+    free(columns);
+    free(out);
+    free(values);
+}
+
+static void inverse_calls_allocate_nothing(void **state) {
+    (void)state;
+    for_each_subject(entries);
+}
+
+static void blocks(const factored_t *y, int threads, counter_t *counter) {
+    static const sl_int sizes[][2] = {{1, 1}, {1, 9}, {3, 2}, {8, 8}, {20, 130}, {150, 140}};
+    const sl_int n = y->M.view.n_cols;
+    sl_int *rows = test_ints(150), *columns = test_ints(150);
+    double *Z = test_reals(150 * 150);
+    uint64_t seed = 6;
+    for (size_t c = 0; c < sizeof sizes / sizeof sizes[0] && n > 0 && threads == 1; c++) {
+        const sl_int n_rows = sizes[c][0], n_columns = sizes[c][1];
+        const sl_int both = smaller(n_rows, n_columns);
+        sl_work *W = make_work(counter);
+        SL_CHECK(sl_work_reserve_block(W, y->F, n_rows, n_columns));
+        const size_t calls = counter->calls;
+        for (int set = 0; set < SETS; set++) {
+            make_rows(rows, n_rows, n, set, &seed);
+            make_rows(columns, n_columns, n, 2, &seed);
+            SL_CHECK(sl_inverse_block(y->F, Z, 150, rows, n_rows, columns, n_columns, W, NULL));
+            SL_CHECK(sl_inverse_block(y->F, Z, 150, rows, both, rows, both, W, NULL));
+            SL_CHECK(sl_inverse_block(y->F, Z, 150, columns, 1, rows, both, W, NULL));
+        }
+        assert_int_equal(counter->calls, calls);
+        sl_work_free(W);
+    }
+    free(rows);
+    free(columns);
+    free(Z);
+}
+
+static void blocks_allocate_nothing(void **state) {
+    (void)state;
+    for_each_subject(blocks);
+}
+
+/* sl_batch_diagonal with a reserved workspace for each thread. */
+static void batches(const factored_t *y, int threads, counter_t *counter) {
+    const sl_int n = y->M.view.n_cols, count = smaller(n, 60);
+    const sl_factor *factors[3] = {y->F, y->F, y->F};
+    sl_work *works[2] = {make_work(counter), make_work(counter)};
+    sl_int *rows = test_ints(60);
+    double *out = test_reals(3 * 60);
+    uint64_t seed = 7;
+    int runs = 0;
+    const sl_threads two = {2, run_backwards, &runs};
+    (void)threads;
+    for (int k = 0; k < 2; k++) {
+        SL_CHECK(sl_work_reserve_inverse(works[k], y->F, count));
+    }
+    const size_t calls = counter->calls;
+    for (int set = 0; set < SETS && n > 0; set++) {
+        make_rows(rows, count, n, set, &seed);
+        SL_CHECK(
+            sl_batch_diagonal(factors, 3, out, 60, rows, count, THREADS(two), works, NULL, NULL));
+        SL_CHECK(sl_batch_diagonal(factors, 3, out, 60, rows, count, NULL, works, NULL, NULL));
+    }
+    assert_int_equal(counter->calls, calls);
+    for (int k = 0; k < 2; k++) {
+        sl_work_free(works[k]);
+    }
+    free(rows);
+    free(out);
+}
+
+static void batches_allocate_nothing(void **state) {
+    (void)state;
+    for_each_subject(batches);
+}
+
+static void selected(const factored_t *y, int threads, counter_t *counter) {
+    const sl_int n = y->M.view.n_cols, count = smaller(n, 30);
+    sl_int *rows = test_ints(30);
+    sl_options opt = options_counted(counter);
+    uint64_t seed = 8;
+    (void)threads;
+    for (int set = -1; set < (n > 0 ? SETS : 0); set++) {
+        sl_selected *Z = NULL;
+        sl_work *W = make_work(counter);
+        if (set >= 0) {
+            make_rows(rows, count, n, set, &seed);
+        }
+        SL_CHECK(sl_selected_create(&Z, y->F, set < 0 ? NULL : rows, count, &opt, NULL));
+        SL_CHECK(sl_work_reserve_selected(W, Z));
+        const size_t calls = counter->calls, bytes = sl_work_bytes(W);
+        SL_CHECK(sl_selected_refactor(Z, y->F, W));
+        assert_int_equal(counter->calls, calls);
+        sl_work_free(W);
+        /* not more than the call takes by itself */
+        W = make_work(counter);
+        SL_CHECK(sl_selected_refactor(Z, y->F, W));
+        assert_int_equal(sl_work_bytes(W), bytes);
+        sl_work_free(W);
+        sl_selected_free(Z);
+    }
+    free(rows);
+}
+
+static void selected_inverses_allocate_nothing(void **state) {
+    (void)state;
+    for_each_subject(selected);
+}
+
+static void regions(const factored_t *y, int threads, counter_t *counter) {
+    const sl_int n = y->M.view.n_cols, count = smaller(n, 30);
+    sl_int *rows = test_ints(30);
+    sl_options opt = options_counted(counter);
+    sl_selected *Z = NULL;
+    uint64_t seed = 9;
+    (void)threads;
+    SL_CHECK(sl_selected_create(&Z, y->F, NULL, 0, &opt, NULL));
+    for (int set = 0; set < SETS && n > 0; set++) {
+        for (int copies = 0; copies < 2; copies++) {
+            sl_region *R = NULL;
+            sl_work *W = make_work(counter);
+            make_rows(rows, count, n, set, &seed);
+            SL_CHECK(sl_region_create(&R, y->F, rows, count, copies ? Z : NULL, &opt, NULL));
+            SL_CHECK(sl_work_reserve_region(W, R, y->F));
+            const size_t calls = counter->calls, bytes = sl_work_bytes(W);
+            SL_CHECK(sl_region_refactor(R, y->F, NULL, W));
+            SL_CHECK(sl_region_refactor(R, y->F, Z, W));
+            assert_int_equal(counter->calls, calls);
+            sl_work_free(W);
+            W = make_work(counter);
+            SL_CHECK(sl_region_refactor(R, y->F, NULL, W));
+            assert_int_equal(sl_work_bytes(W), bytes);
+            sl_work_free(W);
+            sl_region_free(R);
+        }
+    }
+    sl_selected_free(Z);
+    free(rows);
+}
+
+static void regions_allocate_nothing(void **state) {
+    (void)state;
+    for_each_subject(regions);
+}
+
+/* ---- the bounds themselves ---- */
+
+/* With one thread, the bound for the whole diagonal of a mesh is less than twice what it takes. */
+static void bounds_are_honest(void **state) {
+    (void)state;
+    for (int which = 6; which <= 7; which++) {
+        counter_t counter = counter_make();
+        factored_t y = make_problem(which, 1, SL_ISA_AUTO, &counter, NULL);
+        const sl_int n = y.M.view.n_cols;
+        double *out = test_reals((size_t)n);
+        sl_work *reserved = make_work(&counter), *used = make_work(&counter);
+        SL_CHECK(sl_work_reserve_inverse(reserved, y.F, n));
+        SL_CHECK(sl_inverse_diagonal(y.F, out, NULL, 0, used, NULL));
+        const double ratio = (double)sl_work_bytes(reserved) / (double)sl_work_bytes(used);
+        if (!(ratio < 2.0)) {
+            print_error("reserved %.2f times what the diagonal takes\n", ratio);
+            fail();
+        }
+        sl_work_free(reserved);
+        sl_work_free(used);
+        free(out);
+        factored_free(&y);
+        COUNTER_CLEAN(&counter);
+    }
+}
+
+static void wrong_use_is_refused(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    factored_t y = make_problem(6, 1, SL_ISA_AUTO, &counter, NULL),
+               other = make_problem(6, 1, SL_ISA_AUTO, &counter, NULL);
+    const sl_int rows[2] = {3, 70};
+    sl_options opt = options_counted(&counter);
+    sl_selected *Z = NULL;
+    sl_region *R = NULL;
+    sl_work *W = make_work(&counter);
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, &opt, NULL));
+    SL_CHECK(sl_region_create(&R, y.F, rows, 2, NULL, &opt, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_inverse(NULL, y.F, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_inverse(W, NULL, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_inverse(W, y.F, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_block(NULL, y.F, 1, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_block(W, NULL, 1, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_block(W, y.F, -1, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_block(W, y.F, 1, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_selected(NULL, Z));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_selected(W, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_region(NULL, R, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_region(W, NULL, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_region(W, R, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_work_reserve_region(W, R, other.F));
+    SL_CHECK(sl_work_reserve_inverse(W, y.F, 0));
+    SL_CHECK(sl_work_reserve_block(W, y.F, 0, 7));
+    SL_CHECK(sl_work_reserve_block(W, y.F, 7, 0));
+    assert_int_equal(sl_work_bytes(W), 0);
+    /* memory */
+    for (int which = 0; which < 4; which++) {
+        sl_status status = SL_ERR_MEMORY;
+        int failures = 0;
+        for (int64_t k = 0; status != SL_OK; k++) {
+            sl_work *own = make_work(&counter);
+            counter.fail_at = (int64_t)counter.calls + k;
+            status = which == 0   ? sl_work_reserve_inverse(own, y.F, 500)
+                     : which == 1 ? sl_work_reserve_block(own, y.F, 100, 100)
+                     : which == 2 ? sl_work_reserve_selected(own, Z)
+                                  : sl_work_reserve_region(own, R, y.F);
+            counter.fail_at = -1;
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            failures += status != SL_OK;
+            sl_work_free(own);
+        }
+        assert_in_range(failures, 1, 4);
+    }
+    sl_work_free(W);
+    sl_region_free(R);
+    sl_selected_free(Z);
+    factored_free(&y);
+    factored_free(&other);
+    COUNTER_CLEAN(&counter);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inverse_calls_allocate_nothing),
+        cmocka_unit_test(blocks_allocate_nothing),
+        cmocka_unit_test(batches_allocate_nothing),
+        cmocka_unit_test(selected_inverses_allocate_nothing),
+        cmocka_unit_test(regions_allocate_nothing),
+        cmocka_unit_test(bounds_are_honest),
+        cmocka_unit_test(wrong_use_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
