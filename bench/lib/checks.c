@@ -1,4 +1,4 @@
-/* checks.c: what makes a result right before it is timed: a small residual, or the bits of the full solve */
+/* checks.c: checks of results before timing: residuals, and equality with the full solve */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,17 +9,17 @@ int bench_check_residual(bench_run *run, const bench_system *system, const doubl
     size_t n = (size_t)system->n;
     double *R = bench_alloc(n * (size_t)nrhs, sizeof *R);
     double *error = bench_alloc((size_t)nrhs, sizeof *error);
-    /* rounding adds up along the paths of the elimination tree */
-    double bound = 2.3e-16 * (10.0 + system->stats.tree_height);
-    int good = 1;
+    /* rounding errors accumulate along the paths of the elimination tree */
+    double bound = 2.3e-16 * (10.0 + system->stats.symbolic.tree_height);
+    int passed = 1;
     bench_must(sl_csc_residual(&system->A, R, n, error, X, n, B, n, nrhs), "residual");
     for (sl_int r = 0; r < nrhs; r++) {
-        good &= bench_expect(run, error[r] <= bound, "%s, %s: backward error %.2g above %.2g",
-                             system->name, method, error[r], bound);
+        passed &= bench_expect(run, error[r] <= bound, "%s, %s: backward error %.2g above %.2g",
+                               system->name, method, error[r], bound);
     }
     free(error);
     free(R);
-    return good;
+    return passed;
 }
 
 void bench_note_residual(bench_report *report, const bench_system *system, const double *X,
@@ -36,7 +36,7 @@ void bench_note_residual(bench_report *report, const bench_system *system, const
         b = fmax(b, fabs(B[k]));
     }
     bench_report_note(report,
-                      "%-14s   %s: largest entry of the residual %.2e, of b %.2e; backward "
+                      "%-14s   %s: max |r| %.2e, max |b| %.2e; backward "
                       "error %.1e",
                       "", method, r, b, worst);
     free(error);
@@ -50,8 +50,8 @@ int bench_check_bits(bench_run *run, const bench_system *system, const double *X
     for (sl_int r = 0; r < nrhs; r++) {
         for (sl_int k = 0; k < nx; k++) {
             double local = X[(size_t)r * (size_t)nx + (size_t)k];
-            double whole = full[(size_t)r * (size_t)system->n + (size_t)xset[k]];
-            differ += !(local == whole); /* also where one is NaN */
+            double expected = full[(size_t)r * (size_t)system->n + (size_t)xset[k]];
+            differ += !(local == expected); /* true for NaN too */
         }
     }
     return bench_expect(run, differ == 0, "%s, %s: %d of %d values differ from the full solve",

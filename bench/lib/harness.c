@@ -1,4 +1,4 @@
-/* harness.c: the bench's clock, side-by-side repetitions, memory, failed checks and chance */
+/* harness.c: clock, side-by-side repetitions, memory, failed checks and pseudo-random numbers */
 #define _POSIX_C_SOURCE 200112L
 #include <math.h>
 #include <stdarg.h>
@@ -7,8 +7,9 @@
 #include <time.h>
 
 #include "bench.h"
+#include "tools/io/output_file.h"
 
-enum { MAX_ROUNDS = 100000, MIN_ROUNDS = 3, PATIENCE = 4, IMPATIENCE = 20 };
+enum { MAX_ROUNDS = 100000, MIN_ROUNDS = 3, ONE_ROUND_ABOVE = 4, WARM_UP_ONLY_ABOVE = 20 };
 
 double bench_now(void) {
     struct timespec t;
@@ -70,12 +71,12 @@ void bench_race(bench_sample *out, const bench_contender *contenders, int count,
         run_batch(&contenders[c], &lists[c]);
     }
     double warm_up = bench_now() - start;
-    int min_rounds = warm_up > PATIENCE * seconds ? 1 : MIN_ROUNDS;
-    for (int c = 0; c < count && warm_up <= IMPATIENCE * seconds; c++) {
+    int min_rounds = warm_up > ONE_ROUND_ABOVE * seconds ? 1 : MIN_ROUNDS;
+    for (int c = 0; c < count && warm_up <= WARM_UP_ONLY_ABOVE * seconds; c++) {
         lists[c].count = 0;
     }
     start = bench_now();
-    for (int round = 0; round < MAX_ROUNDS && warm_up <= IMPATIENCE * seconds; round++) {
+    for (int round = 0; round < MAX_ROUNDS && warm_up <= WARM_UP_ONLY_ABOVE * seconds; round++) {
         if (round >= min_rounds && bench_now() - start > seconds) {
             break;
         }
@@ -106,6 +107,28 @@ void bench_must(sl_status status, const char *doing) {
     }
 }
 
+static void end_unwritten(const char *message) {
+    fflush(stdout);
+    fprintf(stderr, "bench: %s\n", message);
+    exit(2);
+}
+
+FILE *bench_create(const char *path) {
+    char message[600];
+    FILE *file = output_open(path, message, sizeof message);
+    if (!file) {
+        end_unwritten(message);
+    }
+    return file;
+}
+
+void bench_close(FILE *file) {
+    char message[600];
+    if (!output_close(file, message, sizeof message)) {
+        end_unwritten(message);
+    }
+}
+
 int bench_expect(bench_run *run, int held, const char *format, ...) {
     if (!held) {
         va_list arguments;
@@ -128,8 +151,8 @@ double bench_fit_exponent(const double *x, const double *y, int count) {
         sxx += u * u;
         sxy += u * v;
     }
-    double spread = count * sxx - sx * sx;
-    return spread > 0 ? (count * sxy - sx * sy) / spread : 0;
+    double variance = count * sxx - sx * sx;
+    return variance > 0 ? (count * sxy - sx * sy) / variance : 0;
 }
 
 void bench_progress(const char *format, ...) {
@@ -141,7 +164,7 @@ void bench_progress(const char *format, ...) {
     va_end(arguments);
 }
 
-/* xorshift64*: Marsaglia's shifts, the product's high bits */
+/* xorshift64*: three xor-shifts, then the high bits of a product */
 uint64_t bench_random(uint64_t *state) {
     uint64_t s = *state;
     s ^= s >> 12;

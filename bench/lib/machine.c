@@ -1,11 +1,11 @@
-/* machine.c: what a bench ran on and when: the lines that a table of its figures needs */
+/* machine.c: writes what the bench ran on: date, processor, compiler, and the measured limits */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 #include "bench.h"
 
-#if defined(__GNUC__) && !defined(__clang__) /* clang's version names it */
+#if defined(__GNUC__) && !defined(__clang__) /* __VERSION__ of clang includes its name */
 #define COMPILER "gcc "
 #else
 #define COMPILER ""
@@ -16,7 +16,7 @@
 #define COMPILER_VERSION "unknown"
 #endif
 
-/* The first "model name" where the system tells one; else "unknown". */
+/* The first "model name" of /proc/cpuinfo, or "unknown". */
 static void processor_name(char *name, size_t size) {
     char line[256];
     FILE *f = fopen("/proc/cpuinfo", "r");
@@ -40,10 +40,7 @@ void bench_machine_write(const bench_run *run, const char *name) {
     const time_t now = time(NULL);
     const struct tm *utc = gmtime(&now);
     snprintf(path, sizeof path, "%s/%s.machine.txt", run->out_dir, name);
-    FILE *f = fopen(path, "w");
-    if (!f) {
-        bench_must(SL_ERR_IO, path);
-    }
+    FILE *f = bench_create(path);
     processor_name(processor, sizeof processor);
     strftime(date, sizeof date, "%Y-%m-%d", utc);
     fprintf(f, "%s; %s; %s%s", date, processor, COMPILER, COMPILER_VERSION);
@@ -51,8 +48,10 @@ void bench_machine_write(const bench_run *run, const char *name) {
     if (bench_peak(SL_ISA_AVX512) > 0) {
         fprintf(f, " with AVX-512, %.0f with AVX2", bench_peak(SL_ISA_AVX2) * 1e-9);
     }
-    fprintf(f, ", reading %.0f / %.0f / %.0f GB/s from the first cache / second / memory\n",
+    fprintf(f,
+            ", reads %.0f / %.0f / %.0f GB/s from the first-level cache / second-level cache / "
+            "memory\n",
             bench_bandwidth(sizes[0]) * 1e-9, bench_bandwidth(sizes[1]) * 1e-9,
             bench_bandwidth(sizes[2]) * 1e-9);
-    fclose(f);
+    bench_close(f);
 }

@@ -1,4 +1,4 @@
-/* main.c: the bench program: which questions are asked, how large, and where the answers go */
+/* main.c: the bench program: its command line, its environment and the list of questions */
 #define _POSIX_C_SOURCE 200112L
 #include <errno.h>
 #include <stdio.h>
@@ -7,50 +7,54 @@
 #include <sys/stat.h>
 
 #include "bench.h"
+#include "tools/io/output_file.h"
 
 typedef struct question {
     const char *name, *text;
-    void (*ask)(bench_run *run);
+    void (*answer)(bench_run *run);
 } question;
 
 static const question questions[] = {
-    {"scaling", "ordering, analysis, factorization and nnz(L) against n (paper: Figure 6)",
+    {"scaling", "ordering, analysis, factorization and nnz(L) as n grows ([HDA17] Figure 6)",
      bench_scaling},
-    {"amortize", "factoring a patch alone against the whole mesh (paper: Figure 6, right)",
+    {"amortize",
+     "setup for a patch alone against setup for the whole mesh ([HDA17] Figure 6, right)",
      bench_amortize},
-    {"ordering", "time, fill and path weights of the orderings beside METIS_NodeND",
+    {"ordering", "orderings against METIS_NodeND: time, fill, operations, path weights",
      bench_ordering},
-    {"factor", "methods, instruction sets and threads of the factorization against the limits",
+    {"factor", "factorization by method, instruction set and threads, against the machine's limits",
      bench_factor},
-    {"kernels", "the dense kernels by shape, against registers alone", bench_kernels},
-    {"harmonic", "harmonic, biharmonic, triharmonic systems: analyse, factor, solve",
+    {"front_kernels", "dense kernels of the factorization by shape of the front",
+     bench_front_kernels},
+    {"harmonic", "harmonic, biharmonic, triharmonic systems: analysis, factorization, full solve",
      bench_harmonic},
     {"patches",
-     "solves on a patch against refactorizing, conjugate gradients, full solve (Figures 4, 5)",
+     "local solves on a patch against refactorization of the patch, conjugate gradients and full "
+     "solves ([HDA17] Figures 4, 5)",
      bench_patches},
-    {"multi_rhs", "1 to 8 right-hand sides together against one by one", bench_multi_rhs},
-    {"pairs", "vertex to itself, random pairs with one tree or two (section 5, histogram)",
-     bench_pairs},
-    {"inverse", "entries and blocks of the inverse by forward sweeps against local solves",
-     bench_inverse},
-    {"locality", "the same local question on meshes of growing size", bench_locality},
-    {"selected", "the whole diagonal of the inverse beside a refactorization and single entries",
-     bench_selected},
-    {"region", "local questions inside regions, beside plans to the roots, on growing meshes",
+    {"multi_rhs", "1 to 8 right-hand sides in one call against one call each", bench_multi_rhs},
+    {"vertex_pairs",
+     "b and x at one vertex; random pairs by one or two reaches ([HDA17] section 5)",
+     bench_vertex_pairs},
+    {"inverse_entries", "entries and blocks of the inverse: forward sweeps against local solves",
+     bench_inverse_entries},
+    {"locality", "the same local solve on meshes of growing size", bench_locality},
+    {"selected_inverse",
+     "the whole diagonal of the inverse against a refactorization and against single entries",
+     bench_selected_inverse},
+    {"region", "local solves that end at a region's boundary against plans to the roots",
      bench_region},
-    {"adf", "the auto-diffusion of every vertex: the diagonal of the inverse (section 5)",
+    {"adf", "auto-diffusion at every vertex: the diagonal of the inverse ([HDA17] section 5)",
      bench_adf},
-    {"several", "M + t L for eight t: factors, one plan on all of them, heat-kernel signatures",
-     bench_several},
-    {"neumann", "zero-mean solutions of raw Laplacians beside shifted ones; refinement",
+    {"shifted", "M + t L for eight t: factors, one plan on all of them, heat kernel signatures",
+     bench_shifted},
+    {"neumann", "zero-mean solutions of singular Laplacians against shifted ones; refinement",
      bench_neumann},
 #ifdef SL_BENCH_PEERS
-    {"peers", "beside CHOLMOD and Eigen over the same permutation: factor, solve, local solves",
-     bench_peers},
-    {"peers_harmonic", "the same on harmonic, biharmonic and triharmonic systems",
+    {"peers", "CHOLMOD and Eigen: setup, refactorization, full and local solves", bench_peers},
+    {"peers_harmonic", "the same steps on harmonic, biharmonic and triharmonic systems",
      bench_peers_harmonic},
-    {"peers_several", "eight refactorizations M + t L beside CHOLMOD's over one analysis",
-     bench_peers_several},
+    {"peers_shifted", "eight refactorizations of M + t L against CHOLMOD", bench_peers_shifted},
 #endif
 };
 
@@ -58,27 +62,29 @@ enum { N_QUESTIONS = sizeof questions / sizeof *questions };
 
 static void list(FILE *out) {
     for (int k = 0; k < N_QUESTIONS; k++) {
-        fprintf(out, "  %-14s %s\n", questions[k].name, questions[k].text);
+        fprintf(out, "  %-16s %s\n", questions[k].name, questions[k].text);
     }
 }
 
 static int usage(FILE *out) {
     fprintf(out, "usage: bench [--help] [--list] [name ...]\n"
-                 "Answers the named questions, or all of them:\n");
+                 "Runs the named questions, or all of them:\n");
     list(out);
     fprintf(out,
             "Environment:\n"
-            "  BENCH=quick|full  up to 1e5 vertices in some seconds, or up to 4e6; otherwise "
-            "1e6, four minutes\n"
-            "  MESH=path         ask on that mesh (.obj .off .ply .stl, plain or .gz) and not on "
+            "  BENCH=quick|full  up to 1e5 vertices (seconds), or up to 4e6; default: 1e6 (four "
+            "minutes)\n"
+            "  MESH=path         use this mesh (.obj .off .ply .stl, plain or .gz) in place of "
             "synthetic grids\n"
-            "  BENCH_OUT=folder  CSV files and plots go there; otherwise build/bench-out\n"
-            "  SL_DATA=folder    the peers question adds meshes/bunny.off.gz from there\n"
-            "Ends with status 1 if a result was wrong.\n");
+            "  BENCH_OUT=folder  where CSV files and plots are written; default: build/bench-out\n"
+            "  SL_DATA=folder    the question peers adds meshes/bunny.off.gz from this folder\n"
+            "Exits with status 1 if a result was wrong or standard output could not be written, "
+            "with 2 if a file could not.\n");
     return out == stderr ? 2 : 0;
 }
 
-static int named(const char *name, int argc, char **argv) {
+/* Whether the question is to be run: all are if none is named. */
+static int is_selected(const char *name, int argc, char **argv) {
     for (int a = 1; a < argc; a++) {
         if (strcmp(argv[a], name) == 0) {
             return 1;
@@ -87,18 +93,18 @@ static int named(const char *name, int argc, char **argv) {
     return argc == 1;
 }
 
-/* The folder and those above it. */
+/* Creates the folder and its parents. Returns whether it exists now. */
 static int make_folder(const char *path) {
-    char part[512];
-    snprintf(part, sizeof part, "%s", path);
-    for (char *c = part + 1; *c; c++) {
+    char prefix[512];
+    snprintf(prefix, sizeof prefix, "%s", path);
+    for (char *c = prefix + 1; *c; c++) {
         if (*c == '/') {
             *c = '\0';
-            (void)mkdir(part, 0777); /* the last one tells whether all is well */
+            (void)mkdir(prefix, 0777); /* a failure shows in the last call */
             *c = '/';
         }
     }
-    return mkdir(part, 0777) == 0 || errno == EEXIST;
+    return mkdir(prefix, 0777) == 0 || errno == EEXIST;
 }
 
 static int set_up(bench_run *run) {
@@ -120,7 +126,7 @@ static int set_up(bench_run *run) {
         return 0;
     }
     if (!make_folder(run->out_dir)) {
-        fprintf(stderr, "bench: cannot make the folder %s\n", run->out_dir);
+        fprintf(stderr, "bench: cannot create the folder %s\n", run->out_dir);
         return 0;
     }
     return 1;
@@ -128,6 +134,7 @@ static int set_up(bench_run *run) {
 
 int main(int argc, char **argv) {
     bench_run run;
+    output_begin_program("bench");
     for (int a = 1; a < argc; a++) {
         int known = 0;
         if (strcmp(argv[a], "--help") == 0 || strcmp(argv[a], "-h") == 0) {
@@ -141,7 +148,7 @@ int main(int argc, char **argv) {
             known |= strcmp(argv[a], questions[k].name) == 0;
         }
         if (!known) {
-            fprintf(stderr, "bench: there is no question %s\n", argv[a]);
+            fprintf(stderr, "bench: unknown question %s\n", argv[a]);
             return usage(stderr);
         }
     }
@@ -152,13 +159,13 @@ int main(int argc, char **argv) {
     bench_bandwidth_measure();
     bench_peak_measure(&run);
     for (int k = 0; k < N_QUESTIONS; k++) {
-        if (named(questions[k].name, argc, argv)) {
+        if (is_selected(questions[k].name, argc, argv)) {
             double begin = bench_now();
-            questions[k].ask(&run);
+            questions[k].answer(&run);
             bench_progress("[%s: %.0f s]\n", questions[k].name, bench_now() - begin);
         }
     }
-    printf("\n%.0f s in all; CSV files and plots are in %s; %d checks failed\n",
+    printf("\n%.0f s in total; CSV files and plots are in %s; %d checks failed\n",
            bench_now() - start, run.out_dir, run.failures);
     bench_systems_free();
     bench_threads_free();

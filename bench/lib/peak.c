@@ -1,4 +1,4 @@
-/* peak.c: how many floating-point operations a second one core can do here, by ISA, the limit of dense kernels */
+/* peak.c: measures the floating-point rate of one core by instruction set */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,91 +10,82 @@
 #include <arm_neon.h>
 #endif
 
-/* x := x a + b on registers alone, in so many chains that neither latency nor a lack of registers is waited for.
- * Every chain starts elsewhere and all are stored, so none can be left out; the values are checked against the same
- * recurrence done one by one. A fused multiply-add counts as 2 operations, as does an entry's part in the flops of a
- * factorization: the sum over columns of (entries)^2 is twice the multiply-adds. */
-enum { CHAINS = 12, MOST_LANES = 8, SAMPLES = 7, ROUNDS = 400000, CHECK_ROUNDS = 1000, ISAS = 5 };
+/* x := x a + b on registers alone, in enough independent chains to hide the latency, few enough
+ * to stay in registers. Every chain has its own start value and all are stored, so the compiler
+ * can drop none; the results are compared with the same recurrence computed in scalar code. A
+ * fused multiply-add counts as 2 operations. The flops of a factorization count alike: the sum
+ * over columns of entries^2 is twice the number of multiply-adds. */
+enum { CHAINS = 12, MAX_LANES = 8, SAMPLES = 7, ROUNDS = 400000, CHECK_ROUNDS = 1000, ISAS = 5 };
 
-static const double a_of_chains = 0.999755859375, b_of_chains = 0.0009765625; /* fixed point 4 */
+static const double a_of_chains = 0.999755859375,
+                    b_of_chains = 0.0009765625; /* the fixed point is 4 */
 
-/* A loop for one ISA: words of its own, lanes doubles in a register. x: CHAINS x lanes. */
-#define PEAK_LOOP(name, attribute, type, lanes, load, store, broadcast, fma)                       \
-    attribute static void name(double *x, long rounds) {                                           \
-        const type a = broadcast(a_of_chains), b = broadcast(b_of_chains);                         \
-        TWELVE_DECLARED(type, load, lanes)                                                         \
-        for (long k = 0; k < rounds; k++) {                                                        \
-            TWELVE_STEPS(fma)                                                                      \
-        }                                                                                          \
-        TWELVE_STORED(store, lanes)                                                                \
+/* Defines the loop for one instruction set, in terms of its intrinsics; lanes is the number of
+ * doubles in a register. x: CHAINS x lanes. */
+#define PEAK_LOOP(name, attribute, type, lanes, load, store, broadcast, fma) \
+    attribute static void name(double *x, long rounds) { \
+        const type a = broadcast(a_of_chains), b = broadcast(b_of_chains); \
+        DECLARE_CHAINS(type, load, lanes) \
+        for (long k = 0; k < rounds; k++) { \
+            STEP_CHAINS(fma) \
+        } \
+        STORE_CHAINS(store, lanes) \
     }
-#define TWELVE_DECLARED(type, load, lanes)                                                         \
-    type c0 = load(x), c1 = load(x + (lanes)), c2 = load(x + 2 * (lanes)),                         \
-         c3 = load(x + 3 * (lanes)), c4 = load(x + 4 * (lanes)), c5 = load(x + 5 * (lanes)),       \
-         c6 = load(x + 6 * (lanes)), c7 = load(x + 7 * (lanes)), c8 = load(x + 8 * (lanes)),       \
+#define DECLARE_CHAINS(type, load, lanes) \
+    type c0 = load(x), c1 = load(x + (lanes)), c2 = load(x + 2 * (lanes)), \
+         c3 = load(x + 3 * (lanes)), c4 = load(x + 4 * (lanes)), c5 = load(x + 5 * (lanes)), \
+         c6 = load(x + 6 * (lanes)), c7 = load(x + 7 * (lanes)), c8 = load(x + 8 * (lanes)), \
          c9 = load(x + 9 * (lanes)), c10 = load(x + 10 * (lanes)), c11 = load(x + 11 * (lanes));
-#define TWELVE_STEPS(fma)                                                                          \
-    c0 = fma(c0, a, b);                                                                            \
-    c1 = fma(c1, a, b);                                                                            \
-    c2 = fma(c2, a, b);                                                                            \
-    c3 = fma(c3, a, b);                                                                            \
-    c4 = fma(c4, a, b);                                                                            \
-    c5 = fma(c5, a, b);                                                                            \
-    c6 = fma(c6, a, b);                                                                            \
-    c7 = fma(c7, a, b);                                                                            \
-    c8 = fma(c8, a, b);                                                                            \
-    c9 = fma(c9, a, b);                                                                            \
-    c10 = fma(c10, a, b);                                                                          \
+#define STEP_CHAINS(fma) \
+    c0 = fma(c0, a, b); \
+    c1 = fma(c1, a, b); \
+    c2 = fma(c2, a, b); \
+    c3 = fma(c3, a, b); \
+    c4 = fma(c4, a, b); \
+    c5 = fma(c5, a, b); \
+    c6 = fma(c6, a, b); \
+    c7 = fma(c7, a, b); \
+    c8 = fma(c8, a, b); \
+    c9 = fma(c9, a, b); \
+    c10 = fma(c10, a, b); \
     c11 = fma(c11, a, b);
-#define TWELVE_STORED(store, lanes)                                                                \
-    store(x, c0);                                                                                  \
-    store(x + (lanes), c1);                                                                        \
-    store(x + 2 * (lanes), c2);                                                                    \
-    store(x + 3 * (lanes), c3);                                                                    \
-    store(x + 4 * (lanes), c4);                                                                    \
-    store(x + 5 * (lanes), c5);                                                                    \
-    store(x + 6 * (lanes), c6);                                                                    \
-    store(x + 7 * (lanes), c7);                                                                    \
-    store(x + 8 * (lanes), c8);                                                                    \
-    store(x + 9 * (lanes), c9);                                                                    \
-    store(x + 10 * (lanes), c10);                                                                  \
+#define STORE_CHAINS(store, lanes) \
+    store(x, c0); \
+    store(x + (lanes), c1); \
+    store(x + 2 * (lanes), c2); \
+    store(x + 3 * (lanes), c3); \
+    store(x + 4 * (lanes), c4); \
+    store(x + 5 * (lanes), c5); \
+    store(x + 6 * (lanes), c6); \
+    store(x + 7 * (lanes), c7); \
+    store(x + 8 * (lanes), c8); \
+    store(x + 9 * (lanes), c9); \
+    store(x + 10 * (lanes), c10); \
     store(x + 11 * (lanes), c11);
 
 #if defined(__GNUC__) && defined(__x86_64__)
-#define APART(x, a, b) _mm_add_pd(_mm_mul_pd((x), (a)), (b)) /* what plain x86-64 has: two steps */
-PEAK_LOOP(loop_scalar, , __m128d, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_set1_pd, APART)
+#define MUL_ADD(x, a, b) \
+    _mm_add_pd(_mm_mul_pd((x), (a)), (b)) /* plain x86-64 has no fused multiply-add */
+PEAK_LOOP(loop_scalar, , __m128d, 2, _mm_loadu_pd, _mm_storeu_pd, _mm_set1_pd, MUL_ADD)
 PEAK_LOOP(loop_avx2, __attribute__((target("avx2,fma"))), __m256d, 4, _mm256_loadu_pd,
           _mm256_storeu_pd, _mm256_set1_pd, _mm256_fmadd_pd)
 PEAK_LOOP(loop_avx512, __attribute__((target("avx512f"))), __m512d, 8, _mm512_loadu_pd,
           _mm512_storeu_pd, _mm512_set1_pd, _mm512_fmadd_pd)
 #else
-#define ITSELF(x) (x)
-#define FROM(p) (*(p))
-#define INTO(p, x) (*(p) = (x))
-#define APART(x, a, b) ((x) * (a) + (b))
-PEAK_LOOP(loop_scalar, , double, 1, FROM, INTO, ITSELF, APART)
+#define SET1(x) (x)
+#define LOAD(p) (*(p))
+#define STORE(p, x) (*(p) = (x))
+#define MUL_ADD(x, a, b) ((x) * (a) + (b))
+PEAK_LOOP(loop_scalar, , double, 1, LOAD, STORE, SET1, MUL_ADD)
 #if defined(__aarch64__)
-#define FUSED(x, a, b) vfmaq_f64((b), (x), (a))
-PEAK_LOOP(loop_neon, , float64x2_t, 2, vld1q_f64, vst1q_f64, vdupq_n_f64, FUSED)
+#define FMA(x, a, b) vfmaq_f64((b), (x), (a))
+PEAK_LOOP(loop_neon, , float64x2_t, 2, vld1q_f64, vst1q_f64, vdupq_n_f64, FMA)
 #endif
 #endif
 
 static double peaks[ISAS];
 
-static int has(sl_isa isa) {
-#if defined(__GNUC__) && defined(__x86_64__)
-    return isa == SL_ISA_SCALAR ||
-           (isa == SL_ISA_AVX2 && __builtin_cpu_supports("avx2") &&
-            __builtin_cpu_supports("fma")) ||
-           (isa == SL_ISA_AVX512 && __builtin_cpu_supports("avx512f"));
-#elif defined(__aarch64__)
-    return isa == SL_ISA_SCALAR || isa == SL_ISA_NEON;
-#else
-    return isa == SL_ISA_SCALAR;
-#endif
-}
-
-/* Returns the lanes of the ISA. */
+/* Returns the number of doubles in a register. */
 static int run_loop(sl_isa isa, double *x, long rounds) {
 #if defined(__GNUC__) && defined(__x86_64__)
     if (isa == SL_ISA_AVX512) {
@@ -121,14 +112,14 @@ static int run_loop(sl_isa isa, double *x, long rounds) {
 }
 
 static void start_values(double *x) {
-    for (int k = 0; k < CHAINS * MOST_LANES; k++) {
+    for (int k = 0; k < CHAINS * MAX_LANES; k++) {
         x[k] = 1.0 + 0.01 * k;
     }
 }
 
-/* Every chain came to what the recurrence gives, so all its steps were done. */
+/* Every chain ends at the value of the recurrence, so the loop did all its steps. */
 static void check_loop(bench_run *run, sl_isa isa) {
-    double x[CHAINS * MOST_LANES], y[CHAINS * MOST_LANES], apart = 0;
+    double x[CHAINS * MAX_LANES], y[CHAINS * MAX_LANES], error = 0;
     start_values(x);
     start_values(y);
     int count = CHAINS * run_loop(isa, x, CHECK_ROUNDS);
@@ -136,19 +127,19 @@ static void check_loop(bench_run *run, sl_isa isa) {
         for (int round = 0; round < CHECK_ROUNDS; round++) {
             y[k] = y[k] * a_of_chains + b_of_chains;
         }
-        apart = fmax(apart, fabs(x[k] - y[k]));
+        error = fmax(error, fabs(x[k] - y[k]));
     }
-    bench_expect(run, apart < 1e-12 && fabs(x[count - 1] - 1.0 - 0.01 * (count - 1)) > 1e-3,
-                 "peak of %s: off by %.2g", bench_isa_name(isa), apart);
+    bench_expect(run, error < 1e-12 && fabs(x[count - 1] - 1.0 - 0.01 * (count - 1)) > 1e-3,
+                 "peak loop, %s: error %.2g", bench_isa_name(isa), error);
 }
 
 void bench_peak_measure(bench_run *run) {
     static const sl_isa isas[] = {SL_ISA_SCALAR, SL_ISA_AVX2, SL_ISA_AVX512, SL_ISA_NEON};
     const char *separator = "";
-    printf("one core multiplies and adds, registers only:");
+    printf("multiply-add rate of one core, registers only:");
     for (size_t c = 0; c < sizeof isas / sizeof *isas; c++) {
-        double x[CHAINS * MOST_LANES], best = 0;
-        if (!has(isas[c])) {
+        double x[CHAINS * MAX_LANES], best = 0;
+        if (!bench_isa_is_present(isas[c])) {
             continue;
         }
         check_loop(run, isas[c]);

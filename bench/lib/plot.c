@@ -1,9 +1,9 @@
-/* plot.c: series of points of a run, drawn as SVG into its folder */
+/* plot.c: line and bar plots of a run, written as SVG files to its output folder */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../tools/plot.h"
+#include "tools/draw/plot.h"
 #include "bench.h"
 
 struct bench_plot {
@@ -19,7 +19,7 @@ bench_plot *bench_plot_open(const bench_run *run, const char *name, const char *
     p->drawn =
         plot_create(title, x_label, y_label, strchr(log, 'x') != NULL, strchr(log, 'y') != NULL);
     p->is_empty = 1;
-    bench_must(p->drawn ? SL_OK : SL_ERR_MEMORY, "beginning a plot");
+    bench_must(p->drawn ? SL_OK : SL_ERR_MEMORY, "creating a plot");
     return p;
 }
 
@@ -32,18 +32,19 @@ void bench_plot_point(bench_plot *p, const char *name, const char *style, double
     if (added && color != NULL) {
         plot_color(p->drawn, name, atoi(color + 3));
     }
-    bench_must(added ? SL_OK : SL_ERR_MEMORY, "keeping points of a plot");
+    bench_must(added ? SL_OK : SL_ERR_MEMORY, "adding a point to a plot");
     p->is_empty = 0;
 }
 
 void bench_plot_close(bench_plot *p) {
     char message[600];
     if (!p->is_empty) {
-        if (plot_write(p->drawn, p->path, message, sizeof message)) {
-            printf("  plot: %s\n", p->path);
-        } else {
-            printf("  %s\n", message);
+        if (!plot_write(p->drawn, p->path, message, sizeof message)) {
+            fflush(stdout);
+            fprintf(stderr, "bench: %s\n", message);
+            exit(2);
         }
+        printf("  plot: %s\n", p->path);
     }
     plot_free(p->drawn);
     free(p);

@@ -1,4 +1,4 @@
-/* queries.c: local solves in the forms that are timed: planned, in one shot, by a full solve */
+/* queries.c: local solves on a plan, with plan creation, in one call, and as full solves */
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,8 +26,8 @@ static sl_int *copy_set(const sl_int *set, sl_int count) {
     return copy;
 }
 
-/* B of one query among the zeros of a full right-hand side, or the zeros again */
-static void spread_values(bench_queries *q, const bench_query *one, int values) {
+/* Writes the values of B of one query into the full right-hand side, or zeros in their places. */
+static void scatter_values(bench_queries *q, const bench_query *one, int values) {
     size_t n = (size_t)q->system->n;
     for (sl_int r = 0; r < q->nrhs; r++) {
         for (sl_int k = 0; k < one->nb; k++) {
@@ -43,7 +43,7 @@ void bench_queries_add(bench_queries *q, const sl_int *bset, sl_int nb, const sl
         bench_must(SL_ERR_TOO_LARGE, "adding a query");
     }
     bench_query *one = &q->all[q->count];
-    uint64_t chance = 1000003u + (uint64_t)q->count;
+    uint64_t rng = 1000003u + (uint64_t)q->count;
     memset(one, 0, sizeof *one);
     one->nb = nb;
     one->nx = nx;
@@ -51,19 +51,19 @@ void bench_queries_add(bench_queries *q, const sl_int *bset, sl_int nb, const sl
     one->xset = copy_set(xset, nx);
     one->B = bench_alloc((size_t)nb * (size_t)q->nrhs, sizeof *one->B);
     one->X = bench_alloc((size_t)nx * (size_t)q->nrhs, sizeof *one->X);
-    bench_random_fill(&chance, one->B, (size_t)nb * (size_t)q->nrhs);
+    bench_random_fill(&rng, one->B, (size_t)nb * (size_t)q->nrhs);
     bench_must(sl_plan_create(&one->plan, q->system->S, bset, nb, xset, nx, NULL, &one->reach),
                "plan");
     if (q->count++ == 0) {
-        spread_values(q, one, 1);
+        scatter_values(q, one, 1);
     }
 }
 
 bench_queries *bench_queries_vertices(const bench_system *system, int room, sl_int nrhs) {
     bench_queries *q = bench_queries_create(system, room, nrhs);
-    uint64_t chance = 4711;
+    uint64_t rng = 4711;
     for (int k = 0; k < room; k++) {
-        sl_int v = bench_random_below(&chance, system->n);
+        sl_int v = bench_random_below(&rng, system->n);
         bench_queries_add(q, &v, 1, &v, 1);
     }
     return q;
@@ -89,28 +89,33 @@ static void clear_x(const bench_queries *q, const bench_query *one) {
 }
 
 int bench_queries_check(bench_run *run, bench_queries *q, int few) {
-    int good = 1;
-    spread_values(q, &q->all[0], 0);
-    for (int k = 0; k < few && k < q->count && good; k++) {
+    int passed = 1;
+    scatter_values(q, &q->all[0], 0);
+    for (int k = 0; k < few && k < q->count && passed; k++) {
         bench_query *one = &q->all[k];
-        spread_values(q, one, 1);
+        scatter_values(q, one, 1);
         bench_call_full(q);
-        good &= bench_check_residual(run, q->system, q->X_full, q->B_full, q->nrhs, "full solve");
+        passed &= bench_check_residual(run, q->system, q->X_full, q->B_full, q->nrhs, "full solve");
         clear_x(q, one);
         q->next = k;
         bench_call_plan_solve(q);
-        good &= bench_check_bits(run, q->system, one->X, one->xset, one->nx, q->X_full, q->nrhs,
-                                 "plan solve");
+        passed &= bench_check_bits(run, q->system, one->X, one->xset, one->nx, q->X_full, q->nrhs,
+                                   "plan solve");
+        clear_x(q, one);
+        q->next = k;
+        bench_call_plan_and_solve(q);
+        passed &= bench_check_bits(run, q->system, one->X, one->xset, one->nx, q->X_full, q->nrhs,
+                                   "plan + solve");
         clear_x(q, one);
         q->next = k;
         bench_call_one_shot(q);
-        good &= bench_check_bits(run, q->system, one->X, one->xset, one->nx, q->X_full, q->nrhs,
-                                 "one shot");
-        spread_values(q, one, 0);
+        passed &= bench_check_bits(run, q->system, one->X, one->xset, one->nx, q->X_full, q->nrhs,
+                                   "one shot");
+        scatter_values(q, one, 0);
     }
-    spread_values(q, &q->all[0], 1);
+    scatter_values(q, &q->all[0], 1);
     q->next = 0;
-    return good;
+    return passed;
 }
 
 sl_stats bench_queries_reach(const bench_queries *q) {
@@ -118,18 +123,18 @@ sl_stats bench_queries_reach(const bench_queries *q) {
     double sums[6] = {0};
     for (int k = 0; k < q->count; k++) {
         const sl_stats *s = &q->all[k].reach;
-        double terms[6] = {s->b_supernodes, s->b_columns, (double)s->b_entries,
-                           s->x_supernodes, s->x_columns, (double)s->x_entries};
+        double terms[6] = {s->plan.b_supernodes, s->plan.b_columns, (double)s->plan.b_entries,
+                           s->plan.x_supernodes, s->plan.x_columns, (double)s->plan.x_entries};
         for (int c = 0; c < 6; c++) {
             sums[c] += terms[c] / q->count;
         }
     }
-    mean.b_supernodes = (sl_int)sums[0];
-    mean.b_columns = (sl_int)sums[1];
-    mean.b_entries = (sl_off)sums[2];
-    mean.x_supernodes = (sl_int)sums[3];
-    mean.x_columns = (sl_int)sums[4];
-    mean.x_entries = (sl_off)sums[5];
+    mean.plan.b_supernodes = (sl_int)sums[0];
+    mean.plan.b_columns = (sl_int)sums[1];
+    mean.plan.b_entries = (sl_off)sums[2];
+    mean.plan.x_supernodes = (sl_int)sums[3];
+    mean.plan.x_columns = (sl_int)sums[4];
+    mean.plan.x_entries = (sl_off)sums[5];
     return mean;
 }
 
@@ -157,7 +162,20 @@ void bench_call_plan_solve(void *state) {
                "plan solve");
 }
 
-void bench_call_plan_solve_apart(void *state) {
+void bench_call_plan_and_solve(void *state) {
+    bench_queries *q = state;
+    const bench_query *one = next_query(q);
+    sl_plan *plan;
+    bench_must(
+        sl_plan_create(&plan, q->system->S, one->bset, one->nb, one->xset, one->nx, NULL, NULL),
+        "plan");
+    bench_must(sl_plan_solve(plan, q->system->F, one->X, (size_t)one->nx, one->B, (size_t)one->nb,
+                             q->nrhs, q->W),
+               "plan solve");
+    sl_plan_free(plan);
+}
+
+void bench_call_plan_solve_one_by_one(void *state) {
     bench_queries *q = state;
     const bench_query *one = next_query(q);
     size_t nb = (size_t)one->nb, nx = (size_t)one->nx;
@@ -171,8 +189,8 @@ void bench_call_plan_solve_apart(void *state) {
 void bench_call_one_shot(void *state) {
     bench_queries *q = state;
     const bench_query *one = next_query(q);
-    bench_must(sl_local_solve(q->system->F, one->X, (size_t)one->nx, one->xset, one->nx, one->B,
-                              (size_t)one->nb, one->bset, one->nb, q->nrhs, q->W, NULL),
+    bench_must(sl_local_solve(q->system->F, one->bset, one->nb, one->xset, one->nx, one->X,
+                              (size_t)one->nx, one->B, (size_t)one->nb, q->nrhs, q->W, NULL),
                "local solve");
 }
 
@@ -191,7 +209,7 @@ void bench_call_full_interleaved(void *state) {
         "full solve, interleaved");
 }
 
-void bench_call_full_apart(void *state) {
+void bench_call_full_one_by_one(void *state) {
     bench_queries *q = state;
     size_t n = (size_t)q->system->n;
     for (size_t r = 0; r < (size_t)q->nrhs; r++) {

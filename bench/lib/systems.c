@@ -1,24 +1,24 @@
-/* systems.c: the systems that questions are asked on: jittered triangulated grids, 3D grids, or a mesh from a file */
+/* systems.c: the linear systems of the questions: grids, tori, volumes, mesh files */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../tools/dataset.h"
-#include "../tools/grid.h"
-#include "../tools/harmonic.h"
-#include "../tools/laplacian.h"
+#include "tools/io/dataset.h"
+#include "tools/mesh/grid.h"
+#include "tools/geometry/polyharmonic.h"
+#include "tools/geometry/laplacian.h"
 #include "bench.h"
 
 enum { MAX_SYSTEMS = 32 };
 
-static bench_system *kept[MAX_SYSTEMS];
-static int n_kept;
+static bench_system *systems[MAX_SYSTEMS];
+static int n_systems;
 
 static const bench_system *find(const char *name) {
-    for (int k = 0; k < n_kept; k++) {
-        if (strcmp(kept[k]->name, name) == 0) {
-            return kept[k];
+    for (int k = 0; k < n_systems; k++) {
+        if (strcmp(systems[k]->name, name) == 0) {
+            return systems[k];
         }
     }
     return NULL;
@@ -27,17 +27,18 @@ static const bench_system *find(const char *name) {
 static void release(bench_system *system) {
     adjacency_free(&system->graph);
     free(system->seen);
-    free(system->place);
+    free(system->local_index);
     sl_factor_free(system->F);
     sl_symbolic_free(system->S);
     sl_matrix_free(system->matrix);
     free(system);
 }
 
-/* Analyses and factors matrix, which the system takes over; NULL where a pivot is lost to rounding. */
-static const bench_system *try_keep(const char *name, sl_matrix *matrix) {
-    if (n_kept == MAX_SYSTEMS) {
-        bench_must(SL_ERR_TOO_LARGE, "keeping one more system");
+/* Analyzes and factors matrix, which then belongs to the system. NULL if rounding makes a pivot
+ * unusable. */
+static const bench_system *try_add_system(const char *name, sl_matrix *matrix) {
+    if (n_systems == MAX_SYSTEMS) {
+        bench_must(SL_ERR_TOO_LARGE, "adding a system");
     }
     bench_system *system = bench_alloc(1, sizeof *system);
     memset(system, 0, sizeof *system);
@@ -55,27 +56,28 @@ static const bench_system *try_keep(const char *name, sl_matrix *matrix) {
     }
     bench_must(status, name);
     if (!adjacency_from_matrix(&system->graph, &system->A)) {
-        bench_must(SL_ERR_MEMORY, "making the graph of a matrix");
+        bench_must(SL_ERR_MEMORY, "creating the graph of a matrix");
     }
     system->seen = bench_alloc((size_t)system->n, sizeof *system->seen);
-    system->place = bench_alloc((size_t)system->n, sizeof *system->place);
+    system->local_index = bench_alloc((size_t)system->n, sizeof *system->local_index);
     memset(system->seen, 0, (size_t)system->n * sizeof *system->seen);
-    memset(system->place, -1, (size_t)system->n * sizeof *system->place);
-    bench_progress("[%s: analysed and factored in %.2f s]\n", name, bench_now() - start);
-    kept[n_kept++] = system;
+    memset(system->local_index, -1, (size_t)system->n * sizeof *system->local_index);
+    bench_progress("[%s: analyzed and factored in %.2f s]\n", name, bench_now() - start);
+    systems[n_systems++] = system;
     return system;
 }
 
-static const bench_system *keep(const char *name, sl_matrix *matrix) {
-    const bench_system *system = try_keep(name, matrix);
+static const bench_system *add_system(const char *name, sl_matrix *matrix) {
+    const bench_system *system = try_add_system(name, matrix);
     if (!system) {
         bench_must(SL_ERR_PIVOT, name);
     }
     return system;
 }
 
-/* t of M + t L: the square of a tenth of the bounding box's diagonal, the length that all systems smooth over */
-static double spread(const mesh *m) {
+/* t of M + t L: the square of a tenth of the diagonal of the bounding box, the length over which
+ * every system smooths */
+static double smoothing_time(const mesh *m) {
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, square = 0;
     for (sl_int v = 0; v < m->n_vertices; v++) {
         for (int c = 0; c < 3; c++) {
@@ -90,18 +92,18 @@ static double spread(const mesh *m) {
     return 0.01 * square;
 }
 
-static const bench_system *keep_mesh(const char *name, mesh *m) {
+static const bench_system *add_mesh(const char *name, mesh *m) {
     sl_matrix *matrix;
-    if (!laplacian_system(&matrix, m, spread(m))) {
-        bench_must(SL_ERR_MEMORY, "making the matrix of a mesh");
+    if (!laplacian_system(&matrix, m, smoothing_time(m))) {
+        bench_must(SL_ERR_MEMORY, "assembling the matrix of a mesh");
     }
     mesh_free(m);
-    return keep(name, matrix);
+    return add_system(name, matrix);
 }
 
 static void make_grid(mesh *m, sl_int side) {
     if (!mesh_grid(m, side, side, 0.2, 1)) {
-        bench_must(SL_ERR_MEMORY, "making a grid");
+        bench_must(SL_ERR_MEMORY, "creating a grid");
     }
 }
 
@@ -113,23 +115,23 @@ static const bench_system *grid(double vertices) {
     if (!system) {
         mesh m;
         make_grid(&m, side);
-        system = keep_mesh(name, &m);
+        system = add_mesh(name, &m);
     }
     return system;
 }
 
 const bench_system *bench_torus(double vertices) {
     char name[64];
-    sl_int around = (sl_int)lround(sqrt(2.5 * vertices)); /* as the radii are */
+    sl_int around = (sl_int)lround(sqrt(2.5 * vertices)); /* the ratio of the radii is 2.5 */
     sl_int tube = (sl_int)lround(vertices / around);
     snprintf(name, sizeof name, "torus %dx%d", (int)around, (int)tube);
     const bench_system *system = find(name);
     if (!system) {
         mesh m;
         if (!mesh_torus(&m, around, tube, 0.2, 1)) {
-            bench_must(SL_ERR_MEMORY, "making a torus");
+            bench_must(SL_ERR_MEMORY, "creating a torus");
         }
-        system = keep_mesh(name, &m);
+        system = add_mesh(name, &m);
     }
     return system;
 }
@@ -142,9 +144,9 @@ const bench_system *bench_volume(sl_int side) {
         sl_matrix *matrix;
         double tenth = 0.1 * (double)side;
         if (!grid_laplacian_3d(&matrix, side, side, side, 1 / (tenth * tenth))) {
-            bench_must(SL_ERR_MEMORY, "making a volume");
+            bench_must(SL_ERR_MEMORY, "assembling the matrix of a volume");
         }
-        system = keep(name, matrix);
+        system = add_system(name, matrix);
     }
     return system;
 }
@@ -169,7 +171,7 @@ const bench_system *bench_mesh(const char *path) {
     const bench_system *system = find(name);
     mesh m;
     if (!system && read_mesh(&m, path)) {
-        system = keep_mesh(name, &m);
+        system = add_mesh(name, &m);
     }
     return system;
 }
@@ -192,13 +194,13 @@ const bench_system *bench_k_harmonic(const bench_run *run, double vertices, int 
         } else if (!read_mesh(&m, run->mesh_path)) {
             return NULL;
         }
-        if (!harmonic_system(&matrix, &m, k, pow(spread(&m), k))) {
-            bench_must(SL_ERR_MEMORY, "making a k-harmonic system");
+        if (!polyharmonic_system(&matrix, &m, k, pow(smoothing_time(&m), k))) {
+            bench_must(SL_ERR_MEMORY, "assembling a k-harmonic matrix");
         }
         mesh_free(&m);
-        system = try_keep(name, matrix);
+        system = try_add_system(name, matrix);
         if (!system) {
-            printf("\n%s: a pivot is lost to rounding, the matrix is singular to double "
+            printf("\n%s: rounding makes a pivot unusable, the matrix is singular to double "
                    "precision\n",
                    name);
         }
@@ -207,7 +209,7 @@ const bench_system *bench_k_harmonic(const bench_run *run, double vertices, int 
 }
 
 int bench_systems(const bench_run *run, const double *wanted, int count, const bench_system **out) {
-    static const double largest[] = {1e5, 1e6, 4e6}; /* by bench_size */
+    static const double largest[] = {1e5, 1e6, 4e6}; /* indexed by bench_size */
     int found = 0;
     if (run->mesh_path) {
         out[0] = bench_mesh(run->mesh_path);
@@ -222,7 +224,7 @@ int bench_systems(const bench_run *run, const double *wanted, int count, const b
 }
 
 void bench_systems_free(void) {
-    while (n_kept > 0) {
-        release(kept[--n_kept]);
+    while (n_systems > 0) {
+        release(systems[--n_systems]);
     }
 }

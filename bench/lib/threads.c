@@ -1,4 +1,4 @@
-/* threads.c: the parallel-for that options.threads is given: OpenMP where compiled with it, else a pool of pthreads */
+/* threads.c: the threads for options.threads: those of OpenMP, or without it a pool of pthreads */
 #define _POSIX_C_SOURCE 200112L
 #include <stdlib.h>
 
@@ -15,27 +15,29 @@ void bench_threads_free(void) {
 #else
 #include <pthread.h>
 
-/* Workers wait for a loop, take its turns one at a time, and wait again. The caller takes turns too. */
-enum { MOST_THREADS = 64 };
+/* Workers wait for a loop, take one iteration at a time, and wait again. The caller takes
+ * iterations too. */
+enum { MAX_THREADS = 64 };
 
 typedef struct pool {
     pthread_mutex_t lock;
     pthread_cond_t begin, end;
-    pthread_t workers[MOST_THREADS];
+    pthread_t workers[MAX_THREADS];
     sl_int n_workers;
     int busy, closing;
-    unsigned long loop; /* number of the loop at hand */
+    unsigned long loop; /* number of the current loop */
     sl_int count, next, running;
     void (*body)(void *data, sl_int k);
     void *data;
 } pool;
 
-static pool one = {.lock = PTHREAD_MUTEX_INITIALIZER,
-                   .begin = PTHREAD_COND_INITIALIZER,
-                   .end = PTHREAD_COND_INITIALIZER};
+static pool the_pool = {.lock = PTHREAD_MUTEX_INITIALIZER,
+                        .begin = PTHREAD_COND_INITIALIZER,
+                        .end = PTHREAD_COND_INITIALIZER};
 
-/* Takes turns until none is left; the lock is held on entry and on return. */
-static void take_turns(pool *p) {
+/* Runs iterations until none is left. The caller holds the lock, which is released around each
+ * iteration. */
+static void run_iterations(pool *p) {
     p->running++;
     while (p->next < p->count) {
         const sl_int k = p->next++;
@@ -48,7 +50,7 @@ static void take_turns(pool *p) {
     }
 }
 
-static void *work(void *context) {
+static void *worker(void *context) {
     pool *p = context;
     unsigned long done = 0;
     pthread_mutex_lock(&p->lock);
@@ -60,13 +62,13 @@ static void *work(void *context) {
             break;
         }
         done = p->loop;
-        take_turns(p);
+        run_iterations(p);
     }
     pthread_mutex_unlock(&p->lock);
     return NULL;
 }
 
-/* A loop inside a loop is done by the thread that asks for it. */
+/* A nested loop runs on the thread that starts it. */
 static void parallel_for(void *context, sl_int count, void (*body)(void *data, sl_int k),
                          void *data) {
     pool *p = context;
@@ -85,7 +87,7 @@ static void parallel_for(void *context, sl_int count, void (*body)(void *data, s
     p->body = body;
     p->data = data;
     pthread_cond_broadcast(&p->begin);
-    take_turns(p);
+    run_iterations(p);
     while (p->running > 0) {
         pthread_cond_wait(&p->end, &p->lock);
     }
@@ -94,28 +96,28 @@ static void parallel_for(void *context, sl_int count, void (*body)(void *data, s
 }
 
 sl_threads bench_threads(sl_int count) {
-    sl_threads threads = {count, parallel_for, &one};
+    sl_threads threads = {count, parallel_for, &the_pool};
     if (count < 2) {
         threads.run = NULL;
         threads.context = NULL;
     }
-    while (one.n_workers < count - 1 && one.n_workers < MOST_THREADS) {
-        if (pthread_create(&one.workers[one.n_workers], NULL, work, &one) != 0) {
+    while (the_pool.n_workers < count - 1 && the_pool.n_workers < MAX_THREADS) {
+        if (pthread_create(&the_pool.workers[the_pool.n_workers], NULL, worker, &the_pool) != 0) {
             bench_must(SL_ERR_UNSUPPORTED, "starting a thread");
         }
-        one.n_workers++;
+        the_pool.n_workers++;
     }
     return threads;
 }
 
 void bench_threads_free(void) {
-    pthread_mutex_lock(&one.lock);
-    one.closing = 1;
-    pthread_cond_broadcast(&one.begin);
-    pthread_mutex_unlock(&one.lock);
-    while (one.n_workers > 0) {
-        pthread_join(one.workers[--one.n_workers], NULL);
+    pthread_mutex_lock(&the_pool.lock);
+    the_pool.closing = 1;
+    pthread_cond_broadcast(&the_pool.begin);
+    pthread_mutex_unlock(&the_pool.lock);
+    while (the_pool.n_workers > 0) {
+        pthread_join(the_pool.workers[--the_pool.n_workers], NULL);
     }
-    one.closing = 0;
+    the_pool.closing = 0;
 }
 #endif

@@ -1,34 +1,34 @@
-/* peers.c: how does each step compare with CHOLMOD and Eigen, over the same permutation? */
+/* peers.c: how does each step compare with CHOLMOD and Eigen? */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "peers_steps.h"
 
-/* Repetitions of a step go round ours and theirs in turn. */
 enum { MAX_SYSTEMS = 10 };
 
-static const double large = 3e6; /* vertices: so many right-hand sides at once would not fit */
+/* Vertices. On larger systems, 64 right-hand sides would not fit in memory. */
+static const double max_n_64_rhs = 3e6;
 
 static void one_system(bench_run *run, bench_report *report, const bench_system *system) {
     static const sl_int counts[] = {1, 2, 3, 4, 8, 16, 64}, counts_brief[] = {1, 2, 3, 8, 64};
-    const sl_int most = system->n > large ? 16 : PEERS_MOST_RHS;
+    const sl_int max_rhs = system->n > max_n_64_rhs ? 16 : PEERS_MAX_RHS;
     const double start = bench_now();
-    match *m = match_create(run, system, most);
+    comparison *cmp = comparison_create(run, system, max_rhs);
     const double created = bench_now();
-    peers_setup(run, report, m);
-    peers_factor(run, report, m);
+    peers_order_to_factor(run, report, cmp);
+    peers_factor(run, report, cmp);
     const double factored = bench_now();
-    for (int k = 0; k < (m->is_brief ? 5 : 7); k++) {
-        const sl_int nrhs = m->is_brief ? counts_brief[k] : counts[k];
-        if (nrhs <= most) {
-            peers_solve(run, report, m, nrhs);
+    for (int k = 0; k < (cmp->is_brief ? 5 : 7); k++) {
+        const sl_int nrhs = cmp->is_brief ? counts_brief[k] : counts[k];
+        if (nrhs <= max_rhs) {
+            peers_solve(run, report, cmp, nrhs);
         }
     }
     const double solved = bench_now();
-    peers_local(run, report, m);
-    peers_inverse(run, report, m);
-    match_free(m);
-    bench_progress("[%s: made ready %.0f s, factor %.0f s, full solves %.0f s, local %.0f s]\n",
+    peers_local(run, report, cmp);
+    peers_inverse(run, report, cmp);
+    comparison_free(cmp);
+    bench_progress("[%s: created %.0f s, factor %.0f s, full solves %.0f s, local %.0f s]\n",
                    system->name, created - start, factored - created, solved - factored,
                    bench_now() - solved);
 }
@@ -49,9 +49,9 @@ void bench_peers(bench_run *run) {
     for (int k = 0; k < 2 && !run->mesh_path && run->size != BENCH_QUICK; k++) {
         systems[count++] = bench_volume(sides[k]);
     }
-    bench_report *report =
-        bench_report_open(run, "peers", "beside CHOLMOD and Eigen, same permutation",
-                          "ours (factoring: on one thread)");
+    bench_report *report = bench_report_open(
+        run, "peers", "CHOLMOD and Eigen, in our permutation and with their defaults",
+        "the first row of the step (refactor: on one thread)");
     bench_machine_write(run, "peers");
     printf("   OpenBLAS kernels for CHOLMOD: %s\n", peer_cholmod_kernels());
     for (int k = 0; k < count; k++) {

@@ -1,68 +1,130 @@
-/* peers.h: CHOLMOD and Eigen behind a few calls, each in its best setting for a given permutation */
+/* peers.h: CHOLMOD and Eigen behind a few calls, in our permutation and with their own orderings */
 #ifndef BENCH_PEERS_H
 #define BENCH_PEERS_H
 
-#include "../sparse_local.h"
+#include "sparse_local.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/** Two CHOLMOD factors of one matrix over one permutation: supernodal LL' for whole solves, and simplicial LDL',
- *  packed, made beforehand, for solves with Bset. 32-bit interface. */
+/** CHOLMOD in its best setting for a given permutation. Two factors of one matrix: supernodal LL'
+ *  for full solves, and simplicial LDL', packed, for solves with Bset. 32-bit interface.
+ */
 typedef struct peer_cholmod peer_cholmod;
 
-/** A stores its lower triangle and must outlive the peer; ends the program on an error. */
+/** A stores its lower triangle and must outlive the peer. Exits with a message on an error. */
 peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm);
 void peer_cholmod_free(peer_cholmod *peer);
 
-/** Supernodal analysis once more, with its release. */
-void peer_cholmod_analyse(peer_cholmod *peer);
+/** Repeats the supernodal analysis and releases it. */
+void peer_cholmod_analyze(peer_cholmod *peer);
 
-/** Supernodal factorization again, same pattern; and the same of the simplicial one. */
+/** Repeats the supernodal or the simplicial factorization, same pattern. */
 void peer_cholmod_factor(peer_cholmod *peer);
-void peer_cholmod_factor_simple(peer_cholmod *peer);
+void peer_cholmod_factor_simplicial(peer_cholmod *peer);
 
-/** Other values of the same pattern, for the factorizations to come; x must outlive them. */
+/** Sets other values on the same pattern, for later factorizations; x must outlive them. */
 void peer_cholmod_values(peer_cholmod *peer, const double *x);
 
-/** A first supernodal factorization, its memory included; ready, before each, drops the last one. */
+/** A first supernodal factorization, allocation included. Call ready before each: it drops the last
+ *  one.
+ */
 void peer_cholmod_first_ready(peer_cholmod *peer);
 void peer_cholmod_first(peer_cholmod *peer);
 
-/** Solves with the supernodal factor; B is n x nrhs, leading dimension n; so is the result, which lives until the
- *  next call. The other one: with the simplicial factor. */
+/** Solves with the supernodal or the simplicial factor. B is n x nrhs, leading dimension n; so is
+ *  the result, which is valid until the next call.
+ */
 const double *peer_cholmod_solve(peer_cholmod *peer, const double *B, sl_int nrhs);
-const double *peer_cholmod_solve_simple(peer_cholmod *peer, const double *B, sl_int nrhs);
+const double *peer_cholmod_solve_simplicial(peer_cholmod *peer, const double *B, sl_int nrhs);
 
-/** Threads of OpenBLAS, which are all that CHOLMOD has; 1 after peer_cholmod_create. */
+/** Number of threads of OpenBLAS; CHOLMOD has no others. 1 after peer_cholmod_create. */
 void peer_cholmod_threads(int count);
 
-/** cholmod_solve2 with Bset on the simplicial factor, one right-hand side: b holds nb values at the rows bset, where
- *  x is wanted too. The result is indexed by row, valid on bset, and lives until the next call. */
+/** cholmod_solve2 with Bset on the simplicial factor, one right-hand side. b holds nb values at the
+ *  rows bset, which are also where x is wanted. The result is indexed by row, is valid on bset, and
+ *  lasts until the next call.
+ */
 const double *peer_cholmod_local(peer_cholmod *peer, const sl_int *bset, sl_int nb,
                                  const double *b);
 
-/** Bytes that the supernodal analysis and factorization had at once, by CHOLMOD's own count; A is not among them. */
+/** Peak memory in bytes of the supernodal analysis and factorization, by CHOLMOD's own count,
+ *  without A.
+ */
 double peer_cholmod_peak(const peer_cholmod *peer);
 
 /** Entries of the simplicial L. */
 double peer_cholmod_nnz(const peer_cholmod *peer);
 
-/** What its dense kernels run on: the name of OpenBLAS's core. */
+/** Name of the processor core that OpenBLAS chose its kernels for. */
 const char *peer_cholmod_kernels(void);
 
-/** Eigen's SimplicialLDLT with natural ordering of a matrix permuted beforehand. */
+/** CHOLMOD on the caller's matrix with an ordering that CHOLMOD computes itself. */
+typedef struct peer_cholmod_own peer_cholmod_own;
+
+typedef enum peer_cholmod_ordering {
+    PEER_CHOLMOD_METIS,   /* one method: METIS; all else as cholmod_start leaves it */
+    PEER_CHOLMOD_DEFAULTS /* nothing set: AMD, then METIS if AMD's fill is large */
+} peer_cholmod_ordering;
+
+/** cholmod_start, cholmod_analyze, cholmod_factorize. A stores its lower triangle and must outlive
+ *  the peer. Exits with a message on an error.
+ */
+peer_cholmod_own *peer_cholmod_own_create(const sl_csc *A, peer_cholmod_ordering ordering);
+
+/** Everything that create allocated, and cholmod_finish. NULL is allowed. */
+void peer_cholmod_own_free(peer_cholmod_own *peer);
+
+/** cholmod_factorize again, same matrix. */
+void peer_cholmod_own_factor(peer_cholmod_own *peer);
+
+/** B is n x nrhs, leading dimension n; so is the result, which is valid until the next call. */
+const double *peer_cholmod_own_solve(peer_cholmod_own *peer, const double *B, sl_int nrhs);
+
+/** Entries of L, and the operations of its factorization: the sum over columns of entries^2. */
+double peer_cholmod_own_nnz(const peer_cholmod_own *peer);
+double peer_cholmod_own_flops(const peer_cholmod_own *peer);
+
+/** What CHOLMOD chose: the kind of factor, and the ordering by name. */
+int peer_cholmod_own_is_supernodal(const peer_cholmod_own *peer);
+const char *peer_cholmod_own_ordering(const peer_cholmod_own *peer);
+
+/** Eigen's SimplicialLDLT with natural ordering, on a matrix that was permuted beforehand. */
 typedef struct peer_eigen peer_eigen;
 
-/** C is the lower triangle of P A P'; ends the program on an error. Analysed, not factored. */
+/** C is the lower triangle of P A P'. Analyses, does not factor. Exits with a message on an error.
+ */
 peer_eigen *peer_eigen_create(const sl_csc *C);
 void peer_eigen_free(peer_eigen *peer);
-void peer_eigen_analyse(peer_eigen *peer);
+void peer_eigen_analyze(peer_eigen *peer);
 void peer_eigen_factor(peer_eigen *peer);
 
 /** Solves C X = B; both n x nrhs, leading dimension n, in pivot order. */
 void peer_eigen_solve(peer_eigen *peer, double *X, const double *B, sl_int nrhs);
+
+/** Eigen's SimplicialLDLT with its defaults, AMD ordering included, on the caller's matrix. */
+typedef struct peer_eigen_amd peer_eigen_amd;
+
+/** A is copied and nothing is computed yet. */
+peer_eigen_amd *peer_eigen_amd_create(const sl_csc *A);
+void peer_eigen_amd_free(peer_eigen_amd *peer); /* NULL is allowed */
+
+/** analyzePattern alone. Returns the operations of the factorization: the sum over columns of
+ *  entries^2. */
+double peer_eigen_amd_analyze(peer_eigen_amd *peer);
+
+/** compute() with a new solver: ordering, analysis and factorization. */
+void peer_eigen_amd_compute(peer_eigen_amd *peer);
+
+/** factorize() again, same matrix; after compute. */
+void peer_eigen_amd_factor(peer_eigen_amd *peer);
+
+/** Solves A X = B; both n x nrhs, leading dimension n. */
+void peer_eigen_amd_solve(peer_eigen_amd *peer, double *X, const double *B, sl_int nrhs);
+
+/** Entries of L, the diagonal included; after compute. */
+double peer_eigen_amd_nnz(const peer_eigen_amd *peer);
 
 #ifdef __cplusplus
 }

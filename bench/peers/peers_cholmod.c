@@ -1,4 +1,4 @@
-/* peers_cholmod.c: CHOLMOD in its best setting for a given permutation */
+/* peers_cholmod.c: CHOLMOD in a given permutation and with orderings of its own */
 #include "peers.h"
 
 #include <cblas.h>
@@ -7,42 +7,61 @@
 #include <string.h>
 #include <suitesparse/cholmod.h>
 
-typedef struct side {
+typedef struct cholmod_solver {
     cholmod_common common;
     cholmod_factor *L;
-    cholmod_dense *X, *Y, *E; /* kept from solve to solve */
-} side;
+    cholmod_dense *X, *Y, *E; /* kept from one solve to the next */
+} cholmod_solver;
 
 struct peer_cholmod {
     cholmod_sparse A;
     sl_int *perm;
-    side super, simple;
-    cholmod_factor *plan, *first; /* supernodal: analysed only; of the latest first factorization */
-    cholmod_dense *b;             /* n x 1, read at Bset only */
-    double peak;                  /* bytes of the supernodal analysis and factorization */
-    cholmod_sparse *bset;         /* a column of n rows */
+    cholmod_solver supernodal, simplicial;
+    cholmod_factor *analysis; /* supernodal, analyzed only */
+    cholmod_factor *first;    /* supernodal, the latest first factorization */
+    cholmod_dense *b;         /* n x 1, read only at Bset */
+    double peak;              /* bytes of the supernodal analysis and factorization */
+    cholmod_sparse *bset;     /* a column of n rows */
     cholmod_sparse *xset;
 };
 
-static void must(int good, const char *doing) {
-    if (!good) {
+static void must(int passed, const char *doing) {
+    if (!passed) {
         fprintf(stderr, "bench: CHOLMOD failed: %s\n", doing);
         exit(2);
     }
 }
 
-static cholmod_factor *analyse(peer_cholmod *peer, side *s) {
+/* The caller's lower triangle, not copied. CHOLMOD does not write to its input but has no const. */
+static cholmod_sparse wrap(const sl_csc *A) {
+    cholmod_sparse C;
+    memset(&C, 0, sizeof C);
+    C.nrow = C.ncol = (size_t)A->n_rows;
+    C.nzmax = (size_t)A->p[A->n_cols];
+    memcpy(&C.p, &A->p, sizeof A->p);
+    memcpy(&C.i, &A->i, sizeof A->i);
+    memcpy(&C.x, &A->x, sizeof A->x);
+    C.stype = -1;
+    C.itype = CHOLMOD_INT;
+    C.xtype = CHOLMOD_REAL;
+    C.dtype = CHOLMOD_DOUBLE;
+    C.sorted = 1;
+    C.packed = 1;
+    return C;
+}
+
+static cholmod_factor *analyze(peer_cholmod *peer, cholmod_solver *s) {
     cholmod_factor *L = cholmod_analyze_p(&peer->A, peer->perm, NULL, 0, &s->common);
     must(L != NULL, "analysis");
     return L;
 }
 
-static void factor(peer_cholmod *peer, side *s) {
+static void factor(peer_cholmod *peer, cholmod_solver *s) {
     must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
          "factorization");
 }
 
-static void set_up(side *s, int supernodal) {
+static void set_up(cholmod_solver *s, int supernodal) {
     cholmod_common *c = &s->common;
     cholmod_start(c);
     c->nmethods = 1;
@@ -55,18 +74,18 @@ static void set_up(side *s, int supernodal) {
     c->final_asis = supernodal;
 }
 
-/* The simplicial factor, made of the supernodal one and freed of its relaxation's zeros: what CHOLMOD's own simplicial
- * factorization gives, in a fraction of its time. */
-static void make_simple(peer_cholmod *peer) {
-    cholmod_common *c = &peer->simple.common;
-    cholmod_factor *L = cholmod_copy_factor(peer->super.L, c);
+/* Converts the supernodal factor to a simplicial one without the zeros of relaxed amalgamation.
+ * The result is that of CHOLMOD's own simplicial factorization, in a fraction of its time. */
+static void make_simplicial(peer_cholmod *peer) {
+    cholmod_common *c = &peer->simplicial.common;
+    cholmod_factor *L = cholmod_copy_factor(peer->supernodal.L, c);
     must(L != NULL, "memory");
     must(cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, L, c) &&
              cholmod_resymbol(&peer->A, NULL, 0, 1, L, c),
          "from supernodal to simplicial");
-    peer->simple.L = L;
-    must(!L->is_super && !L->is_ll && L->xtype == CHOLMOD_REAL, "a simplicial LDL' was asked for");
-    must((double)L->nzmax <= 1.001 * peer->super.common.lnz + 1, "a packed L was asked for");
+    peer->simplicial.L = L;
+    must(!L->is_super && !L->is_ll && L->xtype == CHOLMOD_REAL, "a simplicial LDL' is needed");
+    must((double)L->nzmax <= 1.001 * peer->supernodal.common.lnz + 1, "a packed L is needed");
 }
 
 peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
@@ -74,36 +93,26 @@ peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
     must(peer != NULL, "memory");
     size_t n = (size_t)A->n_rows;
     openblas_set_num_threads(1);
-    peer->A.nrow = peer->A.ncol = n;
-    peer->A.nzmax = (size_t)A->p[n];
-    /* CHOLMOD does not write to its input, but has no const there */
-    memcpy(&peer->A.p, &A->p, sizeof A->p);
-    memcpy(&peer->A.i, &A->i, sizeof A->i);
-    memcpy(&peer->A.x, &A->x, sizeof A->x);
-    peer->A.stype = -1;
-    peer->A.itype = CHOLMOD_INT;
-    peer->A.xtype = CHOLMOD_REAL;
-    peer->A.dtype = CHOLMOD_DOUBLE;
-    peer->A.sorted = 1;
-    peer->A.packed = 1;
+    peer->A = wrap(A);
     peer->perm = malloc((n + 1) * sizeof *peer->perm);
     must(peer->perm != NULL, "memory");
     memcpy(peer->perm, perm, n * sizeof *perm);
-    set_up(&peer->super, 1);
-    set_up(&peer->simple, 0);
-    peer->super.L = analyse(peer, &peer->super);
-    const size_t before = peer->super.common.memory_inuse;
-    peer->plan = cholmod_copy_factor(peer->super.L, &peer->super.common);
-    must(peer->plan != NULL, "memory");
-    const size_t plan = peer->super.common.memory_inuse - before;
-    factor(peer, &peer->super);
-    peer->peak = (double)(peer->super.common.memory_usage - plan);
-    make_simple(peer);
-    peer->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &peer->simple.common);
-    peer->bset = cholmod_allocate_sparse(n, 1, n, 0, 1, 0, CHOLMOD_PATTERN, &peer->simple.common);
+    set_up(&peer->supernodal, 1);
+    set_up(&peer->simplicial, 0);
+    peer->supernodal.L = analyze(peer, &peer->supernodal);
+    const size_t before = peer->supernodal.common.memory_inuse;
+    peer->analysis = cholmod_copy_factor(peer->supernodal.L, &peer->supernodal.common);
+    must(peer->analysis != NULL, "memory");
+    const size_t analysis = peer->supernodal.common.memory_inuse - before;
+    factor(peer, &peer->supernodal);
+    peer->peak = (double)(peer->supernodal.common.memory_usage - analysis);
+    make_simplicial(peer);
+    peer->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &peer->simplicial.common);
+    peer->bset =
+        cholmod_allocate_sparse(n, 1, n, 0, 1, 0, CHOLMOD_PATTERN, &peer->simplicial.common);
     must(peer->b && peer->bset, "memory");
     if (n > 0) {
-        /* the first call makes the inverse permutation and the workspaces */
+        /* the first call allocates the inverse permutation and the workspaces */
         sl_int first = 0;
         double zero = 0;
         (void)peer_cholmod_local(peer, &first, 1, &zero);
@@ -111,7 +120,7 @@ peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
     return peer;
 }
 
-static void release(side *s) {
+static void release(cholmod_solver *s) {
     cholmod_free_factor(&s->L, &s->common);
     cholmod_free_dense(&s->X, &s->common);
     cholmod_free_dense(&s->Y, &s->common);
@@ -120,13 +129,13 @@ static void release(side *s) {
 }
 
 void peer_cholmod_free(peer_cholmod *peer) {
-    cholmod_free_dense(&peer->b, &peer->simple.common);
-    cholmod_free_sparse(&peer->bset, &peer->simple.common);
-    cholmod_free_sparse(&peer->xset, &peer->simple.common);
-    cholmod_free_factor(&peer->first, &peer->super.common);
-    cholmod_free_factor(&peer->plan, &peer->super.common);
-    release(&peer->simple);
-    release(&peer->super);
+    cholmod_free_dense(&peer->b, &peer->simplicial.common);
+    cholmod_free_sparse(&peer->bset, &peer->simplicial.common);
+    cholmod_free_sparse(&peer->xset, &peer->simplicial.common);
+    cholmod_free_factor(&peer->first, &peer->supernodal.common);
+    cholmod_free_factor(&peer->analysis, &peer->supernodal.common);
+    release(&peer->simplicial);
+    release(&peer->supernodal);
     free(peer->perm);
     free(peer);
 }
@@ -135,9 +144,9 @@ double peer_cholmod_peak(const peer_cholmod *peer) {
     return peer->peak;
 }
 
-void peer_cholmod_analyse(peer_cholmod *peer) {
-    cholmod_factor *L = analyse(peer, &peer->super);
-    cholmod_free_factor(&L, &peer->super.common);
+void peer_cholmod_analyze(peer_cholmod *peer) {
+    cholmod_factor *L = analyze(peer, &peer->supernodal);
+    cholmod_free_factor(&L, &peer->supernodal.common);
 }
 
 void peer_cholmod_values(peer_cholmod *peer, const double *x) {
@@ -145,31 +154,31 @@ void peer_cholmod_values(peer_cholmod *peer, const double *x) {
 }
 
 void peer_cholmod_factor(peer_cholmod *peer) {
-    factor(peer, &peer->super);
+    factor(peer, &peer->supernodal);
 }
 
-void peer_cholmod_factor_simple(peer_cholmod *peer) {
-    factor(peer, &peer->simple);
+void peer_cholmod_factor_simplicial(peer_cholmod *peer) {
+    factor(peer, &peer->simplicial);
 }
 
 void peer_cholmod_first_ready(peer_cholmod *peer) {
-    cholmod_free_factor(&peer->first, &peer->super.common);
-    peer->first = cholmod_copy_factor(peer->plan, &peer->super.common);
+    cholmod_free_factor(&peer->first, &peer->supernodal.common);
+    peer->first = cholmod_copy_factor(peer->analysis, &peer->supernodal.common);
     must(peer->first != NULL, "memory");
 }
 
 void peer_cholmod_first(peer_cholmod *peer) {
-    must(cholmod_factorize(&peer->A, peer->first, &peer->super.common), "first factorization");
+    must(cholmod_factorize(&peer->A, peer->first, &peer->supernodal.common), "first factorization");
 }
 
 void peer_cholmod_threads(int count) {
     openblas_set_num_threads(count);
 }
 
-static const double *solve(peer_cholmod *peer, side *s, const double *B, sl_int nrhs) {
+static const double *solve(cholmod_solver *s, const double *B, sl_int nrhs) {
     cholmod_dense b;
     memset(&b, 0, sizeof b);
-    b.nrow = b.d = peer->A.nrow;
+    b.nrow = b.d = s->L->n;
     b.ncol = (size_t)nrhs;
     b.nzmax = b.nrow * b.ncol;
     memcpy(&b.x, &B, sizeof B);
@@ -180,16 +189,16 @@ static const double *solve(peer_cholmod *peer, side *s, const double *B, sl_int 
 }
 
 const double *peer_cholmod_solve(peer_cholmod *peer, const double *B, sl_int nrhs) {
-    return solve(peer, &peer->super, B, nrhs);
+    return solve(&peer->supernodal, B, nrhs);
 }
 
-const double *peer_cholmod_solve_simple(peer_cholmod *peer, const double *B, sl_int nrhs) {
-    return solve(peer, &peer->simple, B, nrhs);
+const double *peer_cholmod_solve_simplicial(peer_cholmod *peer, const double *B, sl_int nrhs) {
+    return solve(&peer->simplicial, B, nrhs);
 }
 
 const double *peer_cholmod_local(peer_cholmod *peer, const sl_int *bset, sl_int nb,
                                  const double *b) {
-    side *s = &peer->simple;
+    cholmod_solver *s = &peer->simplicial;
     int *p = peer->bset->p, *i = peer->bset->i;
     double *values = peer->b->x;
     p[0] = 0;
@@ -205,9 +214,70 @@ const double *peer_cholmod_local(peer_cholmod *peer, const sl_int *bset, sl_int 
 }
 
 double peer_cholmod_nnz(const peer_cholmod *peer) {
-    return peer->super.common.lnz;
+    return peer->supernodal.common.lnz;
 }
 
 const char *peer_cholmod_kernels(void) {
     return openblas_get_corename();
+}
+
+/* ---- CHOLMOD with an ordering of its own ---- */
+
+struct peer_cholmod_own {
+    cholmod_sparse A;
+    cholmod_solver solver;
+};
+
+peer_cholmod_own *peer_cholmod_own_create(const sl_csc *A, peer_cholmod_ordering ordering) {
+    peer_cholmod_own *peer = calloc(1, sizeof *peer);
+    must(peer != NULL, "memory");
+    cholmod_solver *s = &peer->solver;
+    openblas_set_num_threads(1);
+    peer->A = wrap(A);
+    cholmod_start(&s->common);
+    if (ordering == PEER_CHOLMOD_METIS) {
+        s->common.nmethods = 1;
+        s->common.method[0].ordering = CHOLMOD_METIS;
+    }
+    s->L = cholmod_analyze(&peer->A, &s->common);
+    must(s->L != NULL, "analysis with its own ordering");
+    peer_cholmod_own_factor(peer);
+    return peer;
+}
+
+void peer_cholmod_own_free(peer_cholmod_own *peer) {
+    if (peer) {
+        release(&peer->solver);
+        free(peer);
+    }
+}
+
+void peer_cholmod_own_factor(peer_cholmod_own *peer) {
+    cholmod_solver *s = &peer->solver;
+    must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
+         "factorization with its own ordering");
+}
+
+const double *peer_cholmod_own_solve(peer_cholmod_own *peer, const double *B, sl_int nrhs) {
+    return solve(&peer->solver, B, nrhs);
+}
+
+double peer_cholmod_own_nnz(const peer_cholmod_own *peer) {
+    return peer->solver.common.lnz;
+}
+
+double peer_cholmod_own_flops(const peer_cholmod_own *peer) {
+    return peer->solver.common.fl;
+}
+
+int peer_cholmod_own_is_supernodal(const peer_cholmod_own *peer) {
+    return peer->solver.L->is_super;
+}
+
+const char *peer_cholmod_own_ordering(const peer_cholmod_own *peer) {
+    const int ordering = peer->solver.L->ordering;
+    return ordering == CHOLMOD_METIS    ? "METIS"
+           : ordering == CHOLMOD_AMD    ? "AMD"
+           : ordering == CHOLMOD_NESDIS ? "NESDIS"
+                                        : "another ordering";
 }

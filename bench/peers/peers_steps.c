@@ -1,4 +1,4 @@
-/* peers_steps.c: one system in the hands of this library and of its peers, and races between them */
+/* peers_steps.c: one system factored by all libraries; timing and printing of a step */
 #define _POSIX_C_SOURCE 200112L
 #include <stdlib.h>
 #include <string.h>
@@ -6,109 +6,136 @@
 
 #include "peers_steps.h"
 
-enum { MOST_ENTRIES = 8 };
+enum { MAX_ROWS = 10 };
 
-static const double most_flops_eigen = 5e10, large_panels = 5e7;
+static const double max_flops_eigen = 5e10, min_panels_brief = 5e7;
 
-match *match_create(const bench_run *run, const bench_system *system, sl_int most_rhs) {
-    match *m = bench_alloc(1, sizeof *m);
+comparison *comparison_create(const bench_run *run, const bench_system *system, sl_int max_rhs) {
+    comparison *cmp = bench_alloc(1, sizeof *cmp);
     const sl_int *perm = sl_symbolic_view(system->S).perm;
     const size_t n = (size_t)system->n;
     sl_options options;
-    memset(m, 0, sizeof *m);
+    memset(cmp, 0, sizeof *cmp);
     memset(&options, 0, sizeof options);
-    m->system = system;
-    m->is_brief = (double)system->stats.nnz_panels > large_panels && run->size != BENCH_FULL;
-    m->given.ordering = SL_ORDERING_GIVEN;
-    m->given.perm = perm;
-    bench_must(sl_factor_create(&m->F, system->S, &system->A, NULL, NULL), "factor");
-    m->narrow = *system;
-    m->narrow.F = NULL;
+    cmp->system = system;
+    cmp->is_brief =
+        (double)system->stats.symbolic.nnz_panels > min_panels_brief && run->size != BENCH_FULL;
+    cmp->given.ordering = SL_ORDERING_GIVEN;
+    cmp->given.perm = perm;
+    bench_must(sl_factor_create(&cmp->F, system->S, &system->A, NULL, NULL), "factor");
+    cmp->avx2 = *system;
+    cmp->avx2.F = NULL;
     options.isa = SL_ISA_AVX2;
-    if (system->stats.isa == SL_ISA_AVX512) {
+    if (system->stats.factor.isa == SL_ISA_AVX512) {
         bench_must(
-            sl_factor_create(&m->narrow.F, system->S, &system->A, &options, &m->narrow.stats),
+            sl_factor_create(&cmp->avx2.F, system->S, &system->A, &options, &cmp->avx2.stats),
             "factor with AVX2");
     }
     options.isa = SL_ISA_AUTO;
     options.threads = bench_threads(PEERS_THREADS);
-    bench_must(sl_factor_create(&m->threaded, system->S, &system->A, &options, NULL), "factor");
-    bench_must(sl_work_create(&m->W, NULL), "workspace");
-    m->B = bench_alloc(n * (size_t)most_rhs, sizeof *m->B);
-    m->X = bench_alloc(n * (size_t)most_rhs, sizeof *m->X);
+    bench_must(sl_factor_create(&cmp->threaded, system->S, &system->A, &options, NULL), "factor");
+    bench_must(sl_work_create(&cmp->W, NULL), "workspace");
+    cmp->B = bench_alloc(n * (size_t)max_rhs, sizeof *cmp->B);
+    cmp->X = bench_alloc(n * (size_t)max_rhs, sizeof *cmp->X);
     bench_progress("[%s: CHOLMOD]\n", system->name);
-    m->cholmod = peer_cholmod_create(&system->A, perm);
-    if (system->stats.flops < most_flops_eigen) {
+    cmp->cholmod = peer_cholmod_create(&system->A, perm);
+    if (system->stats.symbolic.flops < max_flops_eigen) {
         bench_progress("[%s: Eigen]\n", system->name);
-        bench_must(sl_matrix_permute(&m->permuted, &system->A, perm, NULL), "permuting for Eigen");
-        const sl_csc C = sl_matrix_view(m->permuted);
-        m->eigen = peer_eigen_create(&C);
+        bench_must(sl_matrix_permute(&cmp->permuted, &system->A, perm, NULL),
+                   "permuting for Eigen");
+        const sl_csc C = sl_matrix_view(cmp->permuted);
+        cmp->eigen = peer_eigen_create(&C);
         const double start = bench_now();
-        peer_eigen_analyse(m->eigen);
+        peer_eigen_analyze(cmp->eigen);
         const double middle = bench_now();
-        peer_eigen_factor(m->eigen);
-        m->eigen_analyse = middle - start;
-        m->eigen_first = bench_now() - middle;
+        peer_eigen_factor(cmp->eigen);
+        cmp->eigen_analyze = middle - start;
+        cmp->eigen_first = bench_now() - middle;
     }
-    return m;
+    return cmp;
 }
 
-void match_free(match *m) {
-    if (m->eigen) {
-        peer_eigen_free(m->eigen);
+void comparison_free(comparison *cmp) {
+    if (cmp->eigen) {
+        peer_eigen_free(cmp->eigen);
     }
-    sl_matrix_free(m->permuted);
-    peer_cholmod_free(m->cholmod);
-    sl_work_free(m->W);
-    sl_factor_free(m->threaded);
-    sl_factor_free(m->narrow.F);
-    sl_factor_free(m->first);
-    sl_factor_free(m->F);
-    sl_symbolic_free(m->S);
-    free(m->X);
-    free(m->B);
-    free(m);
+    sl_matrix_free(cmp->permuted);
+    peer_eigen_amd_free(cmp->eigen_defaults);
+    peer_cholmod_own_free(cmp->cholmod_defaults);
+    peer_cholmod_own_free(cmp->cholmod_metis);
+    peer_cholmod_free(cmp->cholmod);
+    sl_work_free(cmp->W);
+    sl_factor_free(cmp->threaded);
+    sl_factor_free(cmp->avx2.F);
+    sl_factor_free(cmp->first);
+    sl_factor_free(cmp->F);
+    sl_symbolic_free(cmp->S);
+    free(cmp->X);
+    free(cmp->B);
+    free(cmp);
 }
 
-double peers_race(double seconds, bench_report *report, const match *m, const char *what,
-                  sl_int nrhs, entry *entries, int count, const sl_stats *reach, double baseline) {
-    bench_contender contenders[MOST_ENTRIES] = {{NULL, NULL, 0, NULL}};
-    bench_sample samples[MOST_ENTRIES];
+void peers_time(double seconds, timed_row *rows, int count) {
+    bench_contender contenders[MAX_ROWS] = {{NULL, NULL, 0, NULL}};
+    bench_sample samples[MAX_ROWS];
     int racing = 0;
     for (int c = 0; c < count; c++) {
-        if (entries[c].sample.count == 0) {
-            contenders[racing++] = (bench_contender){entries[c].call, entries[c].state,
-                                                     entries[c].batch, entries[c].ready};
+        if (rows[c].sample.count == 0) {
+            contenders[racing++] =
+                (bench_contender){rows[c].call, rows[c].state, rows[c].batch, rows[c].ready};
         }
     }
     bench_race(samples, contenders, racing, seconds);
     racing = 0;
     for (int c = 0; c < count; c++) {
-        if (entries[c].sample.count == 0) {
-            entries[c].sample = samples[racing++];
+        if (rows[c].sample.count == 0) {
+            rows[c].sample = samples[racing++];
         }
+    }
+}
+
+double peers_report(bench_report *report, const comparison *cmp, const char *what, sl_int nrhs,
+                    const timed_row *rows, int count, const sl_stats *reach, double baseline) {
+    for (int c = 0; c < count; c++) {
         bench_row row = {.what = what,
-                         .method = entries[c].method,
-                         .isa = entries[c].isa,
-                         .foreign = entries[c].foreign,
-                         .threads = entries[c].threads,
+                         .method = rows[c].method,
+                         .isa = rows[c].isa,
+                         .is_peer = rows[c].is_peer,
+                         .threads = rows[c].threads,
                          .nrhs = nrhs,
-                         .entries = entries[c].entries,
-                         .passes = entries[c].passes,
-                         .flops = entries[c].flops,
-                         .time = entries[c].sample};
+                         .entries = rows[c].entries,
+                         .passes = rows[c].passes,
+                         .flops = rows[c].flops,
+                         .time = rows[c].sample};
         if (reach) {
             row.reach = *reach;
         }
-        baseline = baseline > 0 ? baseline : entries[0].sample.median;
+        baseline = baseline > 0 ? baseline : rows[0].sample.median;
         row.baseline = baseline;
-        bench_report_row(report, m->system, &row);
+        bench_report_row(report, cmp->system, &row);
     }
     return baseline;
 }
 
-void peers_nap(void *state) {
-    const struct timespec nap = {0, 40 * 1000 * 1000};
+double peers_race(double seconds, bench_report *report, const comparison *cmp, const char *what,
+                  sl_int nrhs, timed_row *rows, int count, const sl_stats *reach, double baseline) {
+    peers_time(seconds, rows, count);
+    return peers_report(report, cmp, what, nrhs, rows, count, reach, baseline);
+}
+
+bench_sample peers_one_sample(double seconds) {
+    const bench_sample sample = {1, seconds, seconds, seconds};
+    return sample;
+}
+
+bench_sample peers_time_once(void (*call)(void *), void *state) {
+    const double start = bench_now();
+    call(state);
+    return peers_one_sample(bench_now() - start);
+}
+
+void peers_wait_idle(void *state) {
+    const struct timespec pause = {0, 40 * 1000 * 1000};
     (void)state;
-    (void)nanosleep(&nap, NULL);
+    (void)nanosleep(&pause, NULL);
 }

@@ -1,73 +1,96 @@
-/* peers_steps.h: one system in the hands of this library and of its peers, and the steps that are timed on it */
+/* peers_steps.h: one system factored by this library and by its peers, and the steps timed on it */
 #ifndef BENCH_PEERS_STEPS_H
 #define BENCH_PEERS_STEPS_H
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 #include "peers.h"
 
-enum { PEERS_MOST_RHS = 64, PEERS_THREADS = 2 };
+enum { PEERS_MAX_RHS = 64, PEERS_THREADS = 2 };
 
-/** The permutation is the one that our analysis ended with. Eigen is given the permuted matrix and permuted vectors,
- *  so that it permutes nothing. */
-typedef struct match {
-    const bench_system *system; /* kernels of the best ISA */
-    bench_system narrow; /* the same with AVX2 forced; F NULL where AVX2 is the best, or not here */
-    sl_options given;    /* the same permutation */
-    sl_factor *F, *first; /* for refactorizations, for first ones */
-    sl_factor *threaded;  /* refactors on PEERS_THREADS */
-    sl_symbolic *S;       /* the latest analysis */
+/** One system, factored by every library. Unless a field says otherwise, the permutation is the one
+ *  that our analysis ended with; Eigen receives a permuted matrix and permuted vectors, so that it
+ *  permutes nothing.
+ */
+typedef struct comparison {
+    const bench_system *system; /* with the kernels of the best instruction set */
+    bench_system avx2;   /* the same with AVX2 forced; F is NULL if AVX2 is the best or absent */
+    sl_options given;    /* our permutation as a given one */
+    sl_factor *F;        /* for refactorizations */
+    sl_factor *first;    /* the latest first factorization */
+    sl_factor *threaded; /* refactors on PEERS_THREADS */
+    sl_symbolic *S;      /* the latest analysis */
     peer_cholmod *cholmod;
-    peer_eigen *eigen;                 /* NULL where its factorization would take minutes */
-    double eigen_analyse, eigen_first; /* seconds of its analysis, of its first factorization */
+    peer_eigen *eigen;                  /* NULL if its factorization would take minutes */
+    double eigen_analyze, eigen_first;  /* seconds of its analysis, of its first factorization */
+    peer_cholmod_own *cholmod_metis;    /* in an ordering of its own; during one step */
+    peer_cholmod_own *cholmod_defaults; /* from peers_order_to_factor on */
+    peer_eigen_amd *eigen_defaults;     /* the same; NULL if it would take too long */
+    double eigen_defaults_flops;
     sl_matrix *permuted;
-    int is_brief; /* a large system, and not BENCH=full: fewer repetitions and steps */
+    int is_brief; /* large and not BENCH=full: fewer repetitions and steps */
     sl_int nrhs;
-    double *B, *X; /* n x most_rhs */
+    double *B, *X; /* n x max_rhs */
     sl_work *W;
-    const double *answer; /* CHOLMOD's last */
-    bench_sample
-        best_full[3]; /* [nrhs], CHOLMOD's best full solve of 1 and of 2; count 0: not timed */
-} match;
+    const double *answer;      /* CHOLMOD's latest solution */
+    bench_sample best_full[3]; /* [nrhs], CHOLMOD's fastest full solve; count 0: not timed */
+} comparison;
 
-match *match_create(const bench_run *run, const bench_system *system, sl_int most_rhs);
-void match_free(match *m);
+comparison *comparison_create(const bench_run *run, const bench_system *system, sl_int max_rhs);
+void comparison_free(comparison *cmp);
 
-/** One contender and its row. */
-typedef struct entry {
+/** A contender and its line in the table. */
+typedef struct timed_row {
     const char *method;
     void (*call)(void *);
     void *state;
     int batch; /* 0 means 1 */
-    int foreign;
+    int is_peer;
     sl_isa isa;
     sl_int threads;
     double entries, flops;
     int passes;
     void (*ready)(void *);
-    bench_sample sample; /* count > 0: timed before, the row alone is wanted */
-} entry;
+    bench_sample sample; /* count > 0: timed already, only to be printed */
+} timed_row;
 
-/** Races the entries for about so many seconds and prints a row for each; the first is the baseline. Leaves the times
- *  in sample. baseline: seconds; 0: the median of the first entry. Returns the baseline. */
-double peers_race(double seconds, bench_report *report, const match *m, const char *what,
-                  sl_int nrhs, entry *entries, int count, const sl_stats *reach, double baseline);
+/** Times the rows that have no sample yet, side by side, for about the given number of seconds. */
+void peers_time(double seconds, timed_row *rows, int count);
 
-/** Waits until OpenBLAS's threads sleep, which spin for a while after their work. state is not read. */
-void peers_nap(void *state);
+/** Prints a line for each row. The ratio's baseline is in seconds; 0 means the median of the first
+ *  row. reach may be NULL. Returns the baseline. */
+double peers_report(bench_report *report, const comparison *cmp, const char *what, sl_int nrhs,
+                    const timed_row *rows, int count, const sl_stats *reach, double baseline);
 
-/** Analysis, first factorization, refactorization, on one thread and on two (peers_factor.c). */
-void peers_factor(bench_run *run, bench_report *report, match *m);
+/** peers_time, then peers_report. */
+double peers_race(double seconds, bench_report *report, const comparison *cmp, const char *what,
+                  sl_int nrhs, timed_row *rows, int count, const sl_stats *reach, double baseline);
 
-/** Order, analysis and first factorization, beside METIS and CHOLMOD (peers_setup.c). */
-void peers_setup(bench_run *run, bench_report *report, match *m);
+/** One timed call, for what takes seconds. */
+bench_sample peers_time_once(void (*call)(void *), void *state);
 
-/** A full solve with so many right-hand sides (peers_solve.c). */
-void peers_solve(bench_run *run, bench_report *report, match *m, sl_int nrhs);
+/** A sample of one time. */
+bench_sample peers_one_sample(double seconds);
 
-/** Local solves: one vertex, a pair, patches (peers_local.c). */
-void peers_local(bench_run *run, bench_report *report, match *m);
+/** Waits until the threads of OpenBLAS, which spin for a while after their work, sleep. state is
+ *  not read.
+ */
+void peers_wait_idle(void *state);
 
-/** Entries of the inverse, diagonal ones and pairs (peers_inverse.c). */
-void peers_inverse(bench_run *run, bench_report *report, match *m);
+/** Analysis, first factorization, refactorization, on one thread and on two (peers_factor.c). Needs
+ *  the factors that peers_order_to_factor leaves.
+ */
+void peers_factor(bench_run *run, bench_report *report, comparison *cmp);
+
+/** Ordering, analysis and first factorization together (peers_order_to_factor.c). */
+void peers_order_to_factor(bench_run *run, bench_report *report, comparison *cmp);
+
+/** A full solve with nrhs right-hand sides (peers_solve.c). */
+void peers_solve(bench_run *run, bench_report *report, comparison *cmp, sl_int nrhs);
+
+/** Local solves: one vertex, a pair of vertices, patches (peers_local.c). */
+void peers_local(bench_run *run, bench_report *report, comparison *cmp);
+
+/** Entries of the inverse, on and off the diagonal (peers_inverse.c). */
+void peers_inverse(bench_run *run, bench_report *report, comparison *cmp);
 
 #endif

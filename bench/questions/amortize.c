@@ -1,21 +1,21 @@
-/* amortize.c: how many patches, each factored for itself, take as long as factoring the whole mesh? */
+/* amortize.c: after how many patches does one factorization of the whole mesh pay off? */
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-/* Figure 6 (right) of [HDA17]: the time of analysing and factoring A(patch, patch) over that of the whole matrix, against
- * the patch's share of the vertices. One over it is the number of patches from which on the whole factorization pays,
- * the solves left aside. In the paper the ratio depends on the share alone, and 20 % of the vertices take a tenth of the
- * time. */
+/* Figure 6 (right) of [HDA17]: the time to analyze and factor A(patch, patch), divided by that
+ * of the whole matrix, against the patch's share of the vertices. Its inverse is the number of
+ * patches from which on the whole factorization is cheaper, without the solves. In the paper the
+ * ratio depends on the share alone, and 20 % of the vertices take a tenth of the time. */
 enum { SHARES = 8 };
 
-typedef struct preparation {
+typedef struct setup {
     const sl_csc *A;
-} preparation;
+} setup;
 
-static void call_prepare(void *state) {
-    const preparation *p = state;
+static void call_setup(void *state) {
+    const setup *p = state;
     sl_symbolic *S;
     sl_factor *F;
     bench_must(sl_symbolic_create(&S, p->A, NULL, NULL), "analysis");
@@ -27,9 +27,9 @@ static void call_prepare(void *state) {
 static void one_system(const bench_run *run, bench_report *report, bench_plot *plot,
                        const bench_system *system) {
     static const double shares[SHARES] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8};
-    preparation whole = {&system->A};
-    bench_contender contender = {call_prepare, &whole, 1, NULL};
-    bench_row row = {.what = "whole", .method = "analyse and factor"};
+    setup whole = {&system->A};
+    bench_contender contender = {call_setup, &whole, 1, NULL};
+    bench_row row = {.what = "whole", .method = "analyze and factor"};
     bench_race(&row.time, &contender, 1, run->seconds);
     row.baseline = row.time.median;
     bench_report_row(report, system, &row);
@@ -40,8 +40,8 @@ static void one_system(const bench_run *run, bench_report *report, bench_plot *p
         if (bench_patch_pick(&patch, 1, system, size) == 0) {
             continue;
         }
-        preparation part = {&patch.A};
-        contender.state = &part;
+        setup patch_only = {&patch.A};
+        contender.state = &patch_only;
         snprintf(what, sizeof what, "patch of %.0f %%", 100 * shares[k]);
         snprintf(series, sizeof series, "mesh of %d vertices", (int)system->n);
         row.what = what;
@@ -58,11 +58,11 @@ void bench_amortize(bench_run *run) {
     int count = bench_systems(run, wanted, run->size == BENCH_FULL ? 4 : 3, systems);
     bench_report *report =
         bench_report_open(run, "amortize",
-                          "preparing a patch alone against preparing the mesh (paper: Figure 6, "
+                          "setup for a patch alone against setup for the mesh ([HDA17] Figure 6, "
                           "right)",
-                          "analyse and factor the whole mesh");
+                          "analyze and factor the whole mesh");
     bench_plot *plot =
-        bench_plot_open(run, "amortize", "Preparing a patch alone, against the whole mesh",
+        bench_plot_open(run, "amortize", "Setup for a patch alone, against the whole mesh",
                         "share of the vertices", "share of the time", "xy");
     for (int k = 0; k < count; k++) {
         one_system(run, report, plot, systems[k]);

@@ -1,9 +1,9 @@
-/* factor.c: how long does factoring take, beside the alternatives and the limits? */
+/* factor.c: how long does a factorization take, and how far is it from the limits? */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -12,38 +12,41 @@
 #define RETURN_MEMORY() (void)0
 #endif
 
-/* Every way to factor one system, over the order that its analysis found; the permutation is given, so the analysis
- * is timed without METIS. A solve with each is checked. The rate is stats.flops (the sum over columns of entries^2,
- * twice the multiply-adds of L without relaxation) a second, the limit these flops at the peak of the ISA, times the
- * threads. */
-enum { MAX_SYSTEMS = 8, MOST_WAYS = 8, THREADS = 2 };
+/* Every variant factors one system in the ordering that its analysis found. That ordering is
+ * given to the analysis, whose time therefore contains no ordering. A solve with each factor is
+ * checked. The rate is stats.symbolic.flops (the sum over columns of entries^2, twice the
+ * multiply-adds of L without relaxation) per second; the limit is these flops at the peak of the
+ * instruction set, times the threads. */
+enum { MAX_SYSTEMS = 8, MAX_VARIANTS = 8, THREADS = 2 };
 
-/* What is slow is timed apart, so that the rest gets more rounds, and where it would take minutes not at all. */
-static const double most_flops_uplooking = 3e11, most_flops_scalar = 1e9;
+/* Slow variants are timed in a race of their own, so that the others get more rounds; variants
+ * that would take minutes are left out. */
+static const double max_flops_uplooking = 3e11, max_flops_scalar = 1e9;
 
-typedef struct way {
+typedef struct variant {
     const char *method;
     sl_options options;
     const bench_system *system;
     sl_factor *F;
-    int slow;
-} way;
+    int is_slow;
+} variant;
 
 static void call_refactor(void *state) {
-    way *w = state;
+    variant *w = state;
     bench_must(sl_factor_refactor(w->F, &w->system->A, NULL), w->method);
 }
 
-/* A first factorization, memory given back to the system before it: page faults and all. */
+/* A first factorization. Memory is returned to the system before it, so its time includes the
+ * page faults. */
 static void ready_first(void *state) {
-    way *w = state;
+    variant *w = state;
     sl_factor_free(w->F);
     w->F = NULL;
     RETURN_MEMORY();
 }
 
 static void call_first(void *state) {
-    way *w = state;
+    variant *w = state;
     bench_must(sl_factor_create(&w->F, w->system->S, &w->system->A, &w->options, NULL), w->method);
 }
 
@@ -53,14 +56,14 @@ typedef struct analysis {
     sl_symbolic *S;
 } analysis;
 
-static void ready_analyse(void *state) {
+static void ready_analyze(void *state) {
     analysis *a = state;
     sl_symbolic_free(a->S);
     a->S = NULL;
     RETURN_MEMORY();
 }
 
-static void call_analyse(void *state) {
+static void call_analyze(void *state) {
     analysis *a = state;
     bench_must(sl_symbolic_create(&a->S, &a->system->A, &a->options, NULL), "analysis");
 }
@@ -72,15 +75,15 @@ static void note_memory(bench_report *report, const bench_system *system, sl_opt
                       "its peak), factor %.1f MB;",
                       "", 1e-6 * m.matrix, 1e-6 * m.panels, 1e-6 * m.analysis,
                       1e-6 * m.analysis_peak, 1e-6 * m.factor);
-    bench_report_note(report, "%-14s   peak of analyse + factor %.1f MB = %.2f (A + panels of L)",
+    bench_report_note(report, "%-14s   peak of analyze + factor %.1f MB = %.2f (A + panels of L)",
                       "", 1e-6 * m.peak, m.peak / (m.matrix + m.panels));
 }
 
-/* ---- ways ---- */
+/* ---- variants ---- */
 
-static int add_way(way *ways, int count, const bench_system *system, const char *method,
-                   sl_method how, sl_isa isa, sl_int threads) {
-    way *w = &ways[count];
+static int add_variant(variant *variants, int count, const bench_system *system, const char *method,
+                       sl_method how, sl_isa isa, sl_int threads) {
+    variant *w = &variants[count];
     memset(w, 0, sizeof *w);
     w->method = method;
     w->system = system;
@@ -90,7 +93,7 @@ static int add_way(way *ways, int count, const bench_system *system, const char 
         w->options.threads = bench_threads(threads);
     }
     const sl_status status = sl_factor_create(&w->F, system->S, &system->A, &w->options,
-                                              NULL); /* not every ISA is here */
+                                              NULL); /* the instruction set may be absent */
     if (status == SL_ERR_UNSUPPORTED) {
         return count;
     }
@@ -98,90 +101,92 @@ static int add_way(way *ways, int count, const bench_system *system, const char 
     return count + 1;
 }
 
-/* The supernodal method of the best ISA comes first: it is the baseline. */
-static int make_ways(way *ways, const bench_system *system) {
-    const double flops = system->stats.flops;
-    const sl_isa best = system->stats.isa;
-    int count = add_way(ways, 0, system, "refactor", SL_METHOD_SUPERNODAL, SL_ISA_AUTO, 1), fast;
-    count = add_way(ways, count, system, "refactor, 2 threads", SL_METHOD_SUPERNODAL, SL_ISA_AUTO,
-                    THREADS);
+/* The supernodal method with the best instruction set comes first: it is the baseline. */
+static int add_variants(variant *variants, const bench_system *system) {
+    const double flops = system->stats.symbolic.flops;
+    const sl_isa best = system->stats.factor.isa;
+    int count = add_variant(variants, 0, system, "refactor", SL_METHOD_SUPERNODAL, SL_ISA_AUTO, 1),
+        fast;
+    count = add_variant(variants, count, system, "refactor, 2 threads", SL_METHOD_SUPERNODAL,
+                        SL_ISA_AUTO, THREADS);
     if (best != SL_ISA_AVX2) {
-        count = add_way(ways, count, system, "refactor, AVX2 forced", SL_METHOD_SUPERNODAL,
-                        SL_ISA_AVX2, 1);
+        count = add_variant(variants, count, system, "refactor, AVX2 forced", SL_METHOD_SUPERNODAL,
+                            SL_ISA_AVX2, 1);
     }
     fast = count;
-    if (best != SL_ISA_SCALAR && flops < most_flops_scalar) {
-        count = add_way(ways, count, system, "refactor, scalar forced", SL_METHOD_SUPERNODAL,
-                        SL_ISA_SCALAR, 1);
+    if (best != SL_ISA_SCALAR && flops < max_flops_scalar) {
+        count = add_variant(variants, count, system, "refactor, scalar forced",
+                            SL_METHOD_SUPERNODAL, SL_ISA_SCALAR, 1);
     }
-    if (flops < most_flops_uplooking) {
-        count = add_way(ways, count, system, "refactor, up-looking", SL_METHOD_UP_LOOKING,
-                        SL_ISA_AUTO, 1);
+    if (flops < max_flops_uplooking) {
+        count = add_variant(variants, count, system, "refactor, up-looking", SL_METHOD_UP_LOOKING,
+                            SL_ISA_AUTO, 1);
     }
     for (int c = fast; c < count; c++) {
-        ways[c].slow = 1;
+        variants[c].is_slow = 1;
     }
     return count;
 }
 
-static int check_way(bench_run *run, way *w) {
+static int check_variant(bench_run *run, variant *w) {
     const size_t n = (size_t)w->system->n;
     double *b = bench_alloc(n, sizeof *b), *x = bench_alloc(n, sizeof *x);
-    uint64_t chance = 6;
-    bench_random_fill(&chance, b, n);
+    uint64_t rng = 6;
+    bench_random_fill(&rng, b, n);
     bench_must(sl_factor_solve(w->F, x, n, b, n, 1, NULL), "full solve");
-    const int good = bench_check_residual(run, w->system, x, b, 1, w->method);
+    const int passed = bench_check_residual(run, w->system, x, b, 1, w->method);
     free(x);
     free(b);
-    return good;
+    return passed;
 }
 
-static void report_ways(bench_report *report, const bench_system *system, const way *ways,
-                        const bench_sample *samples, int count, double baseline) {
+static void report_variants(bench_report *report, const bench_system *system,
+                            const variant *variants, const bench_sample *samples, int count,
+                            double baseline) {
     for (int c = 0; c < count; c++) {
         sl_stats stats = system->stats;
         bench_row row = {.what = "factor",
-                         .method = ways[c].method,
-                         .flops = system->stats.flops,
+                         .method = variants[c].method,
+                         .flops = system->stats.symbolic.flops,
                          .time = samples[c],
                          .baseline = baseline};
-        sl_factor_stats(ways[c].F, &stats);
-        row.isa = stats.isa;
-        row.threads = ways[c].options.threads.count;
+        sl_factor_stats(variants[c].F, &stats);
+        row.isa = stats.factor.isa;
+        row.threads = variants[c].options.threads.count;
         bench_report_row(report, system, &row);
     }
 }
 
 static void one_system(bench_run *run, bench_report *report, const bench_system *system) {
-    way ways[MOST_WAYS], first = {"first, memory included", {0}, system, NULL, 0};
+    variant variants[MAX_VARIANTS], first = {"first, memory included", {0}, system, NULL, 0};
     analysis a = {system, {0}, NULL};
-    bench_contender contenders[MOST_WAYS];
-    bench_sample samples[MOST_WAYS], prepared[2];
-    int count = make_ways(ways, system), fast = 0, good = 1;
+    bench_contender contenders[MAX_VARIANTS];
+    bench_sample samples[MAX_VARIANTS], prepared[2];
+    int count = add_variants(variants, system), fast = 0, passed = 1;
     a.options.ordering = SL_ORDERING_GIVEN;
     a.options.perm = sl_symbolic_view(system->S).perm;
     for (int c = 0; c < count; c++) {
-        good &= check_way(run, &ways[c]);
-        fast += !ways[c].slow;
-        contenders[c] = (bench_contender){call_refactor, &ways[c], 1, NULL};
+        passed &= check_variant(run, &variants[c]);
+        fast += !variants[c].is_slow;
+        contenders[c] = (bench_contender){call_refactor, &variants[c], 1, NULL};
     }
-    if (good) {
+    if (passed) {
         bench_race(samples, contenders, fast, run->seconds);
         bench_race(samples + fast, contenders + fast, count - fast, run->seconds / 20);
         const double baseline = samples[0].median;
-        bench_contender cold[2] = {{call_analyse, &a, 1, ready_analyse},
+        bench_contender cold[2] = {{call_analyze, &a, 1, ready_analyze},
                                    {call_first, &first, 1, ready_first}};
         bench_race(prepared, cold, 2, run->seconds / 2);
         bench_row row = {
-            .what = "analyse", .method = "order given", .time = prepared[0], .baseline = baseline};
+            .what = "analyze", .method = "order given", .time = prepared[0], .baseline = baseline};
         bench_report_row(report, system, &row);
-        report_ways(report, system, &first, &prepared[1], 1, baseline);
-        report_ways(report, system, ways, samples, count, baseline);
+        report_variants(report, system, &first, &prepared[1], 1, baseline);
+        report_variants(report, system, variants, samples, count, baseline);
         sl_symbolic_free(a.S);
         sl_factor_free(first.F);
     }
     for (int c = 0; c < count; c++) {
-        sl_factor_free(ways[c].F);
+        sl_factor_free(variants[c].F);
     }
     note_memory(report, system, a.options);
 }
@@ -192,7 +197,7 @@ void bench_factor(bench_run *run) {
     const bench_system *systems[MAX_SYSTEMS];
     int count = bench_systems(run, wanted, 4, systems);
     bench_report *report = bench_report_open(
-        run, "factor", "the ways to factor: methods, instruction sets, threads", "refactor");
+        run, "factor", "factorization by method, instruction set and threads", "refactor");
     for (int k = 0; k < count; k++) {
         one_system(run, report, systems[k]);
     }

@@ -1,28 +1,29 @@
-/* kernels.c: how fast is each dense kernel of the factorization, by shape of the front? */
+/* front_kernels.c: how fast are the dense kernels of the factorization, by shape of the front? */
 #define SL_STATIC
-#include "../sparse_local.h" /* the bodies too: the kernel tables are seen here */
+#include "sparse_local.h" /* with the implementation: this file uses its kernel tables */
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-/* Every call works on another front: as many of a shape as fill ARENA doubles (one, where it is larger than that)
- * are filled with numbers of their own, copied from a master before each round and not timed, and factored one after
- * the other. So data come from the second cache as in a factorization, where a front has just been assembled, and
- * no branch or cache line is met twice in a round. Flops of a front: the sum over its columns of (entries)^2. */
+/* Every call works on another front. As many fronts of a shape as fit into ARENA doubles (one,
+ * if a front is larger) are filled with different numbers, copied from a master before each
+ * round (not timed), and factored one after the other. So data come from the second-level cache,
+ * as in a factorization, where a front has just been assembled, and no branch or cache line is
+ * met twice in a round. Flops of a front: the sum over its columns of entries^2. */
 enum {
     ARENA = 48 * 1024,
     SCRATCH = 8 * 8 * 256, /* sli_front_scratch */
-    INVERSE = 2 * 8 * 8,   /* SLI_FRONT_INVERSE; guards prove that neither is overrun */
+    INVERSE = 2 * 8 * 8,   /* SLI_FRONT_RECIPROCALS; guards detect writes past the scratch */
     GUARDS = 64,
     WIDTHS = 8,
     BELOWS = 6,
     SIZES = 8,
     LAYOUTS = 3,
-    MOST_ROUNDS = 2000,
+    MAX_SAMPLES = 2000,
     TILE = 8
 };
 
@@ -34,7 +35,7 @@ typedef struct arena {
     double *data, *master;
 } arena;
 
-/* 64-byte aligned, as inside a factor. */
+/* Allocates with 64-byte alignment, as inside a factor. */
 static double *aligned(size_t count) {
     void **raw = bench_alloc(count * sizeof(double) + 128, 1);
     unsigned char *block = (unsigned char *)(raw + 1);
@@ -70,7 +71,7 @@ static void arena_free(arena *a) {
 
 /* ---- fronts ---- */
 
-/* One item: panel, update matrix, pivots, magnitudes, in this order. */
+/* Layout of one item: panel, update matrix, pivots, magnitudes, in this order. */
 typedef struct shape {
     sl_int w, u, rows; /* rows: of the tiles */
     size_t panel, update, pivots, magnitudes;
@@ -91,22 +92,22 @@ static double update_at(const shape *s, const double *update, sl_int i, sl_int j
     return update[sli_panel_at(INT32_MAX, i - whole, j - whole)];
 }
 
-/* A front that is definite: random entries below a heavy diagonal. */
-static void fill_front(const shape *s, double *item, uint64_t *chance) {
+/* Fills a front that is positive definite: random entries below a dominant diagonal. */
+static void fill_front(const shape *s, double *item, uint64_t *rng) {
     double *panel = item, *magnitude = item + s->panel + s->update + s->pivots;
     for (sl_int j = 0; j < s->w; j++) {
         for (sl_int i = j; i < s->w + s->u; i++) {
             panel[sli_panel_at(s->w, i, j)] =
-                i == j ? s->w + s->u + bench_random_unit(chance) : bench_random_unit(chance);
+                i == j ? s->w + s->u + bench_random_unit(rng) : bench_random_unit(rng);
         }
         magnitude[j] = fabs(panel[sli_panel_at(s->w, j, j)]);
     }
-    bench_random_fill(chance, item + s->panel, s->update);
+    bench_random_fill(rng, item + s->panel, s->update);
 }
 
 static sli_front front_of(const shape *s, double *item) {
-    static double inverse[INVERSE];
-    static const sli_pivot_rule as_they_are = {0.0, 0, 0.0, NULL, NULL};
+    static double reciprocals[INVERSE];
+    static const sli_pivot_rule no_rule; /* all zero: no pivot is replaced */
     sli_front f;
     f.panel = item;
     f.width = s->w;
@@ -114,8 +115,8 @@ static sli_front front_of(const shape *s, double *item) {
     f.update = item + s->panel;
     f.D = f.update + s->update;
     f.magnitude = f.D + s->pivots;
-    f.inverse = inverse;
-    f.rule = &as_they_are;
+    f.reciprocals = reciprocals;
+    f.rule = &no_rule;
     f.column = 0;
     return f;
 }
@@ -126,9 +127,9 @@ static void run_front(const sli_kernels *kernels, const shape *s, double *item, 
     sli_front_update(kernels, &f, scratch);
 }
 
-/* A - L D L' at (i, j), of which the panel holds the columns. */
-static double apart_at(const shape *s, const double *before, const double *after, sl_int i,
-                       sl_int j) {
+/* Entry (i, j) of A - L D L', from the columns in the panel. */
+static double residual_at(const shape *s, const double *before, const double *after, sl_int i,
+                          sl_int j) {
     const double *D = after + s->panel + s->update;
     const sl_int last = j < s->w ? j : s->w;
     double sum = 0, unit = j < s->w && i == j ? 1 : 0;
@@ -142,11 +143,11 @@ static double apart_at(const shape *s, const double *before, const double *after
     return update_at(s, before + s->panel, i, j) - sum - update_at(s, after + s->panel, i, j);
 }
 
-/* Entries of the last item drawn by chance, and nothing written beside the scratch. */
+/* Checks random entries of the last item, and that nothing was written past the scratch. */
 static void check_front(bench_run *run, const sli_kernels *kernels, const shape *s, arena *a,
                         double *scratch) {
     const size_t at = a->size * (size_t)(a->count - 1);
-    uint64_t chance = 31;
+    uint64_t rng = 31;
     double worst = 0;
     int guarded = 1;
     for (int k = 0; k < GUARDS; k++) {
@@ -155,12 +156,12 @@ static void check_front(bench_run *run, const sli_kernels *kernels, const shape 
     arena_refill(a);
     run_front(kernels, s, a->data + at, scratch);
     for (int k = 0; k < 500; k++) {
-        sl_int i = bench_random_below(&chance, s->w + s->u);
-        sl_int j = bench_random_below(&chance, i + 1);
+        sl_int i = bench_random_below(&rng, s->w + s->u);
+        sl_int j = bench_random_below(&rng, i + 1);
         if (k < s->w) {
             i = j = k;
         }
-        worst = fmax(worst, fabs(apart_at(s, a->master + at, a->data + at, i, j)));
+        worst = fmax(worst, fabs(residual_at(s, a->master + at, a->data + at, i, j)));
     }
     for (int k = 0; k < GUARDS; k++) {
         guarded &= !(scratch[SCRATCH + k] < guard) && !(scratch[SCRATCH + k] > guard);
@@ -171,18 +172,18 @@ static void check_front(bench_run *run, const sli_kernels *kernels, const shape 
 }
 
 typedef struct timing {
-    bench_sample sample; /* seconds a call */
+    bench_sample sample; /* seconds per call */
     double gflops, share;
 } timing;
 
 static timing time_front(bench_run *run, const sli_kernels *kernels, const shape *s) {
-    static double times[MOST_ROUNDS];
+    static double times[MAX_SAMPLES];
     timing t;
     double flops = 0, *scratch = aligned(SCRATCH + GUARDS);
     arena a = arena_create(s->panel + s->update + s->pivots + s->magnitudes);
-    uint64_t chance = 77;
+    uint64_t rng = 77;
     for (int k = 0; k < a.count; k++) {
-        fill_front(s, a.master + a.size * (size_t)k, &chance);
+        fill_front(s, a.master + a.size * (size_t)k, &rng);
     }
     check_front(run, kernels, s, &a, scratch);
     for (sl_int k = 0; k < s->w; k++) {
@@ -190,7 +191,7 @@ static timing time_front(bench_run *run, const sli_kernels *kernels, const shape
     }
     const double begin = bench_now();
     int count = 0;
-    while (count < MOST_ROUNDS && (count < 3 || bench_now() - begin < run->seconds / 40)) {
+    while (count < MAX_SAMPLES && (count < 3 || bench_now() - begin < run->seconds / 40)) {
         arena_refill(&a);
         const double start = bench_now();
         for (int k = 0; k < a.count; k++) {
@@ -238,23 +239,24 @@ static void front_table(bench_run *run, FILE *csv, const sli_kernels *kernels) {
 
 /* ---- assemble ---- */
 
-/* A child's rows in a parent of w columns: next to each other from 0 on, the same from lane 3 on, or every third row
- * on the average. Half of them fall into the panel, half into the update matrix. */
+/* Relative indices of a child in a parent of w columns: consecutive from 0, consecutive from 3
+ * (not aligned to a tile), or every third row on average. Half of them fall into the panel, half
+ * into the update matrix. */
 static const char *const layouts[LAYOUTS] = {"dense", "dense, 3 off", "scattered"};
 
 typedef struct child {
     shape from, to;
-    sl_int *place;
+    sl_int *relative;
 } child;
 
 static child child_create(sl_int u, int layout) {
     child c;
-    uint64_t chance = 5;
-    c.place = bench_alloc((size_t)u, sizeof *c.place);
+    uint64_t rng = 5;
+    c.relative = bench_alloc((size_t)u, sizeof *c.relative);
     for (sl_int k = 0; k < u; k++) {
-        c.place[k] = layout == 0 ? k : layout == 1 ? k + 3 : 3 * k + bench_random_below(&chance, 3);
+        c.relative[k] = layout == 0 ? k : layout == 1 ? k + 3 : 3 * k + bench_random_below(&rng, 3);
     }
-    const sl_int w = c.place[u / 2], rows = c.place[u - 1] + 1;
+    const sl_int w = c.relative[u / 2], rows = c.relative[u - 1] + 1;
     c.from = shape_of(TILE, u);
     c.to = shape_of(w > 0 ? w : 1, rows - (w > 0 ? w : 1));
     return c;
@@ -269,36 +271,37 @@ static double *entry_of(const child *c, double *item, sl_int i, sl_int j) {
 static void run_assemble(const sli_kernels *kernels, const child *c, double *item) {
     const sli_front f = front_of(&c->to, item);
     const double *from = item + c->to.panel + c->to.update;
-    kernels->assemble(&f, from, c->from.w % TILE, c->place, c->from.u, 0, c->from.u);
+    kernels->assemble(&f, from, c->from.w % TILE, c->relative, c->from.u, 0, c->from.u);
 }
 
 static void check_assemble(bench_run *run, const sli_kernels *kernels, const child *c, arena *a) {
     const double *from = a->master + c->to.panel + c->to.update;
-    int good = 1;
+    int passed = 1;
     arena_refill(a);
     run_assemble(kernels, c, a->data);
     for (sl_int j = 0; j < c->from.u; j++) {
         for (sl_int i = j; i < c->from.u; i++) {
-            const double wanted = *entry_of(c, a->master, c->place[i], c->place[j]) +
+            const double wanted = *entry_of(c, a->master, c->relative[i], c->relative[j]) +
                                   update_at(&c->from, from, TILE + i, TILE + j);
-            const double got = *entry_of(c, a->data, c->place[i], c->place[j]);
-            good &= !(got < wanted) && !(got > wanted);
+            const double got = *entry_of(c, a->data, c->relative[i], c->relative[j]);
+            passed &= !(got < wanted) && !(got > wanted);
         }
     }
-    bench_expect(run, good, "assemble %d, %s: wrong", (int)c->from.u, bench_isa_name(kernels->isa));
+    bench_expect(run, passed, "assembly, %d rows, %s: wrong sums", (int)c->from.u,
+                 bench_isa_name(kernels->isa));
 }
 
 static timing time_assemble(bench_run *run, const sli_kernels *kernels, const child *c,
                             double *bytes) {
-    static double times[MOST_ROUNDS];
+    static double times[MAX_SAMPLES];
     timing t = {{0, 0, 0, 0}, 0, 0};
     arena a = arena_create(c->to.panel + c->to.update + c->from.update);
-    uint64_t chance = 8;
-    bench_random_fill(&chance, a.master, a.size * (size_t)a.count);
+    uint64_t rng = 8;
+    bench_random_fill(&rng, a.master, a.size * (size_t)a.count);
     check_assemble(run, kernels, c, &a);
     const double begin = bench_now();
     int count = 0;
-    while (count < MOST_ROUNDS && (count < 3 || bench_now() - begin < run->seconds / 40)) {
+    while (count < MAX_SAMPLES && (count < 3 || bench_now() - begin < run->seconds / 40)) {
         arena_refill(&a);
         const double start = bench_now();
         for (int k = 0; k < a.count; k++) {
@@ -336,26 +339,24 @@ static void assemble_table(bench_run *run, FILE *csv, const sli_kernels *kernels
                              : "scattered",
                     t.sample.count, t.sample.min, t.sample.median, t.sample.max,
                     bytes / t.sample.median * 1e-9);
-            free(c.place);
+            free(c.relative);
         }
         printf("\n");
         fflush(stdout);
     }
 }
 
-void bench_kernels(bench_run *run) {
+void bench_front_kernels(bench_run *run) {
     static const sl_isa isas[] = {SL_ISA_AVX512, SL_ISA_AVX2, SL_ISA_NEON, SL_ISA_SCALAR};
     char path[512];
-    snprintf(path, sizeof path, "%s/kernels.csv", run->out_dir);
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        bench_must(SL_ERR_IO, path);
-    }
+    snprintf(path, sizeof path, "%s/front_kernels.csv", run->out_dir);
+    FILE *csv = bench_create(path);
     fprintf(csv, "kernel,isa,width,below,layout,count,min_s,median_s,max_s,gflop_per_s,gb_per_s,"
                  "peak_share\n");
-    printf("\n== kernels: the dense kernels by shape, medians; every call another front, data in "
-           "the second cache\n   where %d kB hold a front and its like, else one front filled anew "
-           "for each call\n",
+    printf("\n== front_kernels: the dense kernels by shape, medians; every call works on another "
+           "front, "
+           "data in the\n   second-level cache if several fronts fit into %d kB, else one front "
+           "refilled before each call\n",
            (int)(ARENA * sizeof(double) / 1024));
     for (size_t k = 0; k < sizeof isas / sizeof *isas; k++) {
         const sli_kernels *kernels = sli_kernels_select(isas[k]);
@@ -364,5 +365,5 @@ void bench_kernels(bench_run *run) {
             assemble_table(run, csv, kernels);
         }
     }
-    fclose(csv);
+    bench_close(csv);
 }

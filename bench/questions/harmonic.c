@@ -1,13 +1,14 @@
-/* harmonic.c: what do denser patterns of one mesh cost: harmonic, biharmonic and triharmonic systems? */
+/* harmonic.c: how much more do biharmonic and triharmonic systems cost than harmonic ones? */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-/* M + t (L M^-1)^(k-1) L for k = 1, 2, 3: what diffusion, smoothing and deformation with one, two and three
- * Laplacians solve, three right-hand sides at once as for coordinates. The condition
- * grows to the k-th power, so the residual's largest entry is told beside the times. */
+/* M + t (L M^-1)^(k-1) L for k = 1, 2, 3: the systems of diffusion, smoothing and deformation
+ * with one, two and three Laplacians, and patterns that grow denser with k. Three right-hand
+ * sides at once, as for coordinates. The condition number grows with the k-th power, so the
+ * largest residual entry is printed beside the times. */
 enum { NRHS = 3, ORDERS = 3 };
 
 typedef struct job {
@@ -19,13 +20,13 @@ typedef struct job {
     sl_work *W;
 } job;
 
-static void ready_analyse(void *state) {
+static void ready_analyze(void *state) {
     job *j = state;
     sl_symbolic_free(j->S);
     j->S = NULL;
 }
 
-static void call_analyse(void *state) {
+static void call_analyze(void *state) {
     job *j = state;
     bench_must(sl_symbolic_create(&j->S, &j->system->A, &j->given, NULL), "analysis");
 }
@@ -52,11 +53,11 @@ static void call_solve(void *state) {
     bench_must(sl_factor_solve(j->system->F, j->X, n, j->B, n, NRHS, j->W), "full solve");
 }
 
-/* B = A X: X is 1 in the first column, random in the others. */
+/* Sets B = A X, where X is 1 in the first column and random in the others. */
 static void fill_b(job *j) {
     const size_t n = (size_t)j->system->n;
-    uint64_t chance = 17;
-    bench_random_fill(&chance, j->X, n * NRHS);
+    uint64_t rng = 17;
+    bench_random_fill(&rng, j->X, n * NRHS);
     for (size_t i = 0; i < n; i++) {
         j->X[i] = 1;
     }
@@ -66,10 +67,10 @@ static void fill_b(job *j) {
 static void one_system(bench_run *run, bench_report *report, const bench_system *system) {
     static const char *const methods[4] = {"order given", "first, memory included", "refactor",
                                            "full solve"};
-    static const char *const cases[4] = {"analyse", "factor", "factor", "solve"};
+    static const char *const cases[4] = {"analyze", "factor", "factor", "solve"};
     const size_t n = (size_t)system->n;
     job j = {system, {0}, NULL, NULL, NULL, NULL, NULL};
-    bench_contender contenders[4] = {{call_analyse, &j, 1, ready_analyse},
+    bench_contender contenders[4] = {{call_analyze, &j, 1, ready_analyze},
                                      {call_first, &j, 1, ready_first},
                                      {call_refactor, &j, 1, NULL},
                                      {call_solve, &j, 1, NULL}};
@@ -90,7 +91,7 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
                              .method = methods[c],
                              .time = samples[c],
                              .baseline = samples[2].median};
-            row.flops = c == 1 || c == 2 ? system->stats.flops : 0;
+            row.flops = c == 1 || c == 2 ? system->stats.symbolic.flops : 0;
             row.nrhs = c == 3 ? NRHS : 0;
             if (c == 3) {
                 bench_row_full(&row, system);
@@ -114,7 +115,7 @@ void bench_harmonic(bench_run *run) {
                       : run->size == BENCH_DEFAULT ? 2
                                                    : 3;
     bench_report *report = bench_report_open(
-        run, "harmonic", "M + t (L M^-1)^(k-1) L, k = 1, 2, 3, over one mesh", "refactor");
+        run, "harmonic", "M + t (L M^-1)^(k-1) L, k = 1, 2, 3, on one mesh", "refactor");
     for (int c = 0; c < count; c++) {
         for (int k = 1; k <= ORDERS; k++) {
             const bench_system *system = bench_k_harmonic(run, wanted[c], k);

@@ -1,29 +1,30 @@
-/* inverse.c: entries of the inverse: forward sweeps alone, one by one or together, against local solves? */
+/* inverse_entries.c: do forward sweeps compute entries of the inverse faster than solves? */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-/* Random pairs as in [HDA17] section 5, random diagonal entries, and a dense block among random vertices and among those
- * of a patch. Times are those of one entry, of a block those of the whole. Local solves find their reach anew, but
- * for the diagonal, where plans made before are the rival. One list takes forward sweeps together, or on a small mesh selected
- * inversion. */
+/* Random pairs as in [HDA17] section 5, random diagonal entries, and a dense block on random
+ * vertices and on those of a patch. Times are per entry, for a block those of the whole block.
+ * Local solves find their reach in every call, except for the diagonal, where plans made
+ * beforehand compete. A list of entries is computed by forward sweeps that share columns, or on
+ * a small mesh by selected inversion. */
 enum { METHODS = 4, CHECKED = 8, BLOCK = 128 };
 
 typedef struct entries {
     const bench_system *system;
     sl_work *W;
     int count, is_block;
-    sl_int *rows, *columns; /* one array: the diagonal, or a symmetric block */
+    sl_int *rows, *columns; /* the same array for the diagonal or a symmetric block */
     double *out;            /* count, or count x count */
-    double *unit;           /* of a block: count x count, the identity */
-    sl_plan **plans;        /* of the diagonal */
+    double *unit;           /* for a block: count x count, the identity */
+    sl_plan **plans;        /* for the diagonal */
     sl_stats stats;
-    double read; /* entries of L by all sweeps of the last call */
+    double read; /* entries of L read by all sweeps of the last call */
 } entries;
 
-static void one_tree(void *state) {
+static void joint_reach(void *state) {
     entries *e = state;
     const double b[2] = {1, 0};
     double x[2];
@@ -32,22 +33,22 @@ static void one_tree(void *state) {
         const sl_int set[2] = {e->rows[k], e->columns[k]};
         const sl_int size = set[0] == set[1] ? 1 : 2;
         bench_must(
-            sl_local_solve(e->system->F, x, 2, set, size, b, 2, set, size, 1, e->W, &e->stats),
-            "one tree");
+            sl_local_solve(e->system->F, set, size, set, size, x, 2, b, 2, 1, e->W, &e->stats),
+            "joint reach");
         e->out[k] = x[size - 1];
-        e->read += (double)e->stats.b_entries + (double)e->stats.x_entries;
+        e->read += (double)e->stats.plan.b_entries + (double)e->stats.plan.x_entries;
     }
 }
 
-static void two_trees(void *state) {
+static void separate_reaches(void *state) {
     entries *e = state;
     const double b = 1;
     e->read = 0;
     for (int k = 0; k < e->count; k++) {
-        bench_must(sl_local_solve(e->system->F, e->out + k, 1, e->columns + k, 1, &b, 1,
-                                  e->rows + k, 1, 1, e->W, &e->stats),
-                   "two trees");
-        e->read += (double)e->stats.b_entries + (double)e->stats.x_entries;
+        bench_must(sl_local_solve(e->system->F, e->rows + k, 1, e->columns + k, 1, e->out + k, 1,
+                                  &b, 1, 1, e->W, &e->stats),
+                   "separate reaches");
+        e->read += (double)e->stats.plan.b_entries + (double)e->stats.plan.x_entries;
     }
 }
 
@@ -58,36 +59,37 @@ static void planned(void *state) {
     for (int k = 0; k < e->count; k++) {
         bench_must(sl_plan_solve(e->plans[k], e->system->F, e->out + k, 1, &b, 1, 1, e->W), "plan");
         sl_plan_stats(e->plans[k], &e->stats);
-        e->read += (double)e->stats.b_entries + (double)e->stats.x_entries;
+        e->read += (double)e->stats.plan.b_entries + (double)e->stats.plan.x_entries;
     }
 }
 
-static void forward_apart(void *state) {
+static void forward_one_by_one(void *state) {
     entries *e = state;
     e->read = 0;
     for (int k = 0; k < e->count; k++) {
         bench_must(sl_inverse_pairs(e->system->F, e->out + k, e->rows + k, e->columns + k, 1, e->W,
                                     &e->stats),
                    "one pair");
-        e->read += (double)e->stats.b_entries;
+        e->read += (double)e->stats.inverse.entries;
     }
 }
 
-static void forward_together(void *state) {
+static void forward_list(void *state) {
     entries *e = state;
     bench_must(
         sl_inverse_pairs(e->system->F, e->out, e->rows, e->columns, e->count, e->W, &e->stats),
         "pairs");
-    e->read = (double)e->stats.b_entries;
+    e->read = (double)e->stats.inverse.entries;
 }
 
 static void block_solve(void *state) {
     entries *e = state;
     const size_t ld = (size_t)e->count;
-    bench_must(sl_local_solve(e->system->F, e->out, ld, e->rows, e->count, e->unit, ld, e->columns,
-                              e->count, e->count, e->W, &e->stats),
+    bench_must(sl_local_solve(e->system->F, e->columns, e->count, e->rows, e->count, e->out, ld,
+                              e->unit, ld, e->count, e->W, &e->stats),
                "block");
-    e->read = ((double)e->stats.b_entries + (double)e->stats.x_entries) * ((e->count + 7) / 8);
+    e->read =
+        ((double)e->stats.plan.b_entries + (double)e->stats.plan.x_entries) * ((e->count + 7) / 8);
 }
 
 static void block_forward(void *state) {
@@ -95,22 +97,22 @@ static void block_forward(void *state) {
     bench_must(sl_inverse_block(e->system->F, e->out, (size_t)e->count, e->rows, e->count,
                                 e->columns, e->count, e->W, &e->stats),
                "block");
-    e->read = (double)e->stats.b_entries;
+    e->read = (double)e->stats.inverse.entries;
 }
 
-/* The first few entries against full solves: to 1e-12 of the column's largest. */
+/* Checks the first few entries against full solves, to 1e-12 of the column's largest entry. */
 static int check(bench_run *run, entries *e, const bench_contender *c, const char *method) {
     const size_t n = (size_t)e->system->n, size = (size_t)e->count;
     double *b = bench_alloc(n, sizeof *b), *x = bench_alloc(n, sizeof *x);
-    int good = 1;
+    int passed = 1;
     memset(e->out, 0, (e->is_block ? size * size : size) * sizeof *e->out);
     c->call(e);
-    for (int k = 0; k < CHECKED && k < e->count && good; k++) {
+    for (int k = 0; k < CHECKED && k < e->count && passed; k++) {
         double largest = 0, error = 0;
         memset(b, 0, n * sizeof *b);
         b[e->columns[k]] = 1;
         bench_must(sl_factor_solve(e->system->F, x, n, b, n, 1, NULL), "full solve");
-        good &= bench_check_residual(run, e->system, x, b, 1, "full solve");
+        passed &= bench_check_residual(run, e->system, x, b, 1, "full solve");
         for (size_t i = 0; i < n; i++) {
             largest = fmax(largest, fabs(x[i]));
         }
@@ -118,15 +120,15 @@ static int check(bench_run *run, entries *e, const bench_contender *c, const cha
             const double value = e->is_block ? e->out[(size_t)k * size + (size_t)i] : e->out[i];
             error = fmax(error, fabs(value - x[e->rows[i]]));
         }
-        good &= bench_expect(run, error <= 1e-12 * largest, "%s, %s: error %.2g, largest %.2g",
-                             e->system->name, method, error, largest);
+        passed &= bench_expect(run, error <= 1e-12 * largest, "%s, %s: error %.2g, largest %.2g",
+                               e->system->name, method, error, largest);
     }
     free(x);
     free(b);
-    return good;
+    return passed;
 }
 
-/* Checks and times methods, the last one the baseline. */
+/* Checks and times the methods; the last one is the baseline. */
 static void race(bench_run *run, bench_report *report, entries *e, const char *what,
                  void (*const *calls)(void *), const char *const *names, int count) {
     bench_contender contenders[METHODS];
@@ -152,7 +154,7 @@ static void race(bench_run *run, bench_report *report, entries *e, const char *w
     }
 }
 
-static entries make(const bench_system *system, int count, int is_block) {
+static entries entries_create(const bench_system *system, int count, int is_block) {
     entries e;
     const size_t size = (size_t)count;
     memset(&e, 0, sizeof e);
@@ -166,13 +168,13 @@ static entries make(const bench_system *system, int count, int is_block) {
     return e;
 }
 
-static void draw(sl_int *rows, int count, sl_int n, uint64_t *chance) {
+static void draw(sl_int *rows, int count, sl_int n, uint64_t *rng) {
     for (int k = 0; k < count; k++) {
-        rows[k] = bench_random_below(chance, n);
+        rows[k] = bench_random_below(rng, n);
     }
 }
 
-static void done(entries *e) {
+static void entries_free(entries *e) {
     for (int k = 0; e->plans && k < e->count; k++) {
         sl_plan_free(e->plans[k]);
     }
@@ -187,61 +189,63 @@ static void done(entries *e) {
 }
 
 static void pairs(bench_run *run, bench_report *report, const bench_system *system) {
-    static void (*const calls[])(void *) = {one_tree, two_trees, forward_apart, forward_together};
-    static const char *const names[] = {"one tree", "two trees", "forward, one by one", "one list"};
-    entries e = make(system, run->size == BENCH_QUICK ? 1000 : 10000, 0);
-    uint64_t chance = 2017;
+    static void (*const calls[])(void *) = {joint_reach, separate_reaches, forward_one_by_one,
+                                            forward_list};
+    static const char *const names[] = {"joint reach", "separate reaches", "forward, one by one",
+                                        "one list"};
+    entries e = entries_create(system, run->size == BENCH_QUICK ? 1000 : 10000, 0);
+    uint64_t rng = 2017;
     e.columns = bench_alloc((size_t)e.count, sizeof *e.columns);
-    draw(e.rows, e.count, system->n, &chance);
-    draw(e.columns, e.count, system->n, &chance);
+    draw(e.rows, e.count, system->n, &rng);
+    draw(e.columns, e.count, system->n, &rng);
     race(run, report, &e, "random pairs", calls, names, 4);
-    done(&e);
+    entries_free(&e);
 }
 
 static void diagonal(bench_run *run, bench_report *report, const bench_system *system) {
-    static void (*const calls[])(void *) = {one_tree, planned, forward_apart, forward_together};
+    static void (*const calls[])(void *) = {joint_reach, planned, forward_one_by_one, forward_list};
     static const char *const names[] = {"one shot", "plan solve", "forward, one by one",
                                         "one list"};
-    entries e = make(system, run->size == BENCH_QUICK ? 200 : 1000, 0);
-    uint64_t chance = 4711;
-    draw(e.rows, e.count, system->n, &chance);
+    entries e = entries_create(system, run->size == BENCH_QUICK ? 200 : 1000, 0);
+    uint64_t rng = 4711;
+    draw(e.rows, e.count, system->n, &rng);
     e.plans = bench_alloc((size_t)e.count, sizeof *e.plans);
     for (int k = 0; k < e.count; k++) {
         bench_must(sl_plan_create(&e.plans[k], system->S, e.rows + k, 1, e.rows + k, 1, NULL, NULL),
                    "plan");
     }
     race(run, report, &e, "diagonal", calls, names, 4);
-    done(&e);
+    entries_free(&e);
 }
 
 static void block(bench_run *run, bench_report *report, const bench_system *system,
                   const bench_patch *patch) {
     static void (*const calls[])(void *) = {block_solve, block_forward};
     static const char *const names[] = {"local solve", "forward"};
-    entries e = make(system, BLOCK, 1);
-    uint64_t chance = 31;
+    entries e = entries_create(system, BLOCK, 1);
+    uint64_t rng = 31;
     e.unit = bench_alloc(BLOCK * BLOCK, sizeof *e.unit);
     memset(e.unit, 0, BLOCK * BLOCK * sizeof *e.unit);
     char *drawn = bench_alloc((size_t)system->n, 1);
     memset(drawn, 0, (size_t)system->n);
     for (int k = 0; k < BLOCK; k++) {
         e.unit[k * (BLOCK + 1)] = 1;
-        do { /* a local solve refuses a row given twice */
-            e.rows[k] = patch ? patch->vertices[k] : bench_random_below(&chance, system->n);
+        do { /* a set without duplicates */
+            e.rows[k] = patch ? patch->vertices[k] : bench_random_below(&rng, system->n);
         } while (drawn[e.rows[k]]);
         drawn[e.rows[k]] = 1;
     }
     free(drawn);
     race(run, report, &e, patch ? "patch 128^2" : "random 128^2", calls, names, 2);
-    done(&e);
+    entries_free(&e);
 }
 
-void bench_inverse(bench_run *run) {
+void bench_inverse_entries(bench_run *run) {
     static const double default_n = 2e5, quick_n = 5e4;
     const bench_system *system;
     if (bench_systems(run, run->size == BENCH_QUICK ? &quick_n : &default_n, 1, &system) == 1) {
         bench_report *report = bench_report_open(
-            run, "inverse", "entries of the inverse by forward sweeps alone", "one list");
+            run, "inverse_entries", "entries of the inverse by forward sweeps alone", "one list");
         bench_patch patch;
         diagonal(run, report, system);
         pairs(run, report, system);

@@ -1,20 +1,21 @@
-/* locality.c: does the same local question cost more on a larger mesh, beyond the entries of L that it reads? */
+/* locality.c: does the cost of a local solve per entry of L grow with the mesh? */
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-/* A patch of 500 vertices in the middle of the mesh, b at its centre; and single vertices to themselves. Paths to the
- * root grow with the mesh, so the entries read do too (about 2.4 n for one vertex of a flat mesh). What must not grow
- * is the time per entry: any copy, clearing or allocation of O(n) would show there. */
+/* A patch of 500 vertices in the middle of the mesh with b at its center, and single vertices
+ * with b and x at the same vertex. Paths to the root grow with the mesh, so the entries read
+ * grow too (about 2.4 n for one vertex of a flat mesh). The time per entry must not grow: any
+ * copy, clearing or allocation of O(n) would show there. */
 enum { PATCH = 500, VERTICES = 64, MAX_SYSTEMS = 8 };
 
 typedef struct trend {
-    double n[MAX_SYSTEMS], entries[MAX_SYSTEMS], seconds[BENCH_FORMS][MAX_SYSTEMS];
+    double n[MAX_SYSTEMS], entries[MAX_SYSTEMS], seconds[BENCH_SOLVE_VARIANTS][MAX_SYSTEMS];
     int count;
 } trend;
 
-/* Bytes of a workspace that has seen these queries and no full solve. */
+/* Size in bytes of a workspace that has run these queries but no full solve. */
 static size_t workspace_bytes(const bench_queries *q) {
     size_t bytes;
     bench_queries alone = *q;
@@ -29,10 +30,10 @@ static size_t workspace_bytes(const bench_queries *q) {
 
 static void time_queries(bench_run *run, bench_report *report, bench_queries *q, const char *what,
                          trend *t) {
-    double medians[BENCH_FORMS];
+    double medians[BENCH_SOLVE_VARIANTS];
     sl_stats reach = bench_queries_reach(q);
-    double entries = (double)reach.b_entries + (double)reach.x_entries;
-    if (!bench_forms_time(run, report, q, what, medians)) {
+    double entries = (double)reach.plan.b_entries + (double)reach.plan.x_entries;
+    if (!bench_solve_variants_time(run, report, q, what, medians)) {
         return;
     }
     bench_report_note(
@@ -40,11 +41,11 @@ static void time_queries(bench_run *run, bench_report *report, bench_queries *q,
         "%-14s   per entry read: plan solve %.3f ns, one shot %.3f ns; columns %d + %d;"
         " workspace %.1f kB (a full-length vector: %.1f kB)",
         "", 1e9 * medians[BENCH_PLAN_SOLVE] / entries, 1e9 * medians[BENCH_ONE_SHOT] / entries,
-        (int)reach.b_columns, (int)reach.x_columns, 1e-3 * (double)workspace_bytes(q),
+        (int)reach.plan.b_columns, (int)reach.plan.x_columns, 1e-3 * (double)workspace_bytes(q),
         8e-3 * q->system->n);
     t->n[t->count] = q->system->n;
     t->entries[t->count] = entries;
-    for (int c = 0; c < BENCH_FORMS; c++) {
+    for (int c = 0; c < BENCH_SOLVE_VARIANTS; c++) {
         t->seconds[c][t->count] = medians[c];
     }
     t->count++;
@@ -56,9 +57,10 @@ static void plot_trend(const bench_run *run, bench_report *report, const trend *
     snprintf(title, sizeof title, "Locality: %s", what);
     bench_plot *plot =
         bench_plot_open(run, file, title, "vertices of the mesh", "microseconds", "xy");
-    for (int c = 0; c < BENCH_FORMS; c++) {
+    for (int c = 0; c < BENCH_SOLVE_VARIANTS; c++) {
         for (int k = 0; k < t->count; k++) {
-            bench_plot_point(plot, bench_forms[c], "linespoints", t->n[k], 1e6 * t->seconds[c][k]);
+            bench_plot_point(plot, bench_solve_variants[c], "linespoints", t->n[k],
+                             1e6 * t->seconds[c][k]);
         }
     }
     if (t->count > 1) {
@@ -81,10 +83,10 @@ void bench_locality(bench_run *run) {
     const bench_system *systems[MAX_SYSTEMS];
     int count = bench_systems(run, wanted, 7, systems);
     bench_report *report = bench_report_open(
-        run, "locality", "the same local question on meshes of growing size", "plan solve");
+        run, "locality", "the same local solve on meshes of growing size", "plan solve");
     patch.count = vertex.count = 0;
     for (int k = 0; k < count; k++) {
-        /* vertex ix + nx iy of a square grid: its middle */
+        /* the middle of a square grid; its vertices are numbered ix + side iy */
         sl_int side = 1;
         while ((side + 1) * (double)(side + 1) <= systems[k]->n) {
             side++;
@@ -100,7 +102,7 @@ void bench_locality(bench_run *run) {
         bench_queries_free(q);
     }
     printf("\n");
-    plot_trend(run, report, &patch, "a patch of 500 around its centre", "locality_patch");
-    plot_trend(run, report, &vertex, "one vertex to itself", "locality_vertex");
+    plot_trend(run, report, &patch, "a patch of 500 around its center", "locality_patch");
+    plot_trend(run, report, &vertex, "b and x at one vertex", "locality_vertex");
     bench_report_close(report);
 }

@@ -1,93 +1,97 @@
-/* ordering.c: what does an ordering cost and what is it worth, beside METIS_NodeND: time, fill, flops, path weights? */
+/* ordering.c: what does an ordering cost and how good is it, against METIS_NodeND? */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../tools/dataset.h"
-#include "../tools/grid.h"
-#include "bench.h"
+#include "tools/io/dataset.h"
+#include "tools/mesh/grid.h"
+#include "bench/lib/bench.h"
 
 #include <metis.h>
 
-/* METIS's figures are means over some of its seeds, of which one alone scatters by several percent. Times are the
- * processor seconds that the library reports for the ordering, graph and all, the least of the repetitions; those of
- * METIS are for the same graph. The path weight of a row is the sum of the counts from its column to the root: what a
- * local solve at that row reads, without relaxation. In shuffled systems rows have random numbers. `Set-up` is ordering,
- * analysis and first factorization together. */
+/* METIS's numbers are means over some of its seeds, because one seed alone scatters by several
+ * percent. Times are the processor seconds that the library reports for the ordering, with its
+ * graph, the minimum of the repetitions; those of METIS include the same graph. The path weight
+ * of a row is the sum of the column counts from its column to the root: the entries that a local
+ * solve at that row reads, without relaxation. Shuffled systems have their rows in random order.
+ * "order to factor" is ordering, analysis and first factorization together. */
 enum { SEEDS = 3, MAX_REPEATS = 5, BIG = 300000 };
 
-typedef struct worth {
-    double seconds, nnz, flops, path_mean, path_most;
-} worth;
+typedef struct quality {
+    double seconds, nnz, flops, path_mean, path_largest;
+} quality;
 
-typedef struct way {
+typedef struct variant {
     const char *name;
     sl_ordering ordering;
     int has_points;
-} way;
+} variant;
 
-static const way ways[] = {{"FAST", SL_ORDERING_FAST, 0},
-                           {"FAST, coordinates", SL_ORDERING_FAST, 1},
-                           {"QUALITY", SL_ORDERING_QUALITY, 0}};
+static const variant variants[] = {{"ND", SL_ORDERING_ND, 0},
+                                   {"ND, coordinates", SL_ORDERING_ND, 1},
+                                   {"METIS refined", SL_ORDERING_METIS_REFINED, 0}};
 
-enum { WAYS = sizeof ways / sizeof *ways };
+enum { VARIANTS = sizeof variants / sizeof *variants };
 
-/* Sums over meshes, for the means at the end: small ones and those of 1e5 vertices. */
+/* Sums of the ratios over meshes, for the means at the end: below 1e5 vertices and from there
+ * on. */
 typedef struct sums {
-    worth ratio[2][WAYS];
-    int count[2][WAYS];
+    quality ratio[2][VARIANTS];
+    int count[2][VARIANTS];
 } sums;
 
-static worth worth_of(const sl_csc *A, const sl_options *opt) {
+static quality quality_of(const sl_csc *A, const sl_options *opt) {
     sl_symbolic *S;
     sl_stats stats;
     bench_must(sl_symbolic_create(&S, A, opt, &stats), "analysis");
-    const sl_symbolic_view_t v = sl_symbolic_view(S);
-    worth y = {stats.seconds_order, (double)stats.nnz_l, stats.flops, 0, 0};
+    const sl_symbolic_arrays v = sl_symbolic_view(S);
+    quality y = {stats.symbolic.seconds_order, (double)stats.symbolic.nnz_l, stats.symbolic.flops,
+                 0, 0};
     double *path = bench_alloc((size_t)v.n, sizeof *path);
     for (sl_int k = v.n; k-- > 0;) {
         path[k] = (double)v.counts[k] + (v.parent[k] == -1 ? 0 : path[v.parent[k]]);
         y.path_mean += path[k] / (double)v.n;
-        y.path_most = path[k] > y.path_most ? path[k] : y.path_most;
+        y.path_largest = path[k] > y.path_largest ? path[k] : y.path_largest;
     }
     free(path);
     sl_symbolic_free(S);
     return y;
 }
 
-/* Is only the least asked of a matrix? What takes METIS minutes in all is for BENCH=full. */
+/* Whether a matrix is large enough to skip all optional runs. Those take METIS minutes and are
+ * for BENCH=full. */
 static int is_short(const bench_run *run, const sl_csc *A) {
     return run->size != BENCH_FULL && A->n_cols > BIG;
 }
 
-/* Means over seeds, the least time. */
-static worth metis_worth(const bench_run *run, const sl_csc *A) {
+/* Means over seeds, and the minimum time. */
+static quality metis_quality(const bench_run *run, const sl_csc *A) {
     const int seeds = run->size == BENCH_QUICK || is_short(run, A) ? 1 : SEEDS;
-    worth sum = {1e30, 0, 0, 0, 0};
+    quality sum = {1e30, 0, 0, 0, 0};
     idx_t metis[METIS_NOPTIONS];
-    sl_int wishes[METIS_NOPTIONS];
+    sl_int metis_options[METIS_NOPTIONS];
     for (int seed = 0; seed < seeds; seed++) {
         sl_options opt;
         memset(&opt, 0, sizeof opt);
         METIS_SetDefaultOptions(metis);
         metis[METIS_OPTION_SEED] = seed == 0 ? -1 : seed;
         for (int k = 0; k < METIS_NOPTIONS; k++) {
-            wishes[k] = (sl_int)metis[k];
+            metis_options[k] = (sl_int)metis[k];
         }
         opt.ordering = SL_ORDERING_METIS;
-        opt.metis_options = wishes;
-        const worth y = worth_of(A, &opt);
+        opt.metis_options = metis_options;
+        const quality y = quality_of(A, &opt);
         sum.seconds = y.seconds < sum.seconds ? y.seconds : sum.seconds;
         sum.nnz += y.nnz / seeds;
         sum.flops += y.flops / seeds;
         sum.path_mean += y.path_mean / seeds;
-        sum.path_most += y.path_most / seeds;
+        sum.path_largest += y.path_largest / seeds;
     }
     return sum;
 }
 
 static void add_row(bench_report *report, const bench_system *system, const char *what,
-                    const char *method, const worth *y, double baseline) {
+                    const char *method, const quality *y, double baseline) {
     bench_row row = {.what = what,
                      .method = method,
                      .time = {1, y->seconds, y->seconds, y->seconds},
@@ -95,61 +99,62 @@ static void add_row(bench_report *report, const bench_system *system, const char
     bench_report_row(report, system, &row);
 }
 
-/* One matrix in every ordering. points: n x 3, or NULL. */
+/* Runs every ordering on one matrix. points: n x 3, or NULL. */
 static void one_matrix(bench_run *run, bench_report *report, const bench_system *system,
                        const sl_csc *A, const double *points, const char *what, sums *all) {
-    const worth metis = metis_worth(run, A);
+    const quality metis = metis_quality(run, A);
     add_row(report, system, what, "METIS_NodeND", &metis, metis.seconds);
-    for (int k = 0; k < WAYS; k++) {
+    for (int k = 0; k < VARIANTS; k++) {
         sl_options opt;
         memset(&opt, 0, sizeof opt);
-        opt.ordering = ways[k].ordering;
-        if (opt.ordering == SL_ORDERING_QUALITY && is_short(run, A)) {
+        opt.ordering = variants[k].ordering;
+        if (opt.ordering == SL_ORDERING_METIS_REFINED && is_short(run, A)) {
             continue;
         }
-        if (ways[k].has_points) {
+        if (variants[k].has_points) {
             opt.coordinates = points;
             opt.dimensions = 3;
             if (!points) {
                 continue;
             }
         }
-        worth y = worth_of(A, &opt);
-        const int repeats = ways[k].ordering == SL_ORDERING_QUALITY || run->size == BENCH_QUICK ? 1
-                            : A->n_cols > BIG                                                   ? 2
-                                              : MAX_REPEATS;
+        quality y = quality_of(A, &opt);
+        const int repeats =
+            variants[k].ordering == SL_ORDERING_METIS_REFINED || run->size == BENCH_QUICK ? 1
+            : A->n_cols > BIG                                                             ? 2
+                              : MAX_REPEATS;
         for (int r = 1; r < repeats; r++) {
-            const worth again = worth_of(A, &opt);
+            const quality again = quality_of(A, &opt);
             bench_expect(run, again.nnz == y.nnz && again.path_mean == y.path_mean,
-                         "%s: the same call gives another order", system->name);
+                         "%s: the same call gave another ordering", system->name);
             y.seconds = again.seconds < y.seconds ? again.seconds : y.seconds;
         }
-        const worth ratio = {y.seconds / metis.seconds, y.nnz / metis.nnz, y.flops / metis.flops,
-                             y.path_mean / metis.path_mean, y.path_most / metis.path_most};
-        add_row(report, system, what, ways[k].name, &y, metis.seconds);
-        bench_report_note(report,
-                          "%-14s   of METIS: time %.3f, nnz(L) %.3f, flops %.3f, path weight mean "
-                          "%.3f, largest %.3f",
-                          "", ratio.seconds, ratio.nnz, ratio.flops, ratio.path_mean,
-                          ratio.path_most);
-        worth *sum = &all->ratio[A->n_cols >= 99000][k];
+        const quality ratio = {y.seconds / metis.seconds, y.nnz / metis.nnz, y.flops / metis.flops,
+                               y.path_mean / metis.path_mean, y.path_largest / metis.path_largest};
+        add_row(report, system, what, variants[k].name, &y, metis.seconds);
+        bench_report_note(
+            report,
+            "%-14s   relative to METIS: time %.3f, nnz(L) %.3f, flops %.3f, path weight mean "
+            "%.3f, largest %.3f",
+            "", ratio.seconds, ratio.nnz, ratio.flops, ratio.path_mean, ratio.path_largest);
+        quality *sum = &all->ratio[A->n_cols >= 99000][k];
         sum->seconds += ratio.seconds;
         sum->nnz += ratio.nnz;
         sum->flops += ratio.flops;
         sum->path_mean += ratio.path_mean;
-        sum->path_most += ratio.path_most;
+        sum->path_largest += ratio.path_largest;
         all->count[A->n_cols >= 99000][k]++;
     }
 }
 
-/* Order, analysis and first factorization, METIS's order against the default. */
-typedef struct set_up {
+/* Ordering, analysis and first factorization, with METIS and with the default ordering. */
+typedef struct order_to_factor {
     const bench_system *system;
     sl_options options;
-} set_up;
+} order_to_factor;
 
-static void call_set_up(void *state) {
-    set_up *s = state;
+static void call_order_to_factor(void *state) {
+    order_to_factor *s = state;
     sl_symbolic *S;
     sl_factor *F;
     bench_must(sl_symbolic_create(&S, &s->system->A, &s->options, NULL), "analysis");
@@ -158,18 +163,18 @@ static void call_set_up(void *state) {
     sl_symbolic_free(S);
 }
 
-static void time_set_up(bench_run *run, bench_report *report, const bench_system *system) {
-    set_up both[2];
+static void time_order_to_factor(bench_run *run, bench_report *report, const bench_system *system) {
+    order_to_factor both[2];
     bench_sample samples[2];
     memset(both, 0, sizeof both);
     both[0].system = both[1].system = system;
     both[0].options.ordering = SL_ORDERING_METIS;
-    bench_contender contenders[2] = {{call_set_up, &both[0], 1, NULL},
-                                     {call_set_up, &both[1], 1, NULL}};
+    bench_contender contenders[2] = {{call_order_to_factor, &both[0], 1, NULL},
+                                     {call_order_to_factor, &both[1], 1, NULL}};
     bench_race(samples, contenders, 2, run->seconds);
     for (int k = 0; k < 2; k++) {
-        bench_row row = {.what = "set-up",
-                         .method = k ? "FAST" : "METIS_NodeND",
+        bench_row row = {.what = "order to factor",
+                         .method = k ? "ND" : "METIS_NodeND",
                          .time = samples[k],
                          .baseline = samples[0].median};
         bench_report_row(report, system, &row);
@@ -180,13 +185,13 @@ static void one_shuffled(bench_run *run, bench_report *report, const bench_syste
                          sums *all) {
     const size_t n = (size_t)system->n;
     sl_int *perm = bench_alloc(n, sizeof *perm);
-    uint64_t chance = 3;
+    uint64_t rng = 3;
     sl_matrix *M;
     for (size_t k = 0; k < n; k++) {
         perm[k] = (sl_int)k;
     }
     for (sl_int k = system->n - 1; k > 0; k--) {
-        const sl_int other = bench_random_below(&chance, k + 1), keep = perm[k];
+        const sl_int other = bench_random_below(&rng, k + 1), keep = perm[k];
         perm[k] = perm[other];
         perm[other] = keep;
     }
@@ -197,7 +202,7 @@ static void one_shuffled(bench_run *run, bench_report *report, const bench_syste
     free(perm);
 }
 
-/* The points of a grid that systems.c made. */
+/* The points of a grid of systems.c. */
 static double *grid_points(sl_int n) {
     sl_int side = 1;
     mesh m;
@@ -214,22 +219,22 @@ static double *grid_points(sl_int n) {
 static void print_means(bench_report *report, const sums *all) {
     static const char *const sizes[2] = {"below 1e5", "from 1e5 on"};
     for (int big = 0; big < 2; big++) {
-        for (int k = 0; k < WAYS; k++) {
-            const worth *sum = &all->ratio[big][k];
+        for (int k = 0; k < VARIANTS; k++) {
+            const quality *sum = &all->ratio[big][k];
             const double count = all->count[big][k];
             if (count > 0) {
                 bench_report_note(report,
                                   "mean over %d systems, n %s, %s: time %.3f, nnz(L) %.3f, flops "
                                   "%.3f, path weight mean %.3f, largest %.3f",
-                                  (int)count, sizes[big], ways[k].name, sum->seconds / count,
+                                  (int)count, sizes[big], variants[k].name, sum->seconds / count,
                                   sum->nnz / count, sum->flops / count, sum->path_mean / count,
-                                  sum->path_most / count);
+                                  sum->path_largest / count);
             }
         }
     }
 }
 
-/* Meshes of the data folder from 5000 vertices on, in a full run. */
+/* Runs all meshes of the data folder from 5000 vertices on, in a full run. */
 static void data_meshes(bench_run *run, bench_report *report, sums *all) {
     dataset files;
     if (run->size != BENCH_FULL || run->mesh_path || !dataset_list(&files, NULL, "meshes")) {
@@ -257,21 +262,21 @@ void bench_ordering(bench_run *run) {
     sums all;
     memset(&all, 0, sizeof all);
     bench_report *report =
-        bench_report_open(run, "ordering", "orderings beside METIS_NodeND", "METIS_NodeND");
+        bench_report_open(run, "ordering", "orderings against METIS_NodeND", "METIS_NodeND");
     for (int k = 0; k < count; k++) {
         double *points = run->mesh_path ? NULL : grid_points(systems[k]->n);
         one_matrix(run, report, systems[k], &systems[k]->A, points, "order", &all);
         if (!is_short(run, &systems[k]->A)) {
             one_shuffled(run, report, systems[k], &all);
         }
-        time_set_up(run, report, systems[k]);
+        time_order_to_factor(run, report, systems[k]);
         free(points);
     }
     if (!run->mesh_path) {
         const bench_system *volume = bench_volume(run->size == BENCH_QUICK ? 20 : 40);
-        sums apart; /* the means are of meshes */
-        memset(&apart, 0, sizeof apart);
-        one_matrix(run, report, volume, &volume->A, NULL, "order", &apart);
+        sums volume_sums; /* the printed means are over meshes only */
+        memset(&volume_sums, 0, sizeof volume_sums);
+        one_matrix(run, report, volume, &volume->A, NULL, "order", &volume_sums);
         data_meshes(run, report, &all);
     }
     print_means(report, &all);

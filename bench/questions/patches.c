@@ -1,28 +1,29 @@
-/* patches.c: what does a solve on a patch cost, beside refactorizing the patch, conjugate gradients, a full solve? */
+/* patches.c: how fast are local solves on a patch, against the alternatives? */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-#include "../tools/cg.h"
+#include "tools/matrix/cg.h"
 
-/* The parameterization of [HDA17] section 4, its Figures 4 and 5: b is nonzero on the boundary of a patch, x is
- * wanted on the whole patch, two right-hand sides. The local solve uses the factor of the whole mesh. The rivals
- * never see the whole mesh: they solve A(patch, patch), zero beyond the patch, for the same b; making that matrix is
- * not counted against them. */
+/* The parameterization of [HDA17] section 4, Figures 4 and 5: b is nonzero on the boundary of a
+ * patch, x is wanted on the whole patch, with two right-hand sides. The local solve uses the
+ * factor of the whole mesh. The alternatives never see the whole mesh: they solve with A(patch,
+ * patch), zero outside the patch, for the same b. The time to extract that matrix is not
+ * counted. */
 enum { NRHS = 2, MAX_SEEDS = 5, CG_LIMIT = 100000 };
 
 static const double cg_tolerance = 1e-8;
 
-typedef struct rival {
+typedef struct alternative {
     const bench_patch *patches;
     int count, next;
     double *b, *x, *work; /* b, x: size x NRHS */
     long iterations, solves;
-} rival;
+} alternative;
 
-static const bench_patch *next_patch(rival *r, const bench_queries *q) {
+static const bench_patch *next_patch(alternative *r, const bench_queries *q) {
     const bench_patch *patch = &r->patches[r->next];
     const bench_query *one = &q->all[r->next];
     size_t size = (size_t)patch->size;
@@ -31,7 +32,7 @@ static const bench_patch *next_patch(rival *r, const bench_queries *q) {
     }
     for (size_t c = 0; c < NRHS; c++) {
         for (sl_int k = 0; k < patch->n_boundary; k++) {
-            r->b[c * size + (size_t)patch->boundary_place[k]] =
+            r->b[c * size + (size_t)patch->boundary_index[k]] =
                 one->B[c * (size_t)one->nb + (size_t)k];
         }
     }
@@ -39,28 +40,29 @@ static const bench_patch *next_patch(rival *r, const bench_queries *q) {
     return patch;
 }
 
-typedef struct rival_call {
-    rival *rival;
+typedef struct alternative_call {
+    alternative *alternative;
     const bench_queries *queries;
-} rival_call;
+} alternative_call;
 
 static void call_refactorize(void *state) {
-    rival_call *call = state;
-    const bench_patch *patch = next_patch(call->rival, call->queries);
+    alternative_call *call = state;
+    const bench_patch *patch = next_patch(call->alternative, call->queries);
     size_t size = (size_t)patch->size;
     sl_symbolic *S;
     sl_factor *F;
     bench_must(sl_symbolic_create(&S, &patch->A, NULL, NULL), "analysis of a patch");
     bench_must(sl_factor_create(&F, S, &patch->A, NULL, NULL), "factor of a patch");
-    bench_must(sl_factor_solve(F, call->rival->x, size, call->rival->b, size, NRHS, NULL),
-               "solve of a patch");
+    bench_must(
+        sl_factor_solve(F, call->alternative->x, size, call->alternative->b, size, NRHS, NULL),
+        "solve of a patch");
     sl_factor_free(F);
     sl_symbolic_free(S);
 }
 
 static void call_cg(void *state) {
-    rival_call *call = state;
-    rival *r = call->rival;
+    alternative_call *call = state;
+    alternative *r = call->alternative;
     const bench_patch *patch = next_patch(r, call->queries);
     for (int c = 0; c < NRHS; c++) {
         size_t at = (size_t)c * (size_t)patch->size;
@@ -70,21 +72,21 @@ static void call_cg(void *state) {
     }
 }
 
-/* Solves the next patch and compares ||b - A x|| with tolerance ||b||. */
-static void check_rival(bench_run *run, rival_call *call, void (*solve)(void *), double tolerance,
-                        const char *method) {
-    const bench_patch *patch = &call->rival->patches[call->rival->next];
+/* Solves on the next patch and checks ||b - A x|| <= tolerance ||b||. */
+static void check_alternative(bench_run *run, alternative_call *call, void (*solve)(void *),
+                              double tolerance, const char *method) {
+    const bench_patch *patch = &call->alternative->patches[call->alternative->next];
     size_t size = (size_t)patch->size;
     double *R = bench_alloc(size * NRHS, sizeof *R);
     solve(call);
-    bench_must(
-        sl_csc_residual(&patch->A, R, size, NULL, call->rival->x, size, call->rival->b, size, NRHS),
-        "residual");
+    bench_must(sl_csc_residual(&patch->A, R, size, NULL, call->alternative->x, size,
+                               call->alternative->b, size, NRHS),
+               "residual");
     for (size_t c = 0; c < NRHS; c++) {
         double r2 = 0, b2 = 0;
         for (size_t k = c * size; k < (c + 1) * size; k++) {
             r2 += R[k] * R[k];
-            b2 += call->rival->b[k] * call->rival->b[k];
+            b2 += call->alternative->b[k] * call->alternative->b[k];
         }
         bench_expect(run, sqrt(r2) <= tolerance * sqrt(b2), "%s: relative residual %.2g", method,
                      sqrt(r2 / b2));
@@ -99,7 +101,7 @@ typedef struct plots {
 
 static void plot_point(plots *p, const bench_system *system, sl_int size, const char *method,
                        double seconds, int dash) {
-    if (dash > 0) { /* a colour for each size */
+    if (dash > 0) { /* one color for each size */
         char name[48], style[32];
         snprintf(name, sizeof name, "%s, %d", method, (int)size);
         snprintf(style, sizeof style, "linespoints lc %d dt %d",
@@ -111,17 +113,17 @@ static void plot_point(plots *p, const bench_system *system, sl_int size, const 
     }
 }
 
-static void time_rivals(bench_run *run, bench_report *report, plots *p, const bench_queries *q,
-                        const bench_patch *patches, bench_row *row) {
+static void time_alternatives(bench_run *run, bench_report *report, plots *p,
+                              const bench_queries *q, const bench_patch *patches, bench_row *row) {
     sl_int size = patches[0].size;
-    rival r = {patches, q->count, 0, NULL, NULL, NULL, 0, 0};
-    rival_call call = {&r, q};
+    alternative r = {patches, q->count, 0, NULL, NULL, NULL, 0, 0};
+    alternative_call call = {&r, q};
     bench_contender contenders[2] = {{call_refactorize, &call, 1, NULL}, {call_cg, &call, 1, NULL}};
     r.b = bench_alloc((size_t)size * NRHS, sizeof *r.b);
     r.x = bench_alloc((size_t)size * NRHS, sizeof *r.x);
     r.work = bench_alloc((size_t)size * 4, sizeof *r.work);
-    check_rival(run, &call, call_refactorize, 1e-10, "refactorize the patch");
-    check_rival(run, &call, call_cg, 10 * cg_tolerance, "conjugate gradients");
+    check_alternative(run, &call, call_refactorize, 1e-10, "refactorize the patch");
+    check_alternative(run, &call, call_cg, 10 * cg_tolerance, "conjugate gradients");
     bench_race(&row->time, &contenders[0], 1, run->seconds / 2);
     row->method = "refactorize the patch";
     bench_report_row(report, q->system, row);
@@ -132,7 +134,7 @@ static void time_rivals(bench_run *run, bench_report *report, plots *p, const be
     bench_report_row(report, q->system, row);
     plot_point(p, q->system, size, "conjugate gradients", row->time.median, 0);
     bench_report_note(report,
-                      "%-14s   %.0f iterations a right-hand side, to a relative residual of %.0e",
+                      "%-14s   %.0f iterations per right-hand side, to a relative residual of %.0e",
                       "", (double)r.iterations / (double)r.solves, cg_tolerance);
     free(r.work);
     free(r.x);
@@ -148,17 +150,18 @@ static void one_size(bench_run *run, bench_report *report, plots *p, const bench
         bench_queries_add(q, patches[k].boundary, patches[k].n_boundary, patches[k].vertices,
                           patches[k].size);
     }
-    double medians[BENCH_FORMS];
+    double medians[BENCH_SOLVE_VARIANTS];
     char what[32];
     snprintf(what, sizeof what, "patch %d", (int)size);
-    if (count > 0 && bench_forms_time(run, report, q, what, medians)) {
+    if (count > 0 && bench_solve_variants_time(run, report, q, what, medians)) {
         bench_row row = {.what = what, .nrhs = NRHS, .baseline = medians[BENCH_PLAN_SOLVE]};
-        for (int c = 0; c < BENCH_FORMS; c++) {
+        for (int c = 0; c < BENCH_SOLVE_VARIANTS; c++) {
             if (c != BENCH_PLAN_CREATE) {
-                plot_point(p, system, size, bench_forms[c], medians[c], c == BENCH_PLAN_SOLVE);
+                plot_point(p, system, size, bench_solve_variants[c], medians[c],
+                           c == BENCH_PLAN_SOLVE);
             }
         }
-        time_rivals(run, report, p, q, patches, &row);
+        time_alternatives(run, report, p, q, patches, &row);
     }
     bench_queries_free(q);
     for (int k = 0; k < count; k++) {
@@ -170,11 +173,11 @@ void bench_patches(bench_run *run) {
     static const double wanted[] = {1e4, 5e4, 2e5, 1e6, 4e6};
     static const sl_int sizes[] = {2000, 10000, 30000, 50000};
     const bench_system *systems[5];
-    int first = run->size == BENCH_QUICK ? 0 : 1; /* the smallest grid is for smoke tests */
+    int first = run->size == BENCH_QUICK ? 0 : 1; /* the smallest grid is used in quick runs only */
     int count = bench_systems(run, wanted + first, 5 - first, systems);
     bench_report *report = bench_report_open(
         run, "patches",
-        "solving on a patch, b on its boundary and x on all of it (paper: Figures 4 and 5)",
+        "local solves on a patch, b on its boundary, x on the whole patch ([HDA17] Figures 4, 5)",
         "plan solve");
     plots p = {NULL, NULL, 0};
     p.by_mesh =

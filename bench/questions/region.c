@@ -1,25 +1,26 @@
-/* region.c: what does a region save local questions, what does it cost, and do they still grow with the mesh? */
+/* region.c: what does a region save in local solves, and what does it cost? */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench.h"
+#include "bench/lib/bench.h"
 
-/* The same question at 100 random places: a vertex to itself, and b and x on a patch of 2000 vertices, each with its
- * own region; and a vertex inside the region of the patch around it. By the plan to the roots, which is the baseline,
- * and by the plan in the region. Each goes through all places in turn, so that at a patch the caches have seen 99
- * others since, and then several times at one place ("again"). The two are timed one after the other, as plans to the
- * roots push everything else out of the caches. */
+/* The same solves at 100 random places: b and x at one vertex, and b and x on a patch of 2000
+ * vertices, each in a region of its own; and b and x at one vertex in the region of the patch
+ * around it. Each is solved by the plan to the roots, which is the baseline, and by the plan in
+ * the region. A run visits all places in turn, so that between two visits of a place the caches
+ * have seen 99 others; the rows "again" stay at one place for several calls. The plans are timed
+ * one after the other, because plans to the roots evict everything else from the caches. */
 enum { PLACES = 100, MADE = 5, PATCH = 2000, AGAIN = 8, MAX_SYSTEMS = 3, CASES = 4 };
 
-static const double most_copied =
-    2e6; /* vertices of a mesh: beyond it 100 regions by sweeps take minutes */
+/* Vertices. On larger meshes, 100 regions by sweeps take minutes. */
+static const double max_n_copied = 2e6;
 
 typedef struct one_case {
     const char *name;
     int in_patch; /* the region is that of the patch */
-    int one;      /* the question is about its first vertex alone */
+    int one;      /* b and x at its first vertex alone */
     sl_int nrhs;
 } one_case;
 
@@ -28,39 +29,39 @@ static const one_case cases[CASES] = {{"vertex", 0, 1, 1},
                                       {"vertex in patch", 1, 1, 1},
                                       {"patch 2000", 1, 0, 8}};
 
-/* Regions at all places, and what is asked there. */
-typedef struct scene {
+/* Regions at all places, and the queries of the current case. */
+typedef struct places {
     const bench_system *system;
     sl_region *regions[PLACES];
     sl_int vertices[PLACES];
     sl_int *sets[PLACES];
     sl_int sizes[PLACES];
-    bench_queries *plain, *inside; /* the same questions to the roots and in the regions */
+    bench_queries *plain, *inside; /* the same queries to the roots and in the regions */
     int calls, next;
     double bytes, boundary; /* means over the regions */
-    double entries;         /* mean doubles of the inverse that a question reads */
-} scene;
+    double entries;         /* mean doubles of the inverse that a query reads */
+} places;
 
-static scene *scene_make(const bench_system *system, sl_int size) {
-    scene *t = bench_alloc(1, sizeof *t);
-    uint64_t chance = 2026;
+static places *places_create(const bench_system *system, sl_int size) {
+    places *t = bench_alloc(1, sizeof *t);
+    uint64_t rng = 2026;
     memset(t, 0, sizeof *t);
     t->system = system;
     for (int k = 0; k < PLACES; k++) {
         sl_stats stats;
-        t->vertices[k] = bench_random_below(&chance, system->n);
+        t->vertices[k] = bench_random_below(&rng, system->n);
         t->sets[k] = bench_alloc((size_t)size, sizeof(sl_int));
-        t->sizes[k] = patch_bfs(t->sets[k], size, &system->graph, t->vertices[k], system->seen);
+        t->sizes[k] = adjacency_bfs(t->sets[k], size, &system->graph, t->vertices[k], system->seen);
         bench_must(sl_region_create(&t->regions[k], system->F, t->sets[k], t->sizes[k], NULL, NULL,
                                     &stats),
                    "region");
-        t->bytes += (double)stats.bytes_region / PLACES;
-        t->boundary += (double)stats.region_boundary / PLACES;
+        t->bytes += (double)stats.region.bytes / PLACES;
+        t->boundary += (double)stats.region.boundary / PLACES;
     }
     return t;
 }
 
-/* A question whose plan ends in a region. */
+/* Adds a query whose plan ends at the boundary of a region. */
 static const bench_query *add_inside(bench_queries *q, const sl_region *R, const sl_int *set,
                                      sl_int size) {
     sl_options options;
@@ -72,11 +73,11 @@ static const bench_query *add_inside(bench_queries *q, const sl_region *R, const
     bench_must(
         sl_plan_create(&one->plan, q->system->S, set, size, set, size, &options, &one->reach),
         "plan in a region");
-    bench_must(one->reach.plan_in_region ? SL_OK : SL_ERR_STATE, "a plan inside its region");
+    bench_must(one->reach.plan.in_region ? SL_OK : SL_ERR_STATE, "a plan inside its region");
     return one;
 }
 
-static void scene_ask(scene *t, const one_case *c) {
+static void places_add_queries(places *t, const one_case *c) {
     t->plain = bench_queries_create(t->system, PLACES, c->nrhs);
     t->inside = bench_queries_create(t->system, PLACES, c->nrhs);
     t->entries = 0;
@@ -84,17 +85,17 @@ static void scene_ask(scene *t, const one_case *c) {
         const sl_int *set = c->one ? &t->vertices[k] : t->sets[k], size = c->one ? 1 : t->sizes[k];
         bench_queries_add(t->plain, set, size, set, size);
         t->entries +=
-            (double)add_inside(t->inside, t->regions[k], set, size)->reach.plan_region_entries /
+            (double)add_inside(t->inside, t->regions[k], set, size)->reach.plan.region_entries /
             PLACES;
     }
 }
 
-static void scene_forget(scene *t) {
+static void places_free_queries(places *t) {
     bench_queries_free(t->inside);
     bench_queries_free(t->plain);
 }
 
-static void scene_free(scene *t) {
+static void places_free(places *t) {
     for (int k = 0; k < PLACES; k++) {
         sl_region_free(t->regions[k]);
         free(t->sets[k]);
@@ -102,22 +103,22 @@ static void scene_free(scene *t) {
     free(t);
 }
 
-/* Stays at a place for some calls. */
-static void again(scene *t, bench_queries *q) {
+/* Runs the same query for AGAIN calls, then the next one. */
+static void again(places *t, bench_queries *q) {
     q->next = t->calls++ / AGAIN % q->count;
     bench_call_plan_solve(q);
 }
 
 static void call_plain_again(void *state) {
-    again(state, ((scene *)state)->plain);
+    again(state, ((places *)state)->plain);
 }
 
 static void call_inside_again(void *state) {
-    again(state, ((scene *)state)->inside);
+    again(state, ((places *)state)->inside);
 }
 
 static void call_create(void *state) {
-    scene *t = state;
+    places *t = state;
     sl_region *R;
     bench_must(
         sl_region_create(&R, t->system->F, t->sets[t->next], t->sizes[t->next], NULL, NULL, NULL),
@@ -126,15 +127,16 @@ static void call_create(void *state) {
     t->next = (t->next + 1) % PLACES;
 }
 
-static void call_refill(void *state) {
-    scene *t = state;
-    bench_must(sl_region_refill(t->regions[t->next], t->system->F, NULL, t->inside->W), "refill");
+static void call_region_refactor(void *state) {
+    places *t = state;
+    bench_must(sl_region_refactor(t->regions[t->next], t->system->F, NULL, t->inside->W),
+               "region refactor");
     t->next = (t->next + 1) % PLACES;
 }
 
-/* All answers in their regions are those of the plans to the roots, which have the bits of full solves, to 1e-9 of the
- * largest number. */
-static int check(bench_run *run, scene *t, const char *what) {
+/* Checks that all solutions in regions equal those of the plans to the roots, which have the
+ * bits of full solves, to 1e-9 of the largest entry. */
+static int check(bench_run *run, places *t, const char *what) {
     double worst = 0;
     if (!bench_queries_check(run, t->plain, 1)) {
         return 0;
@@ -142,20 +144,20 @@ static int check(bench_run *run, scene *t, const char *what) {
     for (int k = 0; k < PLACES; k++) {
         const bench_query *plain = &t->plain->all[k], *in = &t->inside->all[k];
         const size_t size = (size_t)in->nx * (size_t)t->inside->nrhs;
-        double largest = 0, apart = 0;
+        double largest = 0, difference = 0;
         t->plain->next = t->inside->next = k;
         bench_call_plan_solve(t->plain);
         bench_call_plan_solve(t->inside);
         for (size_t i = 0; i < size; i++) {
             const double error = fabs(plain->X[i] - in->X[i]);
             largest = fmax(largest, fabs(plain->X[i]));
-            apart = error <= apart ? apart : error; /* a NaN stays */
+            difference = error <= difference ? difference : error; /* a NaN stays */
         }
-        worst = apart / largest <= worst ? worst : apart / largest;
+        worst = difference / largest <= worst ? worst : difference / largest;
     }
     t->plain->next = t->inside->next = 0;
-    return bench_expect(run, worst < 1e-9, "%s, %s: in its region %.2g away", t->system->name, what,
-                        worst);
+    return bench_expect(run, worst < 1e-9, "%s, %s: the solution in the region differs by %.2g",
+                        t->system->name, what, worst);
 }
 
 typedef struct growth {
@@ -163,15 +165,15 @@ typedef struct growth {
     int count;
 } growth;
 
-enum { PLAIN, INSIDE, PLAIN_AGAIN, INSIDE_AGAIN, CREATE, REFILL, WAYS };
+enum { PLAIN, INSIDE, PLAIN_AGAIN, INSIDE_AGAIN, CREATE, REFACTOR, VARIANTS };
 
-static void report_case(bench_report *report, const scene *t, const one_case *c,
-                        const bench_sample *samples, int ways) {
-    static const char *const methods[WAYS] = {
+static void report_case(bench_report *report, const places *t, const one_case *c,
+                        const bench_sample *samples, int variants) {
+    static const char *const methods[VARIANTS] = {
         "plan to the roots",     "plan in region", "plan to the roots, again",
-        "plan in region, again", "region create",  "region refill"};
+        "plan in region, again", "region create",  "region refactor"};
     const sl_stats plain = bench_queries_reach(t->plain), in = bench_queries_reach(t->inside);
-    for (int k = 0; k < ways; k++) {
+    for (int k = 0; k < variants; k++) {
         bench_row row = {.what = c->name,
                          .method = methods[k],
                          .nrhs = k < CREATE ? c->nrhs : 0,
@@ -180,21 +182,22 @@ static void report_case(bench_report *report, const scene *t, const one_case *c,
         if (k < CREATE) {
             const int is_inside = k == INSIDE || k == INSIDE_AGAIN;
             bench_row_reach(&row, is_inside ? &in : &plain);
-            row.entries += is_inside ? 2 * t->entries : 0; /* each half of the square once */
+            row.entries +=
+                is_inside ? 2 * t->entries : 0; /* both triangles of the boundary block */
         }
         bench_report_row(report, t->system, &row);
     }
     bench_report_note(
         report,
-        "%-14s   boundary %.0f rows, %.1f kB a region; in it the plan is %.1f times as "
+        "%-14s   boundary %.0f rows, %.1f kB per region; in it the plan is %.1f times as "
         "fast, again %.1f times",
         "", t->boundary, 1e-3 * t->bytes, samples[PLAIN].median / samples[INSIDE].median,
         samples[PLAIN_AGAIN].median / samples[INSIDE_AGAIN].median);
 }
 
-/* The places whose region comes out of a selected inverse, where there is one: making it so and by sweeps, each once,
- * and solving in both. */
-static void time_copies(bench_run *run, bench_report *report, const scene *t, const char *what) {
+/* For the places whose region can be copied from a selected inverse: times creating the region
+ * by copying and by sweeps, once each, and solving in both. */
+static void time_copies(bench_run *run, bench_report *report, const places *t, const char *what) {
     enum { SWEPT, COPIED, IN_SWEPT, IN_COPIED, ROWS };
     static const char *const methods[ROWS] = {"region create", "region create, selected",
                                               "plan in region", "plan in region, selected"};
@@ -213,7 +216,7 @@ static void time_copies(bench_run *run, bench_report *report, const scene *t, co
                                         copied ? Z : NULL, NULL, &stats),
                        "region");
             seconds[copied][count] = bench_now() - start;
-            if (copied && !stats.region_is_copied) {
+            if (copied && !stats.region.is_copied) {
                 sl_region_free(R[copied][count]);
                 break;
             }
@@ -223,7 +226,7 @@ static void time_copies(bench_run *run, bench_report *report, const scene *t, co
     }
     sl_selected_free(Z);
     bench_report_note(report,
-                      "%-14s   with a selected inverse, %d of %d regions come out of it:", "",
+                      "%-14s   %d of %d regions can be copied from the selected inverse:", "",
                       count, PLACES);
     if (count > 0) {
         const bench_contender solves[2] = {{bench_call_plan_solve, q[0], count, NULL},
@@ -248,30 +251,31 @@ static void time_copies(bench_run *run, bench_report *report, const scene *t, co
     }
 }
 
-static void time_case(bench_run *run, bench_report *report, scene *t, int which, growth *g) {
+static void time_case(bench_run *run, bench_report *report, places *t, int which, growth *g) {
     const one_case *c = &cases[which];
-    scene_ask(t, c);
+    places_add_queries(t, c);
     if (check(run, t, c->name)) {
-        const bench_contender contenders[WAYS] = {{bench_call_plan_solve, t->plain, PLACES, NULL},
-                                                  {bench_call_plan_solve, t->inside, PLACES, NULL},
-                                                  {call_plain_again, t, AGAIN * PLACES, NULL},
-                                                  {call_inside_again, t, AGAIN * PLACES, NULL},
-                                                  {call_create, t, MADE, NULL},
-                                                  {call_refill, t, MADE, NULL}};
-        bench_sample samples[WAYS];
-        const int ways = c->in_patch && (c->one || c->nrhs > 1) ? CREATE : WAYS;
-        for (int k = 0; k < ways; k++) {
+        const bench_contender contenders[VARIANTS] = {
+            {bench_call_plan_solve, t->plain, PLACES, NULL},
+            {bench_call_plan_solve, t->inside, PLACES, NULL},
+            {call_plain_again, t, AGAIN * PLACES, NULL},
+            {call_inside_again, t, AGAIN * PLACES, NULL},
+            {call_create, t, MADE, NULL},
+            {call_region_refactor, t, MADE, NULL}};
+        bench_sample samples[VARIANTS];
+        const int variants = c->in_patch && (c->one || c->nrhs > 1) ? CREATE : VARIANTS;
+        for (int k = 0; k < variants; k++) {
             t->calls = t->next = 0;
             bench_race(samples + k, contenders + k, 1, run->seconds / 8);
         }
-        report_case(report, t, c, samples, ways);
+        report_case(report, t, c, samples, variants);
         g->plain[which][g->count] = samples[PLAIN].median;
         g->inside[which][g->count] = samples[INSIDE].median;
-        if (ways == WAYS && t->system->n <= most_copied) {
+        if (variants == VARIANTS && t->system->n <= max_n_copied) {
             time_copies(run, report, t, c->name);
         }
     }
-    scene_forget(t);
+    places_free_queries(t);
 }
 
 void bench_region(bench_run *run) {
@@ -280,16 +284,17 @@ void bench_region(bench_run *run) {
     const bench_system *systems[MAX_SYSTEMS];
     const int count = bench_systems(run, wanted, 3, systems);
     bench_report *report =
-        bench_report_open(run, "region", "local questions whose sweeps end at a region's boundary",
+        bench_report_open(run, "region", "local solves whose sweeps end at a region's boundary",
                           "the plan to the roots");
     g.count = 0;
     for (int k = 0; k < count; k++) {
-        scene *vertices = scene_make(systems[k], 1), *patches = scene_make(systems[k], PATCH);
+        places *vertices = places_create(systems[k], 1),
+               *patches = places_create(systems[k], PATCH);
         for (int which = 0; which < CASES; which++) {
             time_case(run, report, cases[which].in_patch ? patches : vertices, which, &g);
         }
-        scene_free(vertices);
-        scene_free(patches);
+        places_free(vertices);
+        places_free(patches);
         g.n[g.count++] = systems[k]->n;
     }
     printf("\n");
