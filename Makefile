@@ -9,11 +9,11 @@ OPT ?= -O2
 DATA ?= ../shared/data
 ## BENCH    size of the bench: quick, full (to 4e6 unknowns) or nothing
 BENCH ?=
-## ASK      questions of the bench by name (build/timed/bench --list); nothing asks all
-ASK ?=
+## QUESTION questions of the bench by name (build/timed/bench --list); nothing: all
+QUESTION ?=
 ## MESH     mesh file that the bench uses instead of its grids
 MESH ?=
-## OPENMP   flag of the compiler for the bench's threads; nothing: a pool of its own
+## OPENMP   compiler flag for the threads of the bench; nothing: a pool of pthreads
 OPENMP ?= -fopenmp
 ## FUZZ_SECONDS  how long each fuzzer runs
 FUZZ_SECONDS ?= 20
@@ -29,40 +29,41 @@ export SL_DATA BENCH MESH
 
 WARN_BOTH = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
 WARN = $(WARN_BOTH) -Wstrict-prototypes -Wmissing-prototypes
-C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(INCLUDES) $(CFLAGS)
-CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(INCLUDES) $(CXXFLAGS)
+C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(METIS) $(INCLUDES) $(CFLAGS)
+CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(METIS) $(INCLUDES) $(CXXFLAGS)
 IMPL_COMPILE = $(CC) $(C_FLAGS)
 LINK = $(CC) $(OPT)
+# The header needs no library by default; our own builds compile the orderings by METIS too.
+METIS = -DSL_METIS
 LIBS = -lmetis -lz -lm
 TEST_LIBS = -lcmocka
 
-PARTS := $(wildcard src/public/*.h src/impl/*.h)
+PARTS := $(wildcard src/public/*.h src/impl/*/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
-PROGRAMS := $(shell grep -l '^int main\b' tools/*.c)
-NEED_PNG := tools/png_write.c
-TOOLS := $(filter-out $(PROGRAMS) $(NEED_PNG),$(wildcard tools/*.c))
-TESTS := $(wildcard tests/test_*.c)
-FUZZERS := $(wildcard tests/fuzz_*.c)
-HELPERS := $(filter-out $(TESTS) $(FUZZERS) tests/replay.c,$(wildcard tests/*.c))
+MAIN := tools/cli/main.c
+NEED_PNG := tools/draw/png_write.c
+TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/%,$(wildcard tools/*/*.c))
+CORE_TESTS := $(wildcard tests/core/test_*.c)
+TOOL_TESTS := $(wildcard tests/tools/test_*.c)
+TESTS := $(CORE_TESTS) $(TOOL_TESTS)
+FUZZERS := $(wildcard tests/fuzz/fuzz_*.c)
 WHITE_BOX := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null)
-QUESTIONS := $(filter-out bench/peers%,$(wildcard bench/*.c))
-PEERS := $(wildcard bench/peers*.c bench/peers*.cpp)
+BENCH_SOURCES := $(wildcard bench/lib/*.c bench/questions/*.c)
+PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
 object = $(addprefix $(B)/obj/,$(addsuffix .o,$(1)))
 IMPL = $(B)/obj/sparse_local.o
 LIBRARY = $(B)/libtools.a
 TEST_PROGRAMS = $(TESTS:tests/%.c=$(B)/tests/%)
-# Without those of tools/: what a variant of the header itself is tested by.
-HEADER_TESTS = $(filter-out $(addprefix tests/test_,tools_% mesh% render% plot% surface% commands%),$(TESTS))
-REPLAYS = $(FUZZERS:tests/fuzz_%.c=$(B)/tests/replay_%)
+REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all help header check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
+.PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	figures format tidy clean always build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis
+	figures format tidy clean always test-figures build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis
 
-all: check-header layers parts test programs ## the checks, the tests, and the programs of tools/
+all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
 help: ## this list
 	@echo 'Targets'
@@ -80,17 +81,26 @@ sparse_local.h: build/amalgamate $(SRC) LICENSE
 	$(Q)build/amalgamate src/sparse_local.in.h $@ LICENSE
 	@touch $@
 
+header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
+	build/amalgamate --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
+
+size: sparse_local.h build/deps.ok ## size of the header and of its object, compile time; fails above the limits
+	@tools/build/size.sh
+
 check-header: build/amalgamate ## is sparse_local.h what src/ makes?
 	@build/amalgamate --check src/sparse_local.in.h sparse_local.h LICENSE
 	@echo 'check-header: sparse_local.h is what src/ makes'
 
-build/amalgamate: tools/amalgamate.c
+build/amalgamate: tools/build/amalgamate.c
 	@mkdir -p $(@D)
 	$(call say,CC  )
 	$(Q)cc -std=c99 -O2 $(WARN) -o $@ $<
 
-layers: ## do the parts include only what stands below them, and carry their names?
-	@awk -f tools/layers.awk $(SRC)
+layers: ## do all includes go downward, and do the names of src/ have their prefixes?
+	@awk -f tools/build/layers.awk $(SRC) $(wildcard tools/*/*.[ch] tests/*/*.[ch] bench/*/*.[ch] bench/*/*.cpp)
+
+style: ## are all lines short enough, and is the wording of the public headers plain?
+	@tools/build/check_style.sh
 
 parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does every part compile alone?
 	@echo 'parts: each of $(words $^) compiles alone'
@@ -102,43 +112,49 @@ build/parts/%.ok: src/% $(SRC) | build/deps.ok
 	@touch $@
 
 check-promises: sparse_local.h build/deps.ok ## does the header hold each of its promises (C++, two users, SL_STATIC, ...)?
-	@CC='$(CC)' CXX='$(CXX)' tests/check_header.sh
+	@CC='$(CC)' CXX='$(CXX)' tests/core/check_header.sh
 
 # ---- what others must give; Debian packages, installed where missing ----
 
 DEPS = metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
 deps: build/deps.ok ## METIS, cmocka, zlib
-	@tools/deps.sh $(DEPS)
+	@tools/build/deps.sh $(DEPS)
 
-build/deps.ok: tools/deps.sh
+build/deps.ok: tools/build/deps.sh
 	@mkdir -p $(@D)
-	@tools/deps.sh $(DEPS)
+	@tools/build/deps.sh $(DEPS)
 	@touch $@
 
 deps-png: build/deps-png.ok ## libpng: the pictures of sparse-local
-build/deps-png.ok: tools/deps.sh
+build/deps-png.ok: tools/build/deps.sh
 	@mkdir -p $(@D)
-	@tools/deps.sh png.h=libpng-dev
+	@tools/build/deps.sh png.h=libpng-dev
 	@touch $@
 
 deps-cxx: ## g++
-	@tools/deps.sh $(CXX)=g++
+	@tools/build/deps.sh $(CXX)=g++
 
 deps-peers: deps-cxx ## CHOLMOD with OpenBLAS, Eigen
-	@tools/deps.sh suitesparse/cholmod.h=libsuitesparse-dev /usr/include/eigen3/Eigen/Sparse=libeigen3-dev \
+	@tools/build/deps.sh suitesparse/cholmod.h=libsuitesparse-dev /usr/include/eigen3/Eigen/Sparse=libeigen3-dev \
 	/usr/share/doc/libopenblas-dev=libopenblas-dev
 
 deps-clang: ## clang with its sanitizers and fuzzer
-	@tools/deps.sh clang=clang '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a=libclang-rt-dev'
+	@tools/build/deps.sh clang=clang '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a=libclang-rt-dev'
+
+deps-locales: ## locales with a decimal comma, for the tests of Matrix Market files
+	@tools/build/deps.sh '/usr/lib/locale/de_DE.utf8=locales-all'
+
+deps-tcc: ## tcc, a C compiler that is neither gcc nor clang
+	@tools/build/deps.sh tcc=tcc
 
 ARM = /usr/lib/aarch64-linux-gnu
 deps-aarch64: ## a cross compiler, an emulator and arm64 libraries
-	@tools/deps.sh aarch64-linux-gnu-gcc=gcc-aarch64-linux-gnu qemu-aarch64=qemu-user \
+	@tools/build/deps.sh aarch64-linux-gnu-gcc=gcc-aarch64-linux-gnu qemu-aarch64=qemu-user \
 	/usr/aarch64-linux-gnu/include/stdio.h=libc6-dev-arm64-cross $(ARM)/libmetis.so.5=libmetis5:arm64 \
 	$(ARM)/libcmocka.so.0=libcmocka0:arm64 $(ARM)/libz.so.1=zlib1g:arm64
 
 deps-cov: ## gcovr
-	@tools/deps.sh gcovr=gcovr
+	@tools/build/deps.sh gcovr=gcovr
 
 # ---- compiling ----
 
@@ -172,28 +188,24 @@ $(LIBRARY): $(call object,$(TOOLS:.c=))
 	$(call say,AR  )
 	$(Q)$(AR) rcs $@ $^
 
-$(B)/%: $(B)/obj/tools/%.o $(LIBRARY) $(IMPL)
-	$(call say,LINK)
-	$(Q)$(LINK) -o $@ $^ $(LIBS)
-
 # The program over the header; main.c finds the commands, which stand in the library.
 $(call object,$(NEED_PNG:.c=)): | build/deps-png.ok
-$(B)/sparse-local: $(call object,tools/main $(NEED_PNG:.c=)) $(LIBRARY) $(IMPL)
+$(B)/sparse-local: $(call object,$(MAIN:.c=) $(NEED_PNG:.c=)) $(LIBRARY) $(IMPL)
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS) -lpng
 
-programs: $(patsubst tools/%.c,$(B)/%,$(filter-out tools/amalgamate.c tools/main.c,$(PROGRAMS))) $(B)/sparse-local ## build/sparse-local: the paper's experiments on meshes
+programs: $(B)/sparse-local ## build/sparse-local: the paper's experiments on meshes
 
 -include $(shell find $(B)/obj -name '*.d' 2>/dev/null)
 
 # ---- tests ----
 
-$(B)/tests/test_%: $(B)/obj/tests/test_%.o $(call object,$(HELPERS:.c=)) $(LIBRARY) $(IMPL)
+$(B)/tests/%: $(B)/obj/tests/%.o $(LIBRARY) $(IMPL)
 	@mkdir -p $(@D)
 	$(call say,LINK)
-	$(Q)$(LINK) -o $@ $(if $(filter tests/test_$*.c,$(WHITE_BOX)),$(filter-out $(IMPL),$^),$^) $(TEST_LIBS) $(LIBS)
+	$(Q)$(LINK) -o $@ $(if $(filter tests/$*.c,$(WHITE_BOX)),$(filter-out $(IMPL),$^),$^) $(TEST_LIBS) $(LIBS)
 
-$(B)/tests/replay_%: $(B)/obj/tests/fuzz_%.o $(B)/obj/tests/replay.o $(LIBRARY) $(IMPL)
+$(B)/tests/replay_%: $(B)/obj/tests/fuzz/fuzz_%.o $(B)/obj/tests/fuzz/replay.o $(LIBRARY) $(IMPL)
 	@mkdir -p $(@D)
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
@@ -202,44 +214,55 @@ $(B)/tests/replay_%: $(B)/obj/tests/fuzz_%.o $(B)/obj/tests/replay.o $(LIBRARY) 
 PROGRAM =
 build-tests: $(TEST_PROGRAMS) $(REPLAYS) $(PROGRAM)
 run-tests: build-tests
-	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/run.sh $(B)/log $(TEST_PROGRAMS) $(REPLAYS) $(ALSO)
+	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/lib/run.sh $(B)/log $(ALSO) $(TEST_PROGRAMS) $(REPLAYS)
 
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@$(MAKE) --no-print-directory run-tests ALSO='tests/check_header.sh tests/check_program.sh' PROGRAM=$(B)/sparse-local
+	@$(MAKE) --no-print-directory run-tests ALSO='tests/core/check_header.sh tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=$(B)/sparse-local
+
+test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
+	@echo '$(words $(CORE_TESTS)) programs of $(shell cat $(CORE_TESTS) | grep -c 'cmocka_unit_test') core tests'
+	@echo '$(words $(TOOL_TESTS)) programs of $(shell cat $(TOOL_TESTS) | grep -c 'cmocka_unit_test') tests of tools'
+	@for f in tests/fuzz/corpus/*; do echo "corpus $${f##*/}: $$(ls $$f | wc -l) inputs, $$(cat $$f/* | wc -c) bytes"; done
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
 
 test-cxx: deps deps-cxx sparse_local.h ## the header's tests, over bodies compiled as C++11
-	@$(MAKE) --no-print-directory run-tests B=build/cxx TEST_PROGRAMS='$(HEADER_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
+	@$(MAKE) --no-print-directory run-tests B=build/cxx TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
 
-test-no-metis: deps sparse_local.h ## the header's tests, built with -DSL_NO_METIS and not linked with METIS
-	@$(MAKE) --no-print-directory run-tests B=build/no_metis TEST_PROGRAMS='$(HEADER_TESTS:tests/%.c=build/no_metis/tests/%)' CFLAGS='-DSL_NO_METIS $(CFLAGS)' LIBS='-lz -lm'
+test-no-metis: deps sparse_local.h ## the header's tests, built without SL_METIS and not linked with METIS
+	@$(MAKE) --no-print-directory run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='-lz -lm'
+
+NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected
+
+test-no-simd: deps sparse_local.h ## tests of the kernels, built with -DSL_NO_SIMD
+	@$(MAKE) --no-print-directory run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
+	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
 
 test-aarch64: deps deps-aarch64 sparse_local.h ## the header's tests for ARM with NEON, emulated and so without DATA
 	@mkdir -p build/aarch64/include
 	@for h in metis cmocka cmocka_pbc cmocka_version zlib zconf; do \
 	if [ -e /usr/include/$$h.h ]; then cp -p /usr/include/$$h.h build/aarch64/include; fi; done
-	@$(MAKE) --no-print-directory run-tests B=build/aarch64 TEST_PROGRAMS='$(HEADER_TESTS:tests/%.c=build/aarch64/tests/%)' SL_DATA= CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
+	@$(MAKE) --no-print-directory run-tests B=build/aarch64 TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/aarch64/tests/%)' SL_DATA= CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
 	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
 	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
 
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
-	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO=tests/check_program.sh PROGRAM=build/sanitize/sparse-local
+	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
 	@$(MAKE) --no-print-directory run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \
-	TEST_PROGRAMS='$(THREADED:%=build/races/tests/%)'
+	TEST_PROGRAMS='$(THREADED:%=build/races/tests/core/%)'
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
 	@$(MAKE) --no-print-directory run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \
-	TEST_PROGRAMS='$(THREADED:%=build/openmp/tests/%)'
+	TEST_PROGRAMS='$(THREADED:%=build/openmp/tests/core/%)'
 
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
-	@tools/deps.sh valgrind=valgrind
+	@tools/build/deps.sh valgrind=valgrind
 	@$(MAKE) --no-print-directory run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
 
 cov: deps deps-cov sparse_local.h ## line and branch coverage of the header by the tests; build/cov/index.html
@@ -248,47 +271,52 @@ cov: deps deps-cov sparse_local.h ## line and branch coverage of the header by t
 	gcovr --root . --filter 'sparse_local\.h' --gcov-ignore-parse-errors --exclude-unreachable-branches --html-details build/cov/index.html \
 	--print-summary build/cov 2>build/cov/gcovr.log || { cat build/cov/gcovr.log; exit 1; }; exit $$status
 
-fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/corpus
+fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/fuzz/corpus
 	@$(MAKE) --no-print-directory run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
-	-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all'
+	-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' \
+	IMPL_COMPILE='$$(CC) $$(C_FLAGS) -fno-sanitize-coverage=trace-cmp'
 
-$(B)/run/%: $(B)/obj/tests/fuzz_%.o $(LIBRARY) $(IMPL)
+$(B)/run/%: $(B)/obj/tests/fuzz/fuzz_%.o $(LIBRARY) $(IMPL)
 	@mkdir -p $(@D)
 	$(call say,LINK)
 	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(LIBS)
 
-# New inputs stay under B: those worth keeping are copied to tests/corpus by hand.
-run-fuzz: $(FUZZERS:tests/fuzz_%.c=$(B)/run/%)
-	@for program in $^; do name=$${program##*/}; echo "fuzz $$name"; \
-	mkdir -p $(B)/found/$$name tests/corpus/$$name; \
-	$$program -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 -artifact_prefix=$(B)/found/crash-$$name- \
-	$(B)/found/$$name tests/corpus/$$name >$(B)/$$name.log 2>&1 || { tail -n 60 $(B)/$$name.log; exit 1; }; \
-	grep 'number_of_executed_units' $(B)/$$name.log; done
+# New inputs stay under B: those worth keeping are copied to tests/fuzz/corpus by hand. The runs are
+# short: tracing every comparison of the header (above) and the schedule by entropy take longer than
+# the calls themselves. The dictionaries know the words that the traces would find.
+run-fuzz: $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/run/%)
+	@for program in $^; do name=$${program##*/}; words=tests/fuzz/$$name.dict; \
+	mkdir -p $(B)/found/$$name tests/fuzz/corpus/$$name; \
+	$$program -max_total_time=$(FUZZ_SECONDS) -max_len=2048 -entropic=0 -print_final_stats=1 \
+	$$([ ! -e $$words ] || echo -dict=$$words) -artifact_prefix=$(B)/found/crash-$$name- \
+	$(B)/found/$$name tests/fuzz/corpus/$$name >$(B)/$$name.log 2>&1 || { tail -n 60 $(B)/$$name.log; exit 1; }; \
+	awk -v name=$$name '/number_of_executed_units/ { runs = $$2 } /average_exec_per_sec/ { rate = $$2 } \
+	END { printf "fuzz %s: %d executions, %d a second\n", name, runs, rate }' $(B)/$$name.log; done
 
 # ---- bench ----
 
-$(B)/bench: $(call object,$(QUESTIONS:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
+$(B)/bench: $(call object,$(BENCH_SOURCES:.c=)) $(PEER_OBJECTS) $(LIBRARY) $(IMPL)
 	$(call say,LINK)
 	$(Q)$(LINK) $(OPENMP) -o $@ $^ $(PEER_LIBS) $(LIBS) -lpthread
 
 run-bench: $(B)/bench
 	@mkdir -p build/bench-out
-	$(BENCH_ENV) $(B)/bench $(or $(ASK),$(ASK_FIRST))
+	$(BENCH_ENV) $(B)/bench $(or $(QUESTION),$(QUESTION_DEFAULT))
 
-bench: deps sparse_local.h ## times factorization, full and local solves on this machine; CSV and plots under build/bench-out
+bench: deps sparse_local.h ## times factorizations, full and local solves on this machine; CSV files and plots in build/bench-out
 	@$(MAKE) --no-print-directory run-bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
 
-# Peers in their best setting: OpenBLAS chooses its kernels by itself, whatever core the environment forces on it.
+# Peers in their best setting: OpenBLAS chooses its kernels itself, whatever core the environment names.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
-# Eigen picks its vector instructions when it is compiled: its best setting is -march=native, for its own file alone.
-bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic and peers_several: beside CHOLMOD and Eigen
-	@$(MAKE) --no-print-directory run-bench B=build/peers ASK_FIRST="peers peers_harmonic peers_several" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+# Eigen chooses its vector instructions at compile time: its best setting is -march=native, for its own file only.
+bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic and peers_shifted: against CHOLMOD and Eigen
+	@$(MAKE) --no-print-directory run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
 
-readme-table: ## what the last bench-peers measured, as a Markdown table
-	@awk -f tools/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
+readme-table: ## prints the measurements of the last bench-peers as Markdown tables
+	@awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv)
 
 # ---- the paper ----
@@ -297,12 +325,12 @@ FIGURES = build/figures$(if $(MESH),/$(firstword $(subst ., ,$(notdir $(MESH))))
 # The bench is built as for `make bench`, the program as for the tests.
 figures: deps deps-png sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
 	@$(MAKE) --no-print-directory build/timed/bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
-	@tools/figures.sh $(B)/sparse-local build/timed/bench '$(FIGURES)' '$(MESH)'
+	@tools/build/figures.sh $(B)/sparse-local build/timed/bench '$(FIGURES)' '$(MESH)'
 
 # ---- the rest ----
 
 format: ## clang-format over all sources, in place
-	clang-format -i $(SRC) $(wildcard tests/*.[ch] bench/*.[ch] bench/*.cpp tools/*.[ch])
+	clang-format -i $(SRC) $(wildcard tests/*/*.[ch] bench/*/*.[ch] bench/*/*.cpp tools/*/*.[ch])
 
 tidy: sparse_local.h ## clang-tidy over the bodies and the tools
 	@printf '#define SPARSE_LOCAL_IMPLEMENTATION\n#include "sparse_local.in.h"\n' >build/tidy.c
