@@ -17,6 +17,8 @@ MESH ?=
 OPENMP ?= -fopenmp
 ## FUZZ_SECONDS  how long each fuzzer runs
 FUZZ_SECONDS ?= 20
+## FUZZ_SEED  the seed of the fuzzers' random numbers; 0 chooses one
+FUZZ_SEED ?= 0
 ## B        folder of objects, test programs and the bench; what is the same for all of them stays in build
 B ?= build
 ## V        1 shows every command
@@ -287,7 +289,7 @@ $(B)/run/%: $(B)/obj/tests/fuzz/fuzz_%.o $(LIBRARY) $(IMPL)
 run-fuzz: $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/run/%)
 	@for program in $^; do name=$${program##*/}; words=tests/fuzz/$$name.dict; \
 	mkdir -p $(B)/found/$$name tests/fuzz/corpus/$$name; \
-	$$program -max_total_time=$(FUZZ_SECONDS) -max_len=2048 -entropic=0 -print_final_stats=1 \
+	$$program -max_total_time=$(FUZZ_SECONDS) -seed=$(FUZZ_SEED) -max_len=2048 -entropic=0 -print_final_stats=1 \
 	$$([ ! -e $$words ] || echo -dict=$$words) -artifact_prefix=$(B)/found/crash-$$name- \
 	$(B)/found/$$name tests/fuzz/corpus/$$name >$(B)/$$name.log 2>&1 || { tail -n 60 $(B)/$$name.log; exit 1; }; \
 	awk -v name=$$name '/number_of_executed_units/ { runs = $$2 } /average_exec_per_sec/ { rate = $$2 } \

@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e8404ac35ed95115
+ * FNV-1a of the lines after this comment, without the license: cee828231a059f30
  *
  * Contents
  * (what a user reads)
@@ -45,19 +45,19 @@
  * (solve: full and local solves)
  *  11300 region_types.h  11418 work.h  11525 query.h  11726 singular.h  11957 sweep.h
  *  12134 compile.h  12343 plan.h  12450 local.h  12608 refine.h  12789 refine_local.h
- *  13018 rcond.h  13149 defects.h
+ *  13018 rcond.h  13152 defects.h
  * (inverse: entries of the inverse, regions)
- *  13206 traversal.h  13484 traversal_run.h  13665 row_sets.h  13696 unit_vectors.h
- *  13955 bilinear.h  14142 entries.h  14444 block.h  14701 reserve.h  14912 selected.h
- *  15122 selected_query.h  15230 region_choose.h  15482 region.h
+ *  13209 traversal.h  13487 traversal_run.h  13668 row_sets.h  13699 unit_vectors.h
+ *  13958 bilinear.h  14145 entries.h  14447 block.h  14704 reserve.h  14915 selected.h
+ *  15125 selected_query.h  15233 region_choose.h  15485 region.h
  * (batch: many solves, factors and diagonals by one call)
- *  15729 batch_solve.h  15957 batch_factor.h  16158 batch_diagonal.h
+ *  15732 batch_solve.h  15960 batch_factor.h  16161 batch_diagonal.h
  * (last: undefine every internal macro)
- *  16303 undef.h
+ *  16306 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  16411 multi_rhs.inl.h  16785 kernel_set.inl.h  16789 unit_triangle.inl.h  16830 two_rhs.inl.h
- *  17002 product.inl.h  17138 front.inl.h  17354 inverse_front.inl.h  17657 small_supernode.inl.h
- *  17825 single_rhs.inl.h
+ *  16414 multi_rhs.inl.h  16788 kernel_set.inl.h  16792 unit_triangle.inl.h  16833 two_rhs.inl.h
+ *  17005 product.inl.h  17141 front.inl.h  17357 inverse_front.inl.h  17660 small_supernode.inl.h
+ *  17828 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13140,7 +13140,10 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     sli_norm_estimate_layout(&p, &b);
     norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
     inverse = sli_inverse_norm(&p);
-    *rcond = norm > 0.0 && inverse > 0.0 ? 1.0 / norm / inverse : 0.0;
+    /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
+    *rcond = norm > 0.0 && inverse > 0.0
+           ? 1.0 / fmax(norm, inverse) / fmin(norm, inverse)
+           : 0.0;
   }
   sli_free(&own.allocator, own.block);
   return status;

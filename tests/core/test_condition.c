@@ -91,6 +91,15 @@ static void singular_empty_and_invalid_inputs(void **state) {
             SL_CHECK(sl_factor_rcond(y.F, &y.M.view, &estimate, NULL));
             assert_true(estimate >= 0.0 && estimate <= 1.0);
         }
+        /* ||A|| is subnormal, so that 1 / ||A|| and the inverse overflow: not NaN */
+        for (sl_int j = 0; j < 10; j++) {
+            for (sl_int p = y.M.p[j]; p < y.M.p[j + 1]; p++) {
+                y.M.x[p] = y.M.i[p] == j ? 5e-324 : 0.0;
+            }
+        }
+        SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+        SL_CHECK(sl_factor_rcond(y.F, &y.M.view, &estimate, NULL));
+        assert_true(estimate >= 0.0 && estimate <= 1.0);
         y.M.x[0] = NAN;
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(y.F, &y.M.view, NULL));
         SL_EXPECT(SL_ERR_STATE, sl_factor_rcond(y.F, &y.M.view, &estimate, NULL));

@@ -130,7 +130,10 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
         sli_norm_estimate_layout(&p, &b);
         norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
         inverse = sli_inverse_norm(&p);
-        *rcond = norm > 0.0 && inverse > 0.0 ? 1.0 / norm / inverse : 0.0;
+        /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
+        *rcond = norm > 0.0 && inverse > 0.0
+                     ? 1.0 / fmax(norm, inverse) / fmin(norm, inverse)
+                     : 0.0;
     }
     sli_free(&own.allocator, own.block);
     return status;
