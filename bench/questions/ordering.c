@@ -29,6 +29,7 @@ typedef struct variant {
 
 static const variant variants[] = {{"ND", SL_ORDERING_ND, 0},
                                    {"ND, coordinates", SL_ORDERING_ND, 1},
+                                   {"MINDEG", SL_ORDERING_MINDEG, 0},
                                    {"METIS refined", SL_ORDERING_METIS_REFINED, 0}};
 
 enum { VARIANTS = sizeof variants / sizeof *variants };

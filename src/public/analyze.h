@@ -22,13 +22,14 @@
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, ordering, relaxation, triangle, perm, metis_options, coordinates,
- *                dimensions, block_size; may be NULL. coordinates are used by SL_ORDERING_ND only,
- *                and block_size by all but SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every
- *                ordering refuses invalid ones.
+ *                dimensions, block_size, purpose; may be NULL. coordinates and purpose are used by
+ *                SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
+ *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
- *           offending position), an unknown ordering, relaxation or triangle, metis_options that
- *           METIS would refuse, a block_size that does not divide n, dimensions other than 2 or 3;
+ *           offending position), an unknown ordering, purpose, relaxation or triangle,
+ *           metis_options that METIS would refuse, a block_size that does not divide n, dimensions
+ *           other than 2 or 3;
  *           SL_ERR_NOT_FINITE: a coordinate (error.row is the first row of its block);
  *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -40,8 +41,8 @@
  *           runs out of memory. Concurrent calls with METIS are safe only if rand() is, and may
  *           then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
- *           separators; [FF56] minimum vertex cuts; [Liu90] elimination tree; [GNP94] counts;
- *           [AG89] relaxed supernodes.
+ *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [Liu90] elimination
+ *           tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,

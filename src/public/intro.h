@@ -53,6 +53,8 @@
  *            1975.
  *  [SelInv]  Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric matrix,
  *            2011.
+ *  [ADD96]   Amestoy, Davis, Duff: An approximate minimum degree ordering algorithm. SIAM J. Matrix
+ *            Anal. Appl. 17(4), 1996
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
  *            method, 1989.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.

@@ -34,7 +34,7 @@ typedef struct sl_allocator {
  *  | call                                       | fields that it reads                     |
  *  |--------------------------------------------|------------------------------------------|
  *  | every call with an sl_options argument     | size, allocator                          |
- *  | sl_symbolic_create                         | ordering .. block_size                   |
+ *  | sl_symbolic_create                         | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination   | threads, isa .. signs, null_vector       |
  *  | sl_batch_factor                            | threads, isa .. signs, null_vector       |
@@ -70,6 +70,9 @@ typedef struct sl_options {
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
+    /* with SL_ORDERING_ND: SL_PURPOSE_ONE_FACTOR orders by minimum degree where dissection would
+     * take longer than it saves */
+    sl_purpose purpose;
 
     /* ---- factorization ---- */
 
@@ -110,7 +113,7 @@ typedef struct sl_options {
     const double *null_vector;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[7];
+    const void *reserved[6];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.

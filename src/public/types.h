@@ -74,8 +74,15 @@ typedef enum sl_ordering {
     SL_ORDERING_METIS,         /* METIS_NodeND on every connected component [KK98] */
     SL_ORDERING_METIS_REFINED, /* METIS's separators, improved: the best order, in twice its time */
     SL_ORDERING_GIVEN,         /* options.perm, or equivalent: see sl_symbolic_create */
-    SL_ORDERING_NATURAL        /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
+    SL_ORDERING_NATURAL,       /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
+    SL_ORDERING_MINDEG         /* approximate minimum degree, soonest done [ADD96] */
 } sl_ordering;
+
+/** What the analysis is for. */
+typedef enum sl_purpose {
+    SL_PURPOSE_MANY_SOLVES = 0, /* few columns on the paths of local solves, and few entries of L */
+    SL_PURPOSE_ONE_FACTOR       /* the first factor as early as possible */
+} sl_purpose;
 
 /** Amalgamation of small supernodes with their parents: faster solves for a few stored zeros. */
 typedef enum sl_relaxation {

@@ -120,7 +120,10 @@ static void unknown_enum_values_are_refused(void **state) {
         const sl_reading reading = (sl_reading)unknown(k, SL_AS_STORED);
         sl_options opt = options_none();
         opt.perm = f->perm;
-        opt.ordering = (sl_ordering)unknown(k, SL_ORDERING_NATURAL);
+        opt.ordering = (sl_ordering)unknown(k, SL_ORDERING_MINDEG);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
+        opt = options_none();
+        opt.purpose = (sl_purpose)unknown(k, SL_PURPOSE_ONE_FACTOR);
         SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
         opt = options_none();
         opt.relaxation = (sl_relaxation)unknown(k, SL_RELAXATION_NONE);

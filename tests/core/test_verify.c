@@ -17,6 +17,7 @@ static const option_t options[] = {
     {"metis_options", READS_ANALYSIS},
     {"coordinates, dimensions", READS_ANALYSIS},
     {"block_size", READS_ANALYSIS},
+    {"purpose", READS_ANALYSIS},
     {"triangle", READS_TRIANGLE},
     {"isa", READS_FACTOR},
     {"method", READS_FACTOR},
@@ -67,33 +68,36 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.block_size = 5;
         break;
     case 6:
-        opt.triangle = SL_TRIANGLE_LOWER;
+        opt.purpose = SL_PURPOSE_ONE_FACTOR;
         break;
     case 7:
-        opt.isa = SL_ISA_SCALAR;
+        opt.triangle = SL_TRIANGLE_LOWER;
         break;
     case 8:
-        opt.method = SL_METHOD_SUPERNODAL;
+        opt.isa = SL_ISA_SCALAR;
         break;
     case 9:
-        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.method = SL_METHOD_SUPERNODAL;
         break;
     case 10:
-        opt.null_tolerance = 1e-12;
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
         break;
     case 11:
-        opt.mass = mass;
+        opt.null_tolerance = 1e-12;
         break;
     case 12:
-        opt.consistency_tolerance = 1e-5;
+        opt.mass = mass;
         break;
     case 13:
-        opt.regularization = 1e-8;
+        opt.consistency_tolerance = 1e-5;
         break;
     case 14:
-        opt.signs = signs;
+        opt.regularization = 1e-8;
         break;
     case 15:
+        opt.signs = signs;
+        break;
+    case 16:
         opt.region = f->region;
         break;
     default:

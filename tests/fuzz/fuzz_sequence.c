@@ -401,6 +401,7 @@ static void create_analysis(input_t *in) {
     sl_options opt = options();
     opt.ordering = choices / 2 % 4 == 0   ? SL_ORDERING_GIVEN
                    : choices / 2 % 4 == 1 ? SL_ORDERING_NATURAL
+                   : choices / 2 % 4 == 2 ? SL_ORDERING_MINDEG
                                           : SL_ORDERING_ND;
     opt.perm = opt.ordering == SL_ORDERING_GIVEN ? perm : NULL;
     opt.relaxation = (sl_relaxation)(choices / 8 % 2);

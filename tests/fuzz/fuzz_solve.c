@@ -109,7 +109,7 @@ static void take_options(case_t *c, input_t *in) {
     const sl_int n = c->A.n_cols;
     memset(&c->for_analysis, 0, sizeof c->for_analysis);
     memset(&c->for_factor, 0, sizeof c->for_factor);
-    c->for_analysis.ordering = (sl_ordering)(choices % 5);
+    c->for_analysis.ordering = (sl_ordering)(choices % 6);
     c->for_analysis.relaxation = (sl_relaxation)(choices / 4 % 2);
     c->for_factor.isa = (sl_isa)(choices / 8 % 5);
     c->for_factor.method = (sl_method)(choices / 40 % 3);

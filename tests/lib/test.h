@@ -158,6 +158,7 @@ static inline sl_options options_for_factor(const sl_options *from) {
         opt.perm = opt.metis_options = NULL;
         opt.coordinates = NULL;
         opt.dimensions = opt.block_size = 0;
+        opt.purpose = SL_PURPOSE_MANY_SOLVES;
     }
     return opt;
 }

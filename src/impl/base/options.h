@@ -27,7 +27,7 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 static int sli_options_set(const sl_options *opt) {
     const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
                          opt->metis_options != NULL || opt->coordinates != NULL ||
-                         opt->dimensions != 0 || opt->block_size != 0;
+                         opt->dimensions != 0 || opt->block_size != 0 || opt->purpose != 0;
     const int factor = opt->isa != 0 || opt->method != 0 || opt->null_pivots != 0 ||
                        opt->null_tolerance != 0.0 || opt->mass != NULL ||
                        opt->consistency_tolerance != 0.0 || opt->regularization != 0.0 ||

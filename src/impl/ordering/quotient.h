@@ -1,0 +1,417 @@
+/* quotient.h: approximate minimum degree ordering of a whole graph, kept as a quotient graph */
+#ifndef SLI_ORDERING_QUOTIENT_H
+#define SLI_ORDERING_QUOTIENT_H
+
+#include "graph.h"
+#include "../base/alloc.h"
+
+/* A row with more than this many times sqrt(n) neighbors, and more than 16, is eliminated last:
+ * its degree would be updated by every pivot. */
+#define SLI_QUOTIENT_DENSE_ROW 10.0
+
+enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
+
+/* The quotient graph. A variable stands for rows that have become indistinguishable. A pivot
+ * becomes an element, whose list names the variables of its front. The list of a variable holds
+ * elements first, then the variables that only an entry of A joins to it. No list ever grows, so
+ * that the graph stays within its first size, plus one front that is being formed. [ADD96] */
+typedef struct sli_quotient {
+    sl_int n;
+    sl_off end, room;    /* of list: positions used, and available */
+    sl_int *list;        /* all lists */
+    sl_off *begin;       /* n: where the list of a variable or an element begins */
+    sl_int *length;      /* n: entries in it; 0 if it is dead */
+    sl_int *elements;    /* n: elements in the list of a variable, or SLI_QUOTIENT_PIVOT, _MERGED */
+    sl_int *weight;      /* n: rows of a variable; 0: merged; negated in the front being formed */
+    sl_int *degree;      /* n: bound on the external degree; of an element, weight of its list */
+    sl_int *mark;        /* n: 0 for a dead element, otherwise see sli_quotient_overlaps */
+    sl_int *head;        /* n: first variable of each degree, or -1 */
+    sl_int *next;        /* n: list of equal degrees; chain of equal hashes within the front */
+    sl_int *previous;    /* n: list of equal degrees; the hash within the front */
+    sl_int *bucket;      /* n: first variable of each hash, or -1 */
+    sl_int *into;        /* n: what a merged variable is merged into */
+    sl_int *sequence;    /* n: pivots in the order of elimination */
+    sl_int live;         /* rows that are not dense */
+    sl_int pivots, rows; /* pivots and rows eliminated */
+    double flops;        /* about what the factorization of the pivots so far takes */
+    sl_int least;        /* no variable has a smaller degree */
+    sl_int widest;       /* largest degree of an element */
+    sl_int base;         /* marks below it are old */
+} sli_quotient;
+
+static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_int n, sl_off edges) {
+    q->n = n;
+    q->room = edges + edges / 4 + n;
+    q->begin = SLI_TAKE(b, sl_off, n);
+    q->list = SLI_TAKE(b, sl_int, q->room);
+    q->length = SLI_TAKE(b, sl_int, n);
+    q->elements = SLI_TAKE(b, sl_int, n);
+    q->weight = SLI_TAKE(b, sl_int, n);
+    q->degree = SLI_TAKE(b, sl_int, n);
+    q->mark = SLI_TAKE(b, sl_int, n);
+    q->head = SLI_TAKE(b, sl_int, n);
+    q->next = SLI_TAKE(b, sl_int, n);
+    q->previous = SLI_TAKE(b, sl_int, n);
+    q->bucket = SLI_TAKE(b, sl_int, n);
+    q->into = SLI_TAKE(b, sl_int, n);
+    q->sequence = SLI_TAKE(b, sl_int, n);
+}
+
+SLI_INLINE void sli_quotient_enqueue(sli_quotient *q, sl_int v) {
+    const sl_int degree = q->degree[v], first = q->head[degree];
+    q->next[v] = first;
+    q->previous[v] = -1;
+    if (first != -1) {
+        q->previous[first] = v;
+    }
+    q->head[degree] = v;
+    q->least = degree < q->least ? degree : q->least;
+}
+
+SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
+    const sl_int before = q->previous[v], after = q->next[v];
+    if (after != -1) {
+        q->previous[after] = before;
+    }
+    if (before != -1) {
+        q->next[before] = after;
+    } else {
+        q->head[q->degree[v]] = after;
+    }
+}
+
+/* Makes every vertex of G a variable, except for dense rows, which are written to the end of perm.
+ */
+static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
+    const double limit = SLI_QUOTIENT_DENSE_ROW * sqrt((double)G->n);
+    sl_int v;
+    sl_off e;
+    q->live = q->n;
+    q->pivots = q->rows = q->least = q->widest = 0;
+    q->end = 0;
+    q->flops = 0.0;
+    q->base = 2;
+    for (v = 0; v < q->n; v++) {
+        const sl_off degree = G->begin[v + 1] - G->begin[v];
+        const int is_dense = degree > 16 && (double)degree > limit;
+        q->weight[v] = !is_dense;
+        q->elements[v] = is_dense ? SLI_QUOTIENT_MERGED : 0;
+        q->mark[v] = 1;
+        q->head[v] = q->bucket[v] = q->into[v] = -1;
+        if (is_dense) {
+            perm[--q->live] = v;
+        }
+    }
+    for (v = 0; v < q->n; v++) {
+        q->begin[v] = q->end;
+        for (e = G->begin[v]; e < G->begin[v + 1] && q->weight[v] != 0; e++) {
+            if (q->weight[G->to[e]] != 0) {
+                q->list[q->end++] = G->to[e];
+            }
+        }
+        q->length[v] = q->degree[v] = (sl_int)(q->end - q->begin[v]);
+    }
+    for (v = q->n - 1; v >= 0; v--) {
+        if (q->weight[v] != 0) {
+            sli_quotient_enqueue(q, v);
+        }
+    }
+}
+
+/* Moves the lists together. Meanwhile the first entry of a list is kept in place of its begin, and
+ * the owner of the list stands there instead, as ~owner. */
+static void sli_quotient_collect(sli_quotient *q) {
+    sl_off from = 0, to = 0;
+    sl_int v, k;
+    for (v = 0; v < q->n; v++) {
+        if (q->length[v] > 0) {
+            const sl_off at = q->begin[v];
+            q->begin[v] = q->list[at];
+            q->list[at] = ~v;
+        }
+    }
+    while (from < q->end) {
+        v = q->list[from++];
+        if (v >= 0) {
+            continue; /* no longer in any list */
+        }
+        v = ~v;
+        q->list[to] = (sl_int)q->begin[v];
+        q->begin[v] = to++;
+        for (k = 1; k < q->length[v]; k++) {
+            q->list[to++] = q->list[from++];
+        }
+    }
+    q->end = to;
+}
+
+/* Moves the variables of one list into the front that is being formed, which ends at `to`. */
+SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count, sl_off to,
+                                      sl_int *total) {
+    for (; count > 0; count--) {
+        const sl_int v = q->list[from++], weight = q->weight[v];
+        if (weight > 0) {
+            q->weight[v] = -weight;
+            *total += weight;
+            q->list[to++] = v;
+            sli_quotient_dequeue(q, v);
+        }
+    }
+    return to;
+}
+
+/* Makes the variable `pivot` an element: its list becomes the variables next to it, directly or
+ * through its elements, which it absorbs. Returns the weight of the list. */
+static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
+    const sl_int elements = q->elements[pivot];
+    sl_int total = 0, k;
+    sl_off at, begin, to;
+    q->elements[pivot] = SLI_QUOTIENT_PIVOT;
+    q->weight[pivot] = -q->weight[pivot]; /* stays out of its own front */
+    if (elements == 0) {
+        begin = q->begin[pivot];
+        to = sli_quotient_gather(q, begin, q->length[pivot], begin, &total);
+    } else {
+        if (q->room - q->end < q->live - q->rows) {
+            sli_quotient_collect(q);
+        }
+        at = q->begin[pivot];
+        begin = to = q->end;
+        for (k = 0; k < elements; k++) {
+            const sl_int e = q->list[at + k];
+            if (q->mark[e] != 0) {
+                to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
+                q->mark[e] = 0;
+                q->length[e] = 0;
+            }
+        }
+        to = sli_quotient_gather(q, at + elements, q->length[pivot] - elements, to, &total);
+        q->begin[pivot] = begin;
+        q->end = to;
+    }
+    q->length[pivot] = (sl_int)(to - begin);
+    return total;
+}
+
+/* mark[e] - base := the weight of what element e has outside the front, for every element next to a
+ * variable of the front. */
+static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
+    const sl_int *front = q->list + q->begin[pivot];
+    sl_int k, p, v;
+    if (q->base > INT32_MAX - 3 * (sl_off)q->n - 3) {
+        for (v = 0; v < q->n; v++) {
+            q->mark[v] = q->mark[v] != 0;
+        }
+        q->base = 2;
+    }
+    for (k = 0; k < q->length[pivot]; k++) {
+        const sl_int weight = -q->weight[front[k]];
+        const sl_int *elements = q->list + q->begin[front[k]];
+        for (p = 0; p < q->elements[front[k]]; p++) {
+            const sl_int e = elements[p], mark = q->mark[e];
+            if (mark >= q->base) {
+                q->mark[e] = mark - weight;
+            } else if (mark != 0) {
+                q->mark[e] = q->degree[e] + q->base - weight;
+            }
+        }
+    }
+}
+
+/* Rewrites the list of variable v of the front: the new element comes first, elements within the
+ * front are absorbed, variables of the front are left out. Returns whether anything but the new
+ * element is left. Otherwise v can be eliminated with the pivot. */
+static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
+    sl_int *list = q->list + q->begin[v];
+    const sl_int elements = q->elements[v], length = q->length[v];
+    sl_int k, to = 0, degree = 0, first_variable;
+    uint32_t hash = 0;
+    for (k = 0; k < elements; k++) {
+        const sl_int e = list[k], outside = q->mark[e] - q->base;
+        if (q->mark[e] == 0) {
+            continue;
+        }
+        if (outside > 0) {
+            degree += outside;
+            hash += (uint32_t)e;
+            list[to++] = e;
+        } else {
+            q->mark[e] = 0;
+            q->length[e] = 0;
+        }
+    }
+    first_variable = to;
+    for (k = elements; k < length; k++) {
+        const sl_int u = list[k];
+        if (q->weight[u] > 0) {
+            degree += q->weight[u];
+            hash += (uint32_t)u;
+            list[to++] = u;
+        }
+    }
+    if (to == 0) {
+        return 0;
+    }
+    list[to] = list[first_variable]; /* the pivot, or what it absorbed, has left a gap */
+    list[first_variable] = list[0];
+    list[0] = pivot;
+    q->elements[v] = first_variable + 1;
+    q->length[v] = to + 1;
+    q->degree[v] = degree < q->degree[v] ? degree : q->degree[v];
+    hash %= (uint32_t)q->n;
+    q->previous[v] = (sl_int)hash;
+    q->next[v] = q->bucket[hash];
+    q->bucket[hash] = v;
+    return 1;
+}
+
+/* Merges variable v into `root`, a pivot or a variable. */
+SLI_INLINE void sli_quotient_merge(sli_quotient *q, sl_int v, sl_int root) {
+    q->into[v] = root;
+    q->weight[root] += q->weight[v]; /* both negative */
+    q->weight[v] = 0;
+    q->length[v] = 0;
+    q->elements[v] = SLI_QUOTIENT_MERGED;
+}
+
+/* Returns whether the lists of u and v agree after their first entry, the new element. All entries
+ * of u's list are marked with base. */
+SLI_INLINE int sli_quotient_is_indistinguishable(const sli_quotient *q, sl_int u, sl_int v) {
+    const sl_int *list = q->list + q->begin[v];
+    sl_int k = 1;
+    if (q->length[u] != q->length[v] || q->elements[u] != q->elements[v]) {
+        return 0;
+    }
+    while (k < q->length[v] && q->mark[list[k]] == q->base) {
+        k++;
+    }
+    return k == q->length[v];
+}
+
+/* Merges the variables of the front that are indistinguishable, among those of one hash. */
+static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
+    for (; u != -1 && q->next[u] != -1; u = q->next[u], q->base++) {
+        const sl_int *list = q->list + q->begin[u];
+        sl_int k, before = u, v = q->next[u];
+        for (k = 1; k < q->length[u]; k++) {
+            q->mark[list[k]] = q->base;
+        }
+        while (v != -1) {
+            const sl_int after = q->next[v];
+            if (sli_quotient_is_indistinguishable(q, u, v)) {
+                sli_quotient_merge(q, v, u);
+                q->next[before] = after;
+            } else {
+                before = v;
+            }
+            v = after;
+        }
+    }
+}
+
+/* Eliminates a variable of least degree, and with it those that have no other neighbors. */
+static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
+    const sl_int total = sli_quotient_form(q, pivot), count = q->length[pivot];
+    sl_int *front = q->list + q->begin[pivot];
+    sl_int k, kept = 0, left = total;
+    double height;
+    q->rows -= q->weight[pivot];
+    sli_quotient_overlaps(q, pivot);
+    for (k = 0; k < count; k++) {
+        const sl_int v = front[k];
+        if (!sli_quotient_rewrite(q, v, pivot)) {
+            left += q->weight[v];
+            q->rows -= q->weight[v];
+            sli_quotient_merge(q, v, pivot);
+        }
+    }
+    q->widest = total > q->widest ? total : q->widest;
+    q->base += q->widest + 1;
+    for (k = 0; k < count; k++) {
+        if (q->weight[front[k]] != 0) {
+            const sl_int hash = q->previous[front[k]], first = q->bucket[hash];
+            q->bucket[hash] = -1;
+            sli_quotient_merge_chain(q, first);
+        }
+    }
+    for (k = 0; k < count; k++) {
+        const sl_int v = front[k], weight = -q->weight[v];
+        if (weight != 0) {
+            q->weight[v] = weight;
+            q->degree[v] = sli_min(q->degree[v] + left - weight, q->live - q->rows - weight);
+            sli_quotient_enqueue(q, v);
+            front[kept++] = v;
+        }
+    }
+    q->weight[pivot] = -q->weight[pivot];
+    q->degree[pivot] = left;
+    q->mark[pivot] = kept > 0;
+    q->end -= q->end == q->begin[pivot] + count ? count - kept : 0;
+    q->length[pivot] = kept;
+    q->sequence[q->pivots++] = pivot;
+    height = left + 0.5 * q->weight[pivot];
+    q->flops += height * height * q->weight[pivot];
+}
+
+/* Writes the rows in the order of their pivots. A merged row follows the pivot at the end of its
+ * chain. Dense rows are there already. */
+static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
+    sl_int *start = q->head;
+    sl_int v, k, at = 0;
+    for (k = 0; k < q->pivots; k++) {
+        start[q->sequence[k]] = at;
+        at += q->weight[q->sequence[k]];
+    }
+    for (k = 0; k < q->pivots; k++) {
+        perm[start[q->sequence[k]]++] = q->sequence[k];
+    }
+    for (v = 0; v < q->n; v++) {
+        sl_int root = v;
+        if (q->elements[v] == SLI_QUOTIENT_PIVOT || q->into[v] == -1) {
+            continue;
+        }
+        while (q->elements[root] != SLI_QUOTIENT_PIVOT) {
+            root = q->into[root];
+        }
+        for (k = v; k != root;) { /* shortens the chain for those that come later */
+            const sl_int up = q->into[k];
+            q->into[k] = root;
+            k = up;
+        }
+        perm[start[root]++] = v;
+    }
+}
+
+/* Orders a graph without repeated edges by approximate minimum degree. Of equal degrees the latest
+ * comes first. *flops := about the operations of a factorization in this order. */
+static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, double *flops,
+                                  const sl_allocator *a) {
+    sli_quotient q;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int pivot;
+    int pass;
+    memset(&q, 0, sizeof q);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_quotient_layout(&q, &b, G->n, G->begin[G->n]);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_quotient_start(&q, G, perm);
+    while (q.rows < q.live) {
+        while (q.head[q.least] == -1) {
+            q.least++;
+        }
+        pivot = q.head[q.least];
+        sli_quotient_dequeue(&q, pivot);
+        sli_quotient_eliminate(&q, pivot);
+    }
+    sli_quotient_write(&q, perm);
+    *flops = q.flops;
+    sli_free(a, b.base);
+    return SL_OK;
+}
+
+#endif

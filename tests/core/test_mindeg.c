@@ -1,0 +1,218 @@
+/* test_mindeg.c: approximate minimum degree: validity, fill against an exact one, purpose */
+#include "tests/lib/check_factor.h"
+
+/* Entries of L under SL_ORDERING_MINDEG, after a check of its permutation. */
+static double fill_of(const sl_csc *A, sl_options opt) {
+    sl_stats stats;
+    sl_symbolic *S = NULL;
+    memset(&stats, 0, sizeof stats);
+    SL_CHECK(sl_symbolic_create(&S, A, &opt, &stats));
+    const sl_symbolic_arrays v = sl_symbolic_view(S);
+    NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+    NOTHING_WRONG(check_septree(&v, A));
+    sl_symbolic_free(S);
+    return (double)stats.symbolic.nnz_l;
+}
+
+static sl_options by_mindeg(void) {
+    sl_options opt = options_none();
+    opt.ordering = SL_ORDERING_MINDEG;
+    opt.relaxation = SL_RELAXATION_NONE; /* no zeros among the entries of L */
+    return opt;
+}
+
+/* Entries of L when in each step a row of least degree is eliminated, degrees being exact. */
+static double fill_of_exact(const gen_list_t *t) {
+    const sl_int n = t->n;
+    unsigned char *edge = (unsigned char *)test_array((size_t)n * (size_t)n, 1);
+    double fill = n;
+    for (size_t k = 0; k < t->count; k++) {
+        edge[t->row[k] * n + t->col[k]] = edge[t->col[k] * n + t->row[k]] = 1;
+    }
+    for (sl_int v = 0; v < n; v++) {
+        edge[v * n + v] = 0;
+    }
+    unsigned char *gone = (unsigned char *)test_array((size_t)n, 1);
+    for (sl_int step = 0; step < n; step++) {
+        sl_int best = -1, least = n;
+        for (sl_int v = 0; v < n; v++) {
+            sl_int degree = 0;
+            for (sl_int u = 0; u < n && !gone[v]; u++) {
+                degree += edge[v * n + u] && !gone[u];
+            }
+            if (!gone[v] && degree < least) {
+                best = v;
+                least = degree;
+            }
+        }
+        gone[best] = 1;
+        fill += least;
+        for (sl_int u = 0; u < n; u++) {
+            for (sl_int w = 0; w < n && edge[best * n + u]; w++) {
+                edge[u * n + w] |= (unsigned char)(edge[best * n + w] && u != w);
+            }
+        }
+    }
+    free(edge);
+    free(gone);
+    return fill;
+}
+
+/* Ties and bounds of degrees make single graphs better or worse; the sums agree within 5 %. */
+static void fill_is_that_of_exact_degrees(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    double ours = 0.0, exact = 0.0;
+    for (int round = 0; round < 120; round++) {
+        gen_list_t t = gen_list(20 + gen_below(&seed, 60));
+        if (round % 3 == 0) {
+            const sl_int side = 4 + gen_below(&seed, 5);
+            t.n = side * side;
+            gen_edges_grid(&t, side, side, 1, &seed);
+        } else {
+            gen_edges_random(&t, 20 + gen_below(&seed, 100), &seed);
+        }
+        gen_dominate(&t, 1, &seed);
+        gen_matrix_t M = gen_store(&t, gen_style(round % GEN_STYLES), seed);
+        ours += fill_of(&M.view, by_mindeg());
+        exact += fill_of_exact(&t);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+    print_message("%.4f times the entries of L by exact minimum degree\n", ours / exact);
+    assert_true(ours <= 1.05 * exact);
+}
+
+/* Trees, stars and cliques have orders without fill, which minimum degree finds. A dense row is
+ * eliminated last. */
+static void graphs_without_fill(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[] = {GEN_NONE, GEN_ONE, GEN_PATH, GEN_FOREST, GEN_DENSE};
+    uint64_t seed = 9;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        gen_list_t t = gen_make(kinds[k], kinds[k] == GEN_NONE ? 0 : 300, 1, 3);
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        assert_true(fill_of(&M.view, by_mindeg()) == (double)t.count);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+    gen_list_t t = gen_list(2000);
+    gen_edges_star(&t, 700, &seed);
+    for (sl_int k = 1; k < t.n; k += 2) {
+        if (k != 700 && k - 1 != 700) {
+            gen_add(&t, k, k - 1, 1.0);
+        }
+    }
+    gen_dominate(&t, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = by_mindeg();
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    assert_int_equal(sl_symbolic_view(S).perm[t.n - 1], 700);
+    sl_symbolic_free(S);
+    assert_true(fill_of(&M.view, by_mindeg()) == (double)t.count);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
+/* Every kind of graph in every size around small limits, and sizes at which lists are collected. */
+static void every_kind_is_ordered(void **state) {
+    (void)state;
+    static const sl_int sizes[] = {0, 1, 2, 3, 5, 17, 60, 401, 2500};
+    for (int kind = 0; kind < GEN_KINDS; kind++) {
+        for (size_t size = 0; size < sizeof sizes / sizeof *sizes; size++) {
+            if ((kind == GEN_DENSE && sizes[size] > 60) || (kind > GEN_ONE && sizes[size] < 2)) {
+                continue;
+            }
+            gen_matrix_t M = gen_matrix((gen_kind_t)kind, sizes[size], 1, 3 + size);
+            (void)fill_of(&M.view, by_mindeg());
+            gen_matrix_free(&M);
+        }
+    }
+}
+
+static gen_matrix_t grid(sl_int nx, sl_int ny, sl_int nz, int style) {
+    uint64_t state = 3;
+    gen_list_t t = gen_list(nx * ny * nz);
+    gen_edges_grid(&t, nx, ny, nz, &state);
+    gen_dominate(&t, 1, &state);
+    gen_matrix_t M = gen_store(&t, gen_style(style), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* The order does not depend on how a matrix is stored, and rows of a block stay together. */
+static void one_matrix_has_one_order(void **state) {
+    (void)state;
+    sl_int *perm = test_ints(900);
+    for (int style = 0; style < GEN_STYLES; style++) {
+        gen_matrix_t M = grid(30, 30, 1, style);
+        sl_options opt = by_mindeg();
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        if (style == 0) {
+            memcpy(perm, sl_symbolic_view(S).perm, 900 * sizeof *perm);
+        }
+        assert_memory_equal(perm, sl_symbolic_view(S).perm, 900 * sizeof *perm);
+        sl_symbolic_free(S);
+        opt.block_size = 3;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        const sl_symbolic_arrays v = sl_symbolic_view(S);
+        for (sl_int k = 0; k < 900; k += 3) {
+            assert_int_equal(v.iperm[k] + 1, v.iperm[k + 1]);
+            assert_int_equal(v.iperm[k] + 2, v.iperm[k + 2]);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+    free(perm);
+}
+
+/* For one factor: minimum degree on a plane grid, dissection on a volume, where it saves more than
+ * it costs. */
+static void the_purpose_decides(void **state) {
+    (void)state;
+    for (int is_volume = 0; is_volume < 2; is_volume++) {
+        gen_matrix_t M = is_volume ? grid(26, 26, 26, 0) : grid(90, 90, 1, 0);
+        sl_options opt = options_none();
+        const double nd = fill_of(&M.view, opt);
+        opt.purpose = SL_PURPOSE_ONE_FACTOR;
+        const double chosen = fill_of(&M.view, opt);
+        opt.purpose = SL_PURPOSE_MANY_SOLVES;
+        opt.ordering = SL_ORDERING_MINDEG;
+        const double mindeg = fill_of(&M.view, opt);
+        assert_true(nd != mindeg);
+        assert_true(chosen == (is_volume ? nd : mindeg));
+        gen_matrix_free(&M);
+    }
+}
+
+static void memory_fails_at_every_point(void **state) {
+    (void)state;
+    gen_matrix_t M = grid(12, 12, 1, 0);
+    for (int64_t k = 0, done = 0; !done; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_symbolic *S = NULL;
+        opt.ordering = SL_ORDERING_MINDEG;
+        counter.fail_at = k;
+        const sl_status status = sl_symbolic_create(&S, &M.view, &opt, NULL);
+        done = status == SL_OK;
+        assert_true(done || (status == SL_ERR_MEMORY && S == NULL));
+        sl_symbolic_free(S);
+        COUNTER_CLEAN(&counter);
+    }
+    gen_matrix_free(&M);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fill_is_that_of_exact_degrees),
+        cmocka_unit_test(graphs_without_fill),
+        cmocka_unit_test(every_kind_is_ordered),
+        cmocka_unit_test(one_matrix_has_one_order),
+        cmocka_unit_test(the_purpose_decides),
+        cmocka_unit_test(memory_fails_at_every_point),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
