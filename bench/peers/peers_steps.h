@@ -26,6 +26,7 @@ typedef struct comparison {
     peer_cholmod_own *cholmod_defaults; /* from peers_order_to_factor on */
     peer_eigen_amd *eigen_defaults;     /* the same; NULL if it would take too long */
     double eigen_defaults_flops;
+    double one_factor_flops; /* of this library's factor for SL_PURPOSE_ONE_FACTOR */
     sl_matrix *permuted;
     int is_brief; /* large and not BENCH=full: fewer repetitions and steps */
     sl_int nrhs;
