@@ -35,7 +35,7 @@
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
  *  Threads  any number of calls at once, with the same result for the same pattern however it is
- *           stored, except with METIS: METIS seeds and draws from rand() of the C library and
+ *           stored, on every processor and with every compiler, except with METIS: METIS seeds and draws from rand() of the C library and
  *           prints a line if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and
  *           SIGTERM of the whole process; during SL_ORDERING_METIS_REFINED it raises SIGABRT if it
  *           runs out of memory. Concurrent calls with METIS are safe only if rand() is, and may

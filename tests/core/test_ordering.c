@@ -45,7 +45,8 @@ static void edges_cliques(gen_list_t *t, sl_int size, uint64_t *state) {
 /* A random tree: each row is adjacent to one earlier row. */
 static void edges_tree(gen_list_t *t, uint64_t *state) {
     for (sl_int k = 1; k < t->n; k++) {
-        gen_add(t, k, gen_below(state, k), gen_real(state));
+        const sl_int up = gen_below(state, k);
+        gen_add(t, k, up, gen_real(state));
     }
 }
 
@@ -54,7 +55,8 @@ static void edges_tree(gen_list_t *t, uint64_t *state) {
 static void edges_expander(gen_list_t *t, sl_int degree, uint64_t *state) {
     for (sl_int k = 1; k < t->n; k++) {
         for (sl_int e = 0; e < degree; e++) {
-            gen_add(t, k, gen_below(state, k), gen_real(state));
+            const sl_int other = gen_below(state, k);
+            gen_add(t, k, other, gen_real(state));
         }
     }
 }

@@ -131,7 +131,8 @@ static inline void gen_edges_grid(gen_list_t *t, sl_int nx, sl_int ny, sl_int nz
 static inline void gen_edges_forest(gen_list_t *t, uint64_t *state) {
     for (sl_int k = 0; k + 1 < t->n; k++) {
         if (gen_below(state, 8) != 0) {
-            gen_add(t, k + 1 + gen_below(state, t->n - k - 1), k, gen_real(state));
+            const sl_int up = k + 1 + gen_below(state, t->n - k - 1);
+            gen_add(t, up, k, gen_real(state));
         }
     }
 }

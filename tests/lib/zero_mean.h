@@ -9,7 +9,8 @@
 static inline double *weights(sl_int n, uint64_t seed) {
     double *m = test_reals((size_t)n);
     for (sl_int k = 0; k < n; k++) {
-        m[k] = ldexp(0.5 + fabs(gen_real(&seed)), (int)gen_below(&seed, 21) - 10);
+        const double magnitude = 0.5 + fabs(gen_real(&seed));
+        m[k] = ldexp(magnitude, (int)gen_below(&seed, 21) - 10);
     }
     return m;
 }

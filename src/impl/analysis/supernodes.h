@@ -13,7 +13,7 @@ typedef struct sli_amalgamation {
     sl_int *parent;      /* parent supernode, -1 at a root */
     sl_int *width;       /* columns so far */
     sl_int *below;       /* rows below */
-    double *zeros;       /* entries stored so far that L does not have */
+    sl_off *zeros;       /* entries stored so far that L does not have */
     sl_int *merged_into; /* the supernode it was merged into, or itself; finally the new number */
 } sli_amalgamation;
 
@@ -41,27 +41,28 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
         g->width[s] = g->first[s + 1] - g->first[s];
         g->below[s] = counts[last] - 1;
         g->parent[s] = parent[last] == -1 ? -1 : super_of[parent[last]];
-        g->zeros[s] = 0.0;
+        g->zeros[s] = 0;
         g->merged_into[s] = s;
     }
 }
 
-/* Largest share of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44 entries,
- * 0.64, and 2D grids have no more. It bounds the stored entries of each supernode by 1 / (1 - 0.70)
- * = 3.34 times its entries of L, even where short columns are children of tall ones. */
-#define SLI_ZEROS_SMALL 0.70
+/* Largest percentage of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44
+ * entries, 64 %, and 2D grids have no more. It bounds the stored entries of each supernode by
+ * 1 / (1 - 0.70) = 3.34 times its entries of L, even where short columns are children of tall
+ * ones. */
+#define SLI_ZEROS_SMALL 70
 
-/* Returns whether a supernode of this width may have a share z of zeros. The cost of small panels
- * is their calls, not their flops. The thresholds gave the fastest solves on 2D and 3D meshes, at
- * 2-3 % more flops. */
-static int sli_may_merge(sl_int width, double z) {
-    return (width <= 8 && z < SLI_ZEROS_SMALL) || (width <= 16 && z < 0.30) ||
-           (width <= 48 && z < 0.15) || z < 0.05;
+/* Returns whether a supernode of this width may have so many zeros among its stored entries. The
+ * cost of small panels is their calls, not their flops. The thresholds gave the fastest solves on
+ * 2D and 3D meshes, at 2-3 % more flops. Integers, so that all platforms merge alike. */
+static int sli_may_merge(sl_int width, sl_off zeros, sl_off stored) {
+    const sl_off percent = width <= 8 ? SLI_ZEROS_SMALL : width <= 16 ? 30 : width <= 48 ? 15 : 5;
+    return zeros < stored / 100 * percent + (stored % 100 * percent + 99) / 100;
 }
 
 /* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
-static double sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
-    return (double)g->width[c] * (double)(g->width[p] + g->below[p] - g->below[c]);
+static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
+    return (sl_off)g->width[c] * (g->width[p] + g->below[p] - g->below[c]);
 }
 
 /* Merges children into p while the share of zeros allows it, those with the fewest new zeros first.
@@ -71,15 +72,15 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
     sl_int k;
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]);
-        const double cost = sli_new_zeros(g, c, p);
-        list[k] = sli_keyed(cost < 2e9 ? (sl_int)cost : INT32_MAX, c);
+        const sl_off cost = sli_new_zeros(g, c, p);
+        list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c);
     }
     sli_sort(list, count, scratch);
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
-        const double zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
-        const double stored = (double)width * (0.5 * (width + 1.0) + g->below[p]);
-        if (sli_may_merge(width, zeros / stored)) {
+        const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
+        const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * g->below[p];
+        if (sli_may_merge(width, zeros, stored)) {
             g->width[p] = width;
             g->zeros[p] = zeros;
             g->merged_into[c] = p;

@@ -42,7 +42,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    w->amalgamation.zeros = SLI_TAKE(b, double, n);
+    w->amalgamation.zeros = SLI_TAKE(b, sl_off, n);
     w->amalgamation.merged_into = SLI_TAKE(b, sl_int, n);
     w->list = SLI_TAKE(b, uint64_t, 2 * n);
     w->septree.node_of = SLI_TAKE(b, sl_int, n);

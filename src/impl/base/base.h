@@ -96,6 +96,11 @@ SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
     return a < 0 ? 0 : a > high ? high : a;
 }
 
+/* Whether a > factor sqrt(n), without rounding; a < 2^32. */
+SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
+    return (uint64_t)a * (uint64_t)a > (uint64_t)(factor * factor) * (uint64_t)n;
+}
+
 SLI_INLINE int sli_is_finite(double a) {
     return a - a == 0.0;
 }

@@ -5,13 +5,12 @@
 #include "heap.h"
 #include "subgraph.h"
 
-#define SLI_BISECT_BALANCE 0.6 /* largest share of the weight that one side may get */
+#define SLI_BISECT_BALANCE 60 /* percent of the weight that one side may get */
 
-/* The cost of a cut: the weight of its edges, increased by the imbalance of the sides. */
-SLI_INLINE double sli_cut_cost(double cut, const int64_t *total) {
-    const double sum = (double)(total[0] + total[1]);
-    const double skew = sum > 0.0 ? fabs((double)(total[0] - total[1])) / sum : 0.0;
-    return cut * (1.0 + skew);
+/* The cost of a cut: the weight of its edges times that of the heavier side, so that imbalance
+ * increases it. At most 2^31 * 2^31. */
+SLI_INLINE int64_t sli_cut_cost(int64_t cut, const int64_t *total) {
+    return cut * (total[0] > total[1] ? total[0] : total[1]);
 }
 
 /* The gain of moving v to the other side: the weight of its edges across the cut minus that of its
@@ -114,10 +113,10 @@ static void sli_fm_update(sli_fm *m, sl_int v) {
 
 /* One pass: repeatedly moves the vertex of highest gain, even at a loss, but each vertex only once;
  * then undoes the moves after the best cut. Returns whether that cut is better than the first. */
-static int sli_fm_pass(sli_fm *m, double *cut) {
+static int sli_fm_pass(sli_fm *m, int64_t *cut) {
     sli_subgraph *sub = m->sub;
     const sl_int patience = 20 + sub->n / 20 < 100 ? 20 + sub->n / 20 : 100;
-    double here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
+    int64_t here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
     sl_int v, made = 0, best = 0;
     int side;
     m->heap[0].count = m->heap[1].count = 0;
@@ -162,14 +161,14 @@ static sli_fm sli_fm_of(sli_subgraph *sub) {
     m.moves = sub->scratch + 4 * (size_t)sub->n;
     m.locked = sub->locked;
     m.heap[0].count = m.heap[1].count = 0;
-    m.most = (int64_t)(SLI_BISECT_BALANCE * (double)(sub->total[0] + sub->total[1]));
+    m.most = (sub->total[0] + sub->total[1]) * SLI_BISECT_BALANCE / 100;
     return m;
 }
 
 /* Refines the cut of a subgraph in up to `rounds` passes and returns its cost. [FM82] */
-static double sli_subgraph_refine(sli_subgraph *sub, int rounds) {
+static int64_t sli_subgraph_refine(sli_subgraph *sub, int rounds) {
     sli_fm m = sli_fm_of(sub);
-    double cut = (double)sli_subgraph_cut_weight(sub);
+    int64_t cut = sli_subgraph_cut_weight(sub);
     while (rounds-- > 0 && sli_fm_pass(&m, &cut)) {
     }
     return sli_cut_cost(cut, sub->total);
@@ -232,12 +231,11 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
 
 /* Bisects a subgraph: keeps the cheapest cut of several tries. */
 static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
-    double best = -1.0;
-    int64_t total[2] = {0, 0};
+    int64_t best = 0, total[2] = {0, 0};
     int k;
     for (k = 0; k < tries; k++) {
         sl_int seed = (sl_int)(sli_hash32((uint32_t)k + 77u) % (uint32_t)sub->n);
-        double cost;
+        int64_t cost;
         if (k % 2 == 0) {
             seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
         }

@@ -4,8 +4,8 @@
 
 #include "nd.h"
 
-/* The graph is compressed if at most this share of its vertices remains. */
-#define SLI_COMPRESS_SHARE 0.8
+/* The graph is compressed if at most this percentage of its vertices remains. */
+#define SLI_COMPRESS_SHARE 80
 
 typedef struct sli_compressed {
     sli_graph G;
@@ -107,7 +107,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
     int pass;
     memset(&c, 0, sizeof c);
     c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
-    if ((double)c.G.n > SLI_COMPRESS_SHARE * (double)G->n) {
+    if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
         return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, a);
     }
     c.first = scratch;

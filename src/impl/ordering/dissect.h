@@ -23,9 +23,9 @@
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
-/* Largest share of the weight that one side of a separator may have. It exceeds SLI_BISECT_BALANCE
- * because the last step may lose some balance for a smaller separator. */
-#define SLI_SEPARATOR_BALANCE 0.7
+/* Largest percentage of the weight that one side of a separator may have. It exceeds
+ * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
+#define SLI_SEPARATOR_BALANCE 70
 
 /* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
  * the largest. */
@@ -173,7 +173,7 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
     }
     sum = total[0] + total[1];
     total[0] = total[0] > total[1] ? total[0] : total[1];
-    return (double)total[0] <= SLI_SEPARATOR_BALANCE * (double)sum || total[0] <= before;
+    return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
 /* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
@@ -245,7 +245,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         const sli_level *g = &d->levels[last];
         /* Three times the mean weight keeps the weights of a level even enough for balanced
          * bisection. */
-        const sl_int heaviest = (sl_int)(3.0 * (double)d->total / (double)g->n) + 1;
+        const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
         if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
             *working = last;
             sli_dissect_weigh(d, last);
@@ -297,15 +297,38 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
     return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
+/* An estimate of cost, exact: high * 2^32 + low, with low < 2^32. */
+typedef struct sli_tree_cost {
+    uint64_t high, low;
+} sli_tree_cost;
+
+/* Adds a * b: a < 2^62, b < 2^31. */
+SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
+    c->low += (a & 0xffffffffu) * b;
+    c->high += (a >> 32) * b + (c->low >> 32);
+    c->low &= 0xffffffffu;
+}
+
+SLI_INLINE sli_tree_cost sli_tree_cost_times(sli_tree_cost c, uint64_t factor) {
+    c.low *= factor;
+    c.high = c.high * factor + (c.low >> 32);
+    c.low &= 0xffffffffu;
+    return c;
+}
+
+SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
+    return a.high < b.high || (a.high == b.high && a.low < b.low);
+}
+
 /* Estimates the cost of local solves with the order of a tree, as path weight: the entries of L on
  * the paths from the columns to the root. The paths of about half of a subgraph's vertices contain
  * its separator, which has about as many columns as rows below. So each node counts its weight
  * times the square of its border. *flat := the same for square flat grids of that size. */
-static double sli_dissect_cost(sli_dissection *d, double *flat) {
+static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
     const sli_level *g = &d->levels[0];
     sl_int *border = d->nodes, v, k;
     sl_off e;
-    double cost = 0.0;
+    sli_tree_cost cost = {0, 0};
     memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
     for (v = 0; v < g->n; v++) {
         const sl_int own = d->label[v];
@@ -319,12 +342,12 @@ static double sli_dissect_cost(sli_dissection *d, double *flat) {
             }
         }
     }
-    *flat = 0.0;
+    *flat = cost;
     for (k = 0; k < d->tree.count; k++) {
-        const double weight = d->tree.weight[k];
+        const uint64_t weight = (uint64_t)d->tree.weight[k], across = (uint64_t)border[k];
         if (!sli_label_tree_is_leaf(&d->tree, k)) {
-            cost += weight * (double)border[k] * (double)border[k];
-            *flat += weight * weight;
+            sli_tree_cost_add(&cost, weight * across, across);
+            sli_tree_cost_add(flat, weight, weight);
         }
     }
     return cost;

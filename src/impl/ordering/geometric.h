@@ -4,12 +4,26 @@
 
 #include "levelset.h"
 
-/* Coordinates of the vertices of a graph: those of vertex v start at xyz[dimensions * row[v]]. */
+/* Coordinates of the vertices of a graph: those of vertex v start at xyz[dimensions * row[v]].
+ * Multiplied by unit, they are below 2^60 and become integers, so that every compiler and processor
+ * finds the same order. */
 typedef struct sli_points {
     const double *xyz;
     sl_int dimensions;
     const sl_int *row;
+    double unit; /* a power of 2 */
 } sli_points;
+
+SLI_INLINE double sli_points_unit(const double *xyz, size_t count) {
+    double largest = 0.0;
+    int exponent;
+    size_t k;
+    for (k = 0; k < count; k++) {
+        largest = fabs(xyz[k]) > largest ? fabs(xyz[k]) : largest;
+    }
+    (void)frexp(largest, &exponent);
+    return ldexp(1.0, exponent > 60 - DBL_MAX_EXP ? 60 - exponent : DBL_MAX_EXP - 1);
+}
 
 /* Directions of bisection as sums of coordinates: the axes and the diagonals of two axes. */
 static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
@@ -21,30 +35,27 @@ static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0
 #define SLI_POINTS_MANY 16384
 #define SLI_POINTS_TRIED 512
 
-/* The coordinate of v along a direction. */
-SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
+/* The coordinate of v along a direction, which has length 1 or, for a diagonal, sqrt(2). */
+SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction) {
     const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
     const signed char *along = sli_directions[direction];
-    /* Halve the terms: coordinates may be as large as a double can be, and a sum must not
-     * overflow. */
-    const double sum = along[0] * (0.5 * x[0]) + along[1] * (0.5 * x[1]) +
-                       (p->dimensions == 3 ? along[2] * (0.5 * x[2]) : 0.0);
-    return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
+    return along[0] * (int64_t)(x[0] * p->unit) + along[1] * (int64_t)(x[1] * p->unit) +
+           (p->dimensions == 3 ? along[2] * (int64_t)(x[2] * p->unit) : 0);
 }
 
 /* The axis along which the vertices have the largest extent, and *spread := that extent, from a
  * sample of about SLI_POINTS_TRIED vertices. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
-                           double *spread) {
+                           int64_t *spread) {
     static const int sli_axes[3] = {0, 1, 4};
     const sl_int step = count / SLI_POINTS_TRIED + 1;
     sl_int axis, k;
     int best = 0;
-    *spread = -1.0;
+    *spread = -1;
     for (axis = 0; axis < p->dimensions; axis++) {
-        double low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
+        int64_t low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
         for (k = step; k < count; k = k < count - step ? k + step : count) {
-            const double x = sli_point_along(p, vertices[k], sli_axes[axis]);
+            const int64_t x = sli_point_along(p, vertices[k], sli_axes[axis]);
             low = x < low ? x : low;
             high = x > high ? x : high;
         }
@@ -58,7 +69,7 @@ static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int c
 
 /* A vertex and its coordinate along a direction, ordered by both, so that no two are equal. */
 typedef struct sli_projection {
-    double x;
+    int64_t x;
     sl_int v;
 } sli_projection;
 
@@ -103,7 +114,7 @@ static void sli_projection_halve(sli_projection *a, sl_int count) {
  * small. */
 static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_int count,
                                 sli_projection *projections) {
-    double spread;
+    int64_t spread;
     const int axis = sli_points_axis(p, vertices, count, &spread);
     int direction, best = axis;
     const int directions = p->dimensions == 3 ? 9 : 4;
@@ -112,8 +123,10 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
         return best;
     }
     for (direction = 0; direction < directions; direction++) {
+        const int is_diagonal = direction == 2 || direction == 3 || direction > 4;
+        const int64_t close = spread / 1000 * (is_diagonal ? 141 : 100); /* a tenth */
+        int64_t middle;
         sl_int n_close = 0;
-        double middle;
         for (k = 0; k < SLI_POINTS_TRIED; k++) {
             const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
             projections[k].x = sli_point_along(p, v, direction);
@@ -122,7 +135,8 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
         sli_projection_halve(projections, SLI_POINTS_TRIED);
         middle = projections[SLI_POINTS_TRIED / 2].x;
         for (k = 0; k < SLI_POINTS_TRIED; k++) {
-            n_close += fabs(projections[k].x - middle) < 0.1 * spread;
+            const int64_t away = projections[k].x - middle;
+            n_close += (away < 0 ? -away : away) < close;
         }
         /* a handicap: chance must not decide against the longest axis */
         n_close += direction == axis ? 0 : n_close / 3;
@@ -175,28 +189,26 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
     sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* A tree that costs at most this many times a flat square grid is taken without comparison. Flat
- * grids have 0.9 to 1.06; surfaces have 2 and more, because a plane cuts several sheets. */
-#define SLI_FLAT_ENOUGH 1.1
+/* A tree that costs less than this percentage of a flat square grid is taken without comparison.
+ * Flat grids have 90 to 106; surfaces have 200 and more, because a plane cuts several sheets. */
+#define SLI_FLAT_ENOUGH 110
 
 /* Finds labels by coordinates. They are used if their estimated cost is that of a flat mesh, or
  * lower than that of the labels found without coordinates; otherwise the latter are used. */
 static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
                                        sli_projection *projections) {
-    double cost, other, flat;
+    sli_tree_cost cost, flat;
     sl_status status;
     sli_dissect_points(d, points, projections);
     cost = sli_dissect_cost(d, &flat);
-    if (cost <= SLI_FLAT_ENOUGH * flat) {
+    if (sli_tree_cost_is_less(sli_tree_cost_times(cost, 100),
+                              sli_tree_cost_times(flat, SLI_FLAT_ENOUGH))) {
         d->band_growth = 0;
         return SL_OK;
     }
     status = sli_dissect_graph(d);
-    if (status == SL_OK) {
-        other = sli_dissect_cost(d, &flat);
-        if (cost < other) {
-            sli_dissect_points(d, points, projections);
-        }
+    if (status == SL_OK && sli_tree_cost_is_less(cost, sli_dissect_cost(d, &flat))) {
+        sli_dissect_points(d, points, projections);
     }
     return status;
 }

@@ -4,8 +4,8 @@
 
 #include "dissect.h"
 
-/* Each side of a bisection has at least this share, if a level set allows it. */
-#define SLI_LEVELSET_SHARE 0.35
+/* Each side of a bisection has at least this percentage, if a level set allows it. */
+#define SLI_LEVELSET_SHARE 35
 
 /* Breadth-first search: distances from a vertex, and the vertices in the order of their distances.
  * Vertices that are not reached follow at larger distances. Returns one more than the largest
@@ -46,9 +46,9 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
     const sl_int n = sub->n;
     sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
            *size = sub->scratch + 2 * (size_t)n;
-    const sl_int low = (sl_int)(SLI_LEVELSET_SHARE * n), high = n - low;
+    const sl_int low = (sl_int)((int64_t)n * SLI_LEVELSET_SHARE / 100), high = n - low;
     sl_int k, n_sets, before = 0, best = -1;
-    double cost = 0.0;
+    int64_t cost = 0;
     const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
     n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                                  distance);
@@ -57,8 +57,8 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
         size[distance[k]]++;
     }
     for (k = 0; k < n_sets; before += size[k++]) {
-        const double skew = fabs((double)(n - size[k] - 2 * (int64_t)before)) / n;
-        const double here = (1.0 + skew) * size[k];
+        const int64_t skew = n - size[k] - 2 * (int64_t)before;
+        const int64_t here = (n + (skew < 0 ? -skew : skew)) * size[k]; /* < 2^63 */
         if (before >= low && before + size[k] <= high && (best == -1 || here < cost)) {
             best = k;
             cost = here;
@@ -109,24 +109,23 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
     return count;
 }
 
-/* A border of more than this many times sqrt(n) vertices is unusual on a surface: the graph may be
- * a volume. */
-#define SLI_VOLUME_BORDER 2.5
+/* A border of more than half of this many times sqrt(n) vertices is unusual on a surface: the graph
+ * may be a volume. */
+#define SLI_VOLUME_BORDER 5
 
 /* Finds labels by multilevel dissection. In graphs that may be volumes, level sets are tried too
  * and taken if they are estimated to be cheaper: in a 7-point grid they are diagonal planes, and
  * the largest has 3/4 of the vertices of a straight plane. */
 static sl_status sli_dissect_graph(sli_dissection *d) {
-    double multilevel, levelset, flat;
+    sli_tree_cost multilevel, flat;
     sl_status status = sli_dissect_multilevel(d);
-    if (status != SL_OK ||
-        (double)sli_dissect_root_border(d) < SLI_VOLUME_BORDER * sqrt((double)d->levels[0].n)) {
+    if (status != SL_OK || !sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d),
+                                             SLI_VOLUME_BORDER, d->levels[0].n)) {
         return status;
     }
     multilevel = sli_dissect_cost(d, &flat);
     sli_dissect_levelset(d);
-    levelset = sli_dissect_cost(d, &flat);
-    if (levelset < multilevel) {
+    if (sli_tree_cost_is_less(sli_dissect_cost(d, &flat), multilevel)) {
         d->band_growth = 0;
         return SL_OK;
     }

@@ -102,13 +102,13 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
 }
 
 /* The borders left by METIS's separators are ragged and overestimate its cost. The tree of this
- * library's dissection is used only if its estimate is below this share of METIS's. */
-#define SLI_METIS_REFINED_SHARE 0.8
+ * library's dissection is used only if its estimate is below this percentage of METIS's. */
+#define SLI_METIS_REFINED_SHARE 80
 
 /* Finds labels by METIS, or by this library's dissection if that is estimated to be cheaper. This
  * happens occasionally, because the quality of METIS's trees varies as that of any heuristic. */
 static sl_status sli_dissect_metis_refined(sli_dissection *d) {
-    double own, flat;
+    sli_tree_cost own, flat;
     sl_status status = sli_dissect_graph(d);
     if (status != SL_OK) {
         return status;
@@ -116,7 +116,9 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
     own = sli_dissect_cost(d, &flat);
     d->band_growth = 1;
     status = sli_dissect_metis(d);
-    if (status == SL_OK && own < SLI_METIS_REFINED_SHARE * sli_dissect_cost(d, &flat)) {
+    if (status == SL_OK && sli_tree_cost_is_less(sli_tree_cost_times(own, 100),
+                                                 sli_tree_cost_times(sli_dissect_cost(d, &flat),
+                                                                     SLI_METIS_REFINED_SHARE))) {
         d->band_growth = 2;
         status = sli_dissect_graph(d);
     }

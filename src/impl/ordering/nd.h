@@ -9,7 +9,7 @@
 
 /* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
  * eliminated last. */
-#define SLI_ND_DENSE_ROW 10.0
+#define SLI_ND_DENSE_ROW 10
 
 /* A leaf that is more than twice its intended size after the borders have moved is bisected again.
  * This many rounds at most. */
@@ -19,8 +19,7 @@
 typedef struct sli_nd {
     const sli_graph *G;
     const sl_int *weight; /* NULL: 1 each */
-    const double *xyz;    /* NULL: none */
-    sl_int dimensions;
+    sli_points points;    /* points.xyz is NULL: none */
     int by_metis;
     sl_int *local;   /* n: number of a row in its component; -1 not yet visited, -2 dense */
     sl_int *row;     /* n: the rows of the component */
@@ -39,7 +38,7 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
     w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
     w->to = SLI_TAKE(b, sl_int, edges);
     w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
-    w->projections = SLI_TAKE(b, sli_projection, w->xyz != NULL ? n : 0);
+    w->projections = SLI_TAKE(b, sli_projection, w->points.xyz != NULL ? n : 0);
     sli_dissection_layout(&w->d, b, n, edges);
 }
 
@@ -102,12 +101,8 @@ static sl_status sli_nd_label(sli_nd *w) {
         return SL_ERR_UNSUPPORTED;
 #endif
     }
-    if (w->xyz != NULL) {
-        sli_points points;
-        points.xyz = w->xyz;
-        points.dimensions = w->dimensions;
-        points.row = w->row;
-        return sli_dissect_geometric(d, &points, w->projections);
+    if (w->points.xyz != NULL) {
+        return sli_dissect_geometric(d, &w->points, w->projections);
     }
     return sli_dissect_graph(d);
 }
@@ -135,11 +130,10 @@ static sl_status sli_nd_dissect(sli_nd *w) {
 /* Marks the dense rows and puts them at the end of the order. Returns their number. */
 static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
     const sli_graph *G = w->G;
-    const double limit = SLI_ND_DENSE_ROW * sqrt((double)G->n);
     sl_int v, count = 0;
     for (v = G->n - 1; v >= 0; v--) {
         w->local[v] = -1;
-        if ((double)(G->begin[v + 1] - G->begin[v]) > limit) {
+        if (sli_exceeds_sqrt(G->begin[v + 1] - G->begin[v], SLI_ND_DENSE_ROW, G->n)) {
             w->local[v] = -2;
             perm[G->n - ++count] = v;
         }
@@ -197,8 +191,9 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
     memset(&w, 0, sizeof w);
     w.G = G;
     w.weight = weight;
-    w.xyz = xyz;
-    w.dimensions = dimensions;
+    w.points.xyz = xyz;
+    w.points.dimensions = dimensions;
+    w.points.unit = xyz != NULL ? sli_points_unit(xyz, (size_t)G->n * (size_t)dimensions) : 1.0;
     w.by_metis = by_metis;
     w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
     w.d.a = a;
@@ -207,6 +202,7 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
         sli_nd_layout(&w, &b);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
+    w.points.row = w.row;
     if (status == SL_OK) {
         sli_borders_init(&w.d.borders, a);
         status = sli_nd_run(&w, perm, septree);

@@ -93,16 +93,16 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_l
     sub->total[1] = 0;
 }
 
-/* A band gets no further layer once it has this share of the finest vertices below its node. In a
- * volume, two or three layers contain most of a small subgraph, and a cut anywhere in them would be
- * unbalanced. */
-#define SLI_BAND_SHARE 0.3
+/* A band gets no further layer once it has this percentage of the finest vertices below its node.
+ * In a volume, two or three layers contain most of a small subgraph, and a cut anywhere in them
+ * would be unbalanced. */
+#define SLI_BAND_SHARE 30
 
 /* Makes the band of a node: the vertices at its border, and up to `layers` layers on each side of
  * them. The first layer is added regardless of SLI_BAND_SHARE. */
 static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
                               sl_int node, const sl_int *label, const sli_borders *l, int layers) {
-    const sl_int most = (sl_int)(SLI_BAND_SHARE * (double)t->weight[node]);
+    const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
     sl_int entry, head = 0;
     sl_off e;
     int layer;

@@ -1,0 +1,223 @@
+/* test_order_hashes.c: every platform and compiler finds the same order and the same supernodes */
+#include "tests/lib/gen_matrices.h"
+
+/* ---- a hash without regard to the order of bytes: FNV-1a over 8 bytes a number, low first ---- */
+
+static uint64_t hash_number(uint64_t h, int64_t number) {
+    for (int shift = 0; shift < 64; shift += 8) {
+        h = (h ^ (((uint64_t)number >> shift & 255u))) * 0x100000001b3u;
+    }
+    return h;
+}
+
+static uint64_t hash_of(const sl_csc *A, const sl_options *opt) {
+    uint64_t h = 0xcbf29ce484222325u;
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, A, opt, NULL));
+    const sl_symbolic_arrays v = sl_symbolic_view(S);
+    for (sl_int k = 0; k < v.n; k++) {
+        h = hash_number(h, v.perm[k]);
+    }
+    for (sl_int s = 0; s <= v.n_supers; s++) {
+        h = hash_number(hash_number(h, v.super_first[s]), v.panel_begin[s]);
+    }
+    sl_symbolic_free(S);
+    return h;
+}
+
+/* ---- the patterns ---- */
+
+/* Renames the rows at random, so that ties are frequent and no order of the input helps. */
+static void rename_rows(gen_list_t *t, uint64_t seed) {
+    sl_int *name = test_ints((size_t)t->n);
+    gen_permutation(name, t->n, seed);
+    for (size_t k = 0; k < t->count; k++) {
+        const sl_int a = name[t->row[k]], b = name[t->col[k]];
+        t->row[k] = a > b ? a : b;
+        t->col[k] = a > b ? b : a;
+    }
+    free(name);
+}
+
+/* Each row is adjacent to two random earlier rows: no small separators, so that the costs of cuts
+ * are close to each other. */
+static void edges_expander(gen_list_t *t, uint64_t *state) {
+    for (sl_int k = 1; k < t->n; k++) {
+        gen_add(t, k, gen_below(state, k), 1.0);
+        gen_add(t, k, gen_below(state, k), 1.0);
+    }
+}
+
+/* Cliques of 3 rows on a grid: compressed before they are ordered. */
+static void edges_cliques(gen_list_t *t, sl_int side, uint64_t *state) {
+    gen_list_t grid = gen_list(side * side);
+    gen_edges_grid(&grid, side, side, 1, state);
+    for (size_t k = 0; k < grid.count; k++) {
+        for (sl_int c = 0; c < 9; c++) {
+            gen_add(t, 3 * grid.row[k] + c / 3, 3 * grid.col[k] + c % 3, 1.0);
+        }
+    }
+    gen_list_free(&grid);
+}
+
+enum {
+    ORDER_GRID,
+    ORDER_RENAMED,
+    ORDER_VOLUME,
+    ORDER_STRIP,
+    ORDER_PATH,
+    ORDER_DENSE_ROW,
+    ORDER_FOREST,
+    ORDER_RANDOM,
+    ORDER_EXPANDER,
+    ORDER_CLIQUES,
+    ORDER_COMPONENTS,
+    ORDER_KINDS
+};
+
+static gen_list_t pattern(int kind) {
+    static const sl_int rows[ORDER_KINDS] = {10000, 10000, 10648, 6000, 5000, 5000,
+                                             5000,  1500,  3000,  5043, 6000};
+    gen_list_t t = gen_list(rows[kind]);
+    uint64_t state = 11;
+    switch (kind) {
+    case ORDER_GRID:
+    case ORDER_RENAMED:
+        gen_edges_grid(&t, 100, 100, 1, &state);
+        break;
+    case ORDER_VOLUME:
+        gen_edges_grid(&t, 22, 22, 22, &state);
+        break;
+    case ORDER_STRIP:
+        gen_edges_grid(&t, 6, 1000, 1, &state);
+        break;
+    case ORDER_PATH:
+        gen_edges_path(&t, &state);
+        break;
+    case ORDER_DENSE_ROW:
+        gen_edges_grid(&t, 50, 100, 1, &state);
+        gen_edges_star(&t, 7, &state);
+        break;
+    case ORDER_FOREST:
+        gen_edges_forest(&t, &state);
+        break;
+    case ORDER_RANDOM:
+        gen_edges_random(&t, 3, &state);
+        break;
+    case ORDER_EXPANDER:
+        edges_expander(&t, &state);
+        break;
+    case ORDER_CLIQUES:
+        edges_cliques(&t, 41, &state);
+        break;
+    default:
+        gen_components(&t, &state);
+        break;
+    }
+    if (kind != ORDER_GRID) {
+        rename_rows(&t, 5);
+    }
+    for (sl_int k = 0; k < t.n; k++) {
+        gen_add(&t, k, k, 1.0);
+    }
+    return t;
+}
+
+/* ---- the hashes, found on x86-64 ---- */
+
+/* Prints both, so that a deliberate change of the order can be taken over here. */
+static int differs(const char *what, int kind, uint64_t found, uint64_t expected) {
+    if (found == expected) {
+        return 0;
+    }
+    print_error("%s %d: 0x%08lx%08lx, expected 0x%08lx%08lx\n", what, kind,
+                (unsigned long)(found >> 32), (unsigned long)(found & 0xffffffffu),
+                (unsigned long)(expected >> 32), (unsigned long)(expected & 0xffffffffu));
+    return 1;
+}
+
+static void patterns_have_one_order(void **state) {
+    (void)state;
+    static const uint64_t expected[ORDER_KINDS] = {
+        0x429e992480e24fc4u, 0xb8d7bf2d1561c5c2u, 0x24db227f54397cd2u, 0xe013429af7bf4ed2u,
+        0xa8d8bb4b46144a22u, 0x1a0218cf193f977fu, 0xc718bc20262d35b9u, 0xc8bbd8d1b7173260u,
+        0xb0e1ce0932f514a4u, 0xab5efc3e0064b10du, 0x53661e3c1e774ff2u};
+    int wrong = 0;
+    for (int kind = 0; kind < ORDER_KINDS; kind++) {
+        gen_list_t t = pattern(kind);
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        wrong += differs("pattern", kind, hash_of(&M.view, NULL), expected[kind]);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+/* Merging of supernodes, without an ordering that decides before. */
+static void supernodes_merge_alike(void **state) {
+    (void)state;
+    static const uint64_t expected[ORDER_KINDS] = {
+        0x992a8238542cbd89u, 0x781d381fcf712496u, 0x382ae976493f4f9cu, 0x78e2d4f5772367f0u,
+        0x70f50bee38c1015bu, 0x1cedaa1b64792592u, 0x9c517663e8f830b1u, 0xbf025b0c6f0734f0u,
+        0x30a3b3e640b0f68du, 0xcfee62548d419873u, 0xd3ad609aab22cec8u};
+    int wrong = 0;
+    for (int kind = 0; kind < ORDER_KINDS; kind++) {
+        sl_options opt = options_none();
+        gen_list_t t = pattern(kind);
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        sl_int *perm = test_ints((size_t)t.n);
+        gen_permutation(perm, t.n, 8);
+        opt.ordering = kind == ORDER_GRID ? SL_ORDERING_NATURAL : SL_ORDERING_GIVEN;
+        opt.perm = kind == ORDER_GRID ? NULL : perm;
+        wrong += differs("given order", kind, hash_of(&M.view, &opt), expected[kind]);
+        free(perm);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+/* Points of a grid, exact in doubles: at integers; turned by 45 degrees, tiny and off the origin;
+ * shaken. From 16,384 points on, directions are compared. */
+static void coordinates_give_one_order(void **state) {
+    (void)state;
+    static const uint64_t expected[6] = {0x8a57dfb72cc049cau, 0x1694aff6053efd1du,
+                                         0xf2b8585093e0f94cu, 0xf2b8585093e0f94cu,
+                                         0xf1043c31e31ca7cau, 0x3b868552cf92c302u};
+    const sl_int side = 150;
+    int wrong = 0;
+    gen_list_t t = gen_list(side * side);
+    uint64_t seed = 3;
+    gen_edges_grid(&t, side, side, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    double *xyz = test_reals(3 * (size_t)t.n);
+    for (int kind = 0; kind < 6; kind++) {
+        sl_options opt = options_none();
+        opt.coordinates = xyz;
+        opt.dimensions = kind % 2 == 0 ? 2 : 3;
+        for (sl_int k = 0; k < t.n; k++) {
+            double *at = xyz + (size_t)opt.dimensions * (size_t)k;
+            const sl_int x = k % side, y = k / side;
+            const double shake = ldexp((double)gen_below(&seed, 1 << 30), -30);
+            at[0] = kind < 2 ? x : kind < 4 ? ldexp(x + y + 12345, -70) : x + shake;
+            at[1] = kind < 2 ? y : kind < 4 ? ldexp(x - y, -70) : y - shake;
+            if (opt.dimensions == 3) {
+                at[2] = kind == 1 ? x + y : kind == 3 ? ldexp(y, -72) : shake;
+            }
+        }
+        wrong += differs("coordinates", kind, hash_of(&M.view, &opt), expected[kind]);
+    }
+    assert_int_equal(wrong, 0);
+    free(xyz);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(patterns_have_one_order),
+        cmocka_unit_test(supernodes_merge_alike),
+        cmocka_unit_test(coordinates_give_one_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
