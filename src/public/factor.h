@@ -10,13 +10,16 @@
  *  Definite and quasi-definite matrices can be factored in any order. Other symmetric indefinite
  *  matrices can be factored if no pivot is null. A pivot d is null if
  *  |d| <= null_tolerance * (sum of the magnitudes it was computed from); it is refused, skipped or
- *  regularized, depending on the options.
+ *  regularized, depending on the options. Rounding from heavier rows may hide a null pivot from
+ *  this test. Where null pivots are refused and null_tolerance is not negative, the last pivot of a
+ *  component is therefore also null if it is below 16 (64 + n/8) epsilon times the heaviest pivot
+ *  and constants are a null vector of the component, as defined below.
  *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
  *  magnitude, so the null vector decides. Let z be options.null_vector, or constant. Components are
- *  those of the graph of nonzero entries.
+ *  those of the graph of nonzero entries; duplicates that cancel are zeros.
  *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
  *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
  *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
@@ -65,7 +68,7 @@
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
- *           with A, 42 bytes per row and, with null pivots, a sweep over L; mass adds a forward
+ *           with A and 54 bytes per row; mass adds a forward
  *           sweep, 24 bytes per row, and a few operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large

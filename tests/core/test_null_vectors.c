@@ -218,6 +218,111 @@ static void no_null_pivot_is_missed_or_dropped(void **state) {
     }
 }
 
+/* By default every singular Laplacian is refused, also where rounding hides the null pivot. */
+static void laplacians_are_refused_by_default(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    uint64_t seed = 88;
+    for (int mesh = 0; mesh < MESHES; mesh++) {
+        sl_int components = 0, *of = NULL;
+        gen_matrix_t M = random_mesh(&seed, &of, &components);
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        sl_options opt = options_skip_null(&variants, mesh % variants.count);
+        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+        assert_null(F);
+        assert_int_equal(stats.factor.null, 1);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        free(of);
+    }
+}
+
+/* A definite Laplacian is not refused: weights over 3 decades or slivers, and a pinned row, a mass
+ * of t in each row, or a row removed. The least pivot is far above rounding, and x is accurate. */
+static void definite_laplacians_are_accepted_by_default(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    uint64_t seed = 99;
+    for (int mesh = 0; mesh < MESHES; mesh++) {
+        const int kind = mesh % 3;
+        const sl_int m = 3 + gen_below(&seed, 30), n = m * (3 + gen_below(&seed, 30));
+        const double firm = pow(10.0, -6.0 * uniform(&seed));
+        builder_t b;
+        b.t = gen_list(n);
+        b.diagonal = test_reals((size_t)n);
+        add_grid(&b, 0, m, n / m, 1 + 2 * gen_below(&seed, 2), &seed);
+        for (sl_int v = 0; v < n; v++) {
+            const double more = kind == 1 || (kind == 0 && v == n / 2) ? firm : 0.0;
+            gen_add(&b.t, v, v, b.diagonal[v] * (1.0 + more) + (kind == 2 && v == 0 ? 1.0 : 0.0));
+        }
+        gen_matrix_t M = gen_store(&b.t, gen_style(0), 1);
+        double *x = test_reals((size_t)n), *rhs = test_reals((size_t)n);
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        sl_options opt = options_skip_null(&variants, mesh % variants.count);
+        opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+        gen_reals(rhs, (size_t)n, seed);
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+        assert_int_equal(stats.factor.positive, n);
+        SL_CHECK(sl_factor_solve(F, x, (size_t)n, rhs, (size_t)n, 1, NULL));
+        BACKWARD_PASSES(&M.view, x, (size_t)n, rhs, (size_t)n, 1);
+        SL_CHECK(sl_factor_refactor(F, &M.view, &stats));
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_list_free(&b.t);
+        free(b.diagonal);
+        free(x);
+        free(rhs);
+    }
+}
+
+/* Two paths of springs with a common entry whose duplicates cancel, or which is an explicit zero:
+ * two components with a null pivot each. */
+static void canceled_entries_do_not_join(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    for (int duplicates = 0; duplicates < 4; duplicates++) {
+        gen_list_t t = gen_list(4);
+        for (sl_int v = 0; v < 4; v += 2) {
+            gen_add(&t, v, v, 0.3);
+            gen_add(&t, v + 1, v, -0.3);
+            gen_add(&t, v + 1, v + 1, 0.3);
+        }
+        for (int k = 0; k < duplicates; k++) { /* 0; 0 + 0; 1 - 2 + 1 */
+            gen_add(&t, 2, 1, duplicates < 3 ? 0.0 : k == 1 ? -2.0 : 1.0);
+        }
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        for (int k = 0; k < variants.count; k++) {
+            sl_options opt = options_skip_null(&variants, k);
+            sl_factor *F = NULL;
+            sl_stats stats;
+            const double z[4] = {1.0, 1.0, 0.0, 0.0}; /* fits only if the components are apart */
+            opt.null_vector = z;
+            SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+            assert_int_equal(stats.factor.null, 2);
+            assert_int_equal(stats.factor.regular, 0);
+            sl_factor_free(F);
+            opt.null_vector = NULL;
+            SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), &stats));
+            assert_int_equal(stats.factor.null, 2);
+            assert_int_equal(stats.factor.weak, 0);
+            sl_factor_free(F);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+}
+
 /* The Laplacian of a path of 3 vertices with weights 1 and w, plus a spring from row 0 to the
  * ground. */
 static gen_matrix_t path3(double w, double ground) {
@@ -338,6 +443,9 @@ static void indefinite_matrices_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_null_pivot_is_missed_or_dropped),
+        cmocka_unit_test(laplacians_are_refused_by_default),
+        cmocka_unit_test(definite_laplacians_are_accepted_by_default),
+        cmocka_unit_test(canceled_entries_do_not_join),
         cmocka_unit_test(regular_components_are_counted),
         cmocka_unit_test(a_null_vector_may_be_given),
         cmocka_unit_test(indefinite_matrices_are_refused),

@@ -75,12 +75,12 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
 }
 
 /* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
- * and for the caller. */
-static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
-                                 double started, sl_stats *stats) {
+ * and for the caller. has_g: see sli_nulls_find. */
+static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g,
+                                 sli_failure *failure, double started, sl_stats *stats) {
     sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
-        (void)sli_nulls_find(F, from, failure);
+        (void)sli_nulls_find(F, from, has_g, failure);
     }
     sli_factor_report(F, from->A, failure);
     F->stats.factor.seconds = sli_seconds() - started;
@@ -124,6 +124,11 @@ static void sli_factor_begin(sl_factor *F) {
     F->generation++;
 }
 
+static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from, sli_failure *failure) {
+    return F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, failure)
+                                             : sli_uplooking(F, from, failure);
+}
+
 /* Computes L and D of a matrix that has the analyzed pattern. */
 static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
                                     sl_stats *stats) {
@@ -139,11 +144,11 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
         (void)sli_null_vectors_check(F, from, &failure);
     }
-    if (failure.status == SL_OK) {
-        (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
-                                                 : sli_uplooking(F, from, &failure));
+    if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
+        sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
+        (void)sli_factor_eliminate(F, from, &failure); /* the check has overwritten L */
     }
-    return sli_factor_done(F, from, &failure, started, stats);
+    return sli_factor_done(F, from, F->method == SL_METHOD_SUPERNODAL, &failure, started, stats);
 }
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {

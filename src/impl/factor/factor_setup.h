@@ -23,12 +23,9 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->nulls = SLI_TAKE(b, sl_int, n);
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.kinds = SLI_TAKE(b, signed char, n);
-        F->z = SLI_TAKE(b, double, n);
+        F->rows = SLI_TAKE(b, sli_null_row, n);
+        F->rounding = SLI_TAKE(b, double, n);
         F->g = SLI_TAKE(b, double, n);
-        F->last = SLI_TAKE(b, sl_int, n);
-        F->product = SLI_TAKE(b, double, n);
-        F->size = SLI_TAKE(b, double, n);
-        F->entries = SLI_TAKE(b, sl_int, n);
         F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
     }
     if (F->is_centered) {
@@ -141,7 +138,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
             if (!sli_is_finite(z)) {
                 return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
             }
-            F->z[S->iperm[i]] = z;
+            F->rows[S->iperm[i]].z = z;
         }
     }
     return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;

@@ -26,6 +26,15 @@ typedef struct sli_failure {
     double value;
 } sli_failure;
 
+/* Row k of A z in pivot order. A cache line holds two: the product visits rows at random. */
+typedef struct sli_null_row {
+    double z;       /* the assumed null vectors of all components */
+    double product; /* scratch: (A z)(k) */
+    double size;    /* scratch: (|A| |z|)(k) */
+    sl_int entries; /* scratch: entries of the row */
+    sl_int last;    /* the last pivot of the component of the row */
+} sli_null_row;
+
 struct sl_factor {
     sl_allocator allocator;
     sl_stats stats;       /* the factor group and the error group */
@@ -55,13 +64,12 @@ struct sl_factor {
     sl_int n_anchors;
     /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
     sl_int *anchors;
-    double *mass; /* n: the weights m in pivot order; NULL: none */
-    double *z;    /* n: the assumed null vectors of all components, in pivot order */
-    /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h) */
+    double *mass;       /* n: the weights m in pivot order; NULL: none */
+    sli_null_row *rows; /* n */
+    double *rounding;   /* n: for the rule */
+    /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h); before
+     * a column of L is computed, z or 0 */
     double *g;
-    sl_int *last; /* n: the last pivot of the component of each row */
-    double *product, *size; /* n: scratch: A v and |A| |v| */
-    sl_int *entries;        /* n: scratch: entries of each row */
     /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
     double *center;
     double *squares;  /* components: w' D^+ w of the tree of each anchor */

@@ -178,7 +178,10 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         (void)sli_left_factor_all(F, &work, &from, seeds, count, &failure);
     }
     sli_free(&F->allocator, b.base);
-    return sli_factor_done(F, &from, &failure, started, stats);
+    if (failure.status == SL_OK && sli_null_is_suspected(F)) {
+        return sli_factor_numbers(F, &from, started, stats);
+    }
+    return sli_factor_done(F, &from, 0, &failure, started, stats);
 }
 
 #endif

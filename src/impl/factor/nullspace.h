@@ -122,7 +122,9 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     F->ratios[m] = 1.0;
     if (F->g[anchor] != 0.0) {
         for (k = first; k <= root; k++) {
-            const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
+            const sli_null_row *row = &F->rows[k];
+            const double term =
+                row->last == anchor ? row->z / F->rows[anchor].z * F->mass[k] : 0.0;
             z_m += term;
             size += fabs(term);
         }
@@ -164,43 +166,33 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     return status;
 }
 
-/* g := L' g, in place: ascending, because a column needs the rows below it only. */
-static void sli_null_vectors_multiply(sl_factor *F) {
-    const sl_symbolic *S = F->S;
-    double *z = F->center_scratch;
-    sl_int s, t, j, r;
-    for (s = 0; s < S->n_supers; s++) {
-        const sli_step *step = &S->steps[s];
-        const sl_int w = step->width, height = w + step->below;
-        const sl_int *rows = S->rows + S->rows_begin[s];
-        double *g = F->g + step->column;
-        for (r = 0; r < SLI_TILE * sli_tiles(height); r++) {
-            z[r] = r < w ? g[r] : r < height ? F->g[rows[r - w]] : 0.0;
-        }
-        for (t = 0; t < sli_tiles(height); t++) {
-            const double *tile = F->L + step->panel + sli_tile_offset(w, t);
-            for (j = 0; j < sli_min(w, SLI_TILE * (t + 1)); j++) {
-                const double *l = tile + SLI_TILE * (ptrdiff_t)j, *x = z + SLI_TILE * (ptrdiff_t)t;
-                /* g(j) += L(rows, j)' z(rows); the pairs are independent of each other */
-                g[j] += ((l[0] * x[0] + l[1] * x[1]) + (l[2] * x[2] + l[3] * x[3])) +
-                        ((l[4] * x[4] + l[5] * x[5]) + (l[6] * x[6] + l[7] * x[7]));
-            }
-        }
+/* Exchanges g and the assumed null vectors. */
+static void sli_null_vectors_swap(sl_factor *F) {
+    sl_int k;
+    for (k = 0; k < F->S->n; k++) {
+        const double z = F->rows[k].z;
+        F->rows[k].z = F->g[k];
+        F->g[k] = z;
     }
 }
 
 /* Checks the null pivots that the tolerance has found: a random combination z of their null vectors
  * L^-T e_k has A z = 0 up to rounding if A is semidefinite. If it is indefinite, a pivot can be
  * null although its column is not, and A z is as large as |A| |z|. */
-static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
+static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from, int *has_g,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    sli_null_work w;
     double *z = F->g;
     uint64_t random = 1;
+    sl_status status = SL_OK;
     sl_int k, m, first = -1;
-    memset(&w, 0, sizeof w);
+    for (m = F->n_nulls - 1; m >= 0; m--) {
+        first = F->rule.kinds[F->nulls[m]] == SLI_PIVOT_UNKNOWN ? F->nulls[m] : first;
+    }
+    if (first == -1) {
+        return SL_OK;
+    }
     memset(z, 0, (size_t)S->n * sizeof(double));
     for (m = 0; m < F->n_nulls; m++) {
         k = F->nulls[m];
@@ -208,44 +200,45 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
             random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
             /* divided by D(k), which is SLI_NULL_PIVOT, it is between 0.5 and 1 */
             z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
-            first = first == -1 ? k : first;
         }
-    }
-    if (first == -1) {
-        return SL_OK;
     }
     F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
                                      F->center_scratch);
-    w.product = F->product;
-    w.size = F->size;
-    sli_null_product(F, from, z, &w);
-    for (k = 0; k < S->n; k++) {
-        if (!(fabs(w.product[k]) <= 1e-4 * w.size[k])) {
-            return sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
+    sli_null_vectors_swap(F);
+    sli_null_product(S, from, F->rows, NULL);
+    sli_null_vectors_swap(F);
+    for (k = 0; k < S->n && status == SL_OK; k++) {
+        if (!(fabs(F->rows[k].product) <= 1e-4 * F->rows[k].size)) {
+            status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
         }
     }
-    return SL_OK;
+    sli_null_components(F->rows, S->n);
+    sli_null_vectors_load(F);
+    *has_g = 0;
+    return status;
 }
 
 /* Counts the components without a null pivot. */
 static sl_int sli_regular_components(const sl_factor *F) {
     sl_int k, m, count = 0;
     for (k = 0; k < F->S->n; k++) {
-        F->entries[k] = F->last[k] == k;
+        F->rows[k].entries = F->rows[k].last == k;
     }
     for (m = 0; m < F->n_nulls; m++) {
-        F->entries[F->last[F->nulls[m]]] = 0;
+        F->rows[F->rows[F->nulls[m]].last].entries = 0;
     }
     for (k = 0; k < F->S->n; k++) {
-        count += F->entries[k];
+        count += F->rows[k].entries;
     }
     return count;
 }
 
-/* Finds the null pivots of a new factorization and prepares solves with them. */
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
+/* Finds the null pivots of a new factorization and prepares solves with them. has_g: g is computed
+ * already; else it holds what sli_null_vectors_load made. */
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, int has_g,
+                                sli_failure *failure) {
     sl_status status;
-    sl_int k;
+    sl_int k, s;
     F->n_nulls = 0;
     for (k = 0; k < F->S->n; k++) {
         if (sli_is_skipped(F, k)) {
@@ -255,10 +248,9 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
     F->stats.factor.regular = sli_regular_components(F);
     F->is_centered = F->mass != NULL && F->n_nulls > 0;
     F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-    status = sli_null_pivots_verify(F, from, failure);
-    if (status == SL_OK && F->n_nulls > 0) {
-        sli_null_vectors_load(F);
-        sli_null_vectors_multiply(F);
+    status = sli_null_pivots_verify(F, from, &has_g, failure);
+    for (s = 0; s < F->S->n_supers && !has_g && status == SL_OK && F->n_nulls > 0; s++) {
+        sli_null_vectors_multiply(F, s, F->center_scratch); /* ascending: see there */
     }
     return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
