@@ -17,7 +17,7 @@
 enum {
     ARENA = 48 * 1024,
     SCRATCH = 8 * 8 * 256, /* sli_front_scratch */
-    INVERSE = 2 * 8 * 8,   /* SLI_FRONT_RECIPROCALS; guards detect writes past the scratch */
+    INVERSE = 3 * 8 * 8,   /* SLI_FRONT_RECIPROCALS; guards detect writes past the scratch */
     GUARDS = 64,
     WIDTHS = 8,
     BELOWS = 6,
@@ -115,6 +115,8 @@ static sli_front front_of(const shape *s, double *item) {
     f.update = item + s->panel;
     f.D = f.update + s->update;
     f.magnitude = f.D + s->pivots;
+    f.pairs = NULL;
+    f.E = NULL;
     f.reciprocals = reciprocals;
     f.rule = &no_rule;
     f.column = 0;

@@ -48,6 +48,39 @@
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
+/** Analyses a symmetric indefinite matrix, with pivots that are chosen by its values.
+ *
+ *  For matrices that have no stable factorization with a diagonal D in the order of the pattern, as
+ *  KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1 and 2x2
+ *  pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A column
+ *  without an acceptable pivot in its front is delayed: it moves up to the parent's front. The
+ *  result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
+ *
+ *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
+ *  accurate than in any fixed order: check sl_factor_refine's backward error, and analyze again if
+ *  it is large. All calls work on these factors except the following.
+ *  - If there are 2x2 pivots, factors use the supernodal method, whatever options.method, and
+ *    entries of the inverse, selected inverses and regions give SL_ERR_UNSUPPORTED.
+ *  - SL_NULL_PIVOT_SKIP gives SL_ERR_UNSUPPORTED.
+ *  - With options.regularization and no signs, pivots of both signs are right, and only null ones
+ *    are replaced. Signs do not apply to 2x2 pivots. A null one is shifted in both rows.
+ *
+ *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
+ *                tree.
+ *  A      [in]   n x n, symmetric, with values; not kept.
+ *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
+ *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
+ *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
+ *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
+ *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which
+ *           keeps its update matrices in memory of their own.
+ *  Threads  as sl_symbolic_create.
+ *  Source   [DR83] multifrontal with 1x1 and 2x2 pivots.
+ *  Example  tests/core/test_pivots.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
+                                                           const sl_options *opt, sl_stats *stats);
+
 /** Releases an analysis; NULL is allowed. Objects made from it must not be used afterwards. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
@@ -80,6 +113,7 @@ typedef struct sl_symbolic_arrays {
     const sl_off *rows_begin;   /* n_supers + 1 */
     const sl_int *rows;         /* rows_begin[n_supers] */
     const sl_off *panel_begin;  /* n_supers + 1, in doubles */
+    const unsigned char *pairs; /* n: 1, 2 at the two columns of a 2x2 pivot, else 0; or NULL */
     sl_int n_nodes;             /* nodes of the separator tree */
     const sl_int *node_of;      /* n: node of column k */
     const sl_int *node_parent;  /* n_nodes: -1 at a root */

@@ -183,6 +183,7 @@ typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
     const double *L; /* panels, in the layout described at sl_symbolic_arrays */
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
+    const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);

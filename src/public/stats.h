@@ -24,6 +24,8 @@ typedef struct sl_symbolic_info {
     sl_int supernodes_fundamental; /* before relaxation */
     sl_int tree_height;            /* columns on the longest path of the elimination tree */
     sl_int components;             /* roots of the elimination tree */
+    sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
+    sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
     double seconds_order;          /* processor seconds of the ordering */
     double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
     double seconds_tree;           /* elimination tree, column counts and supernodes */
@@ -113,7 +115,7 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[31];
+    sl_off reserved[30];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

@@ -23,25 +23,33 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
  * Row k of L occupies the part of the supernode tree between row k's entries of A and k's own
  * supernode. k is appended to the row list of each of these supernodes; as k ascends, so do the
  * lists. The position in the list is the local row of k's entries. end: n_supers, the end of each
- * list so far; mark: n_supers.
+ * list so far; mark: n_supers. earlier: the part before each supernode if one was split, or NULL:
+ * a row of one part is also a row of the parts before it.
  */
 static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
-                               const sl_int *new_of, sl_off *end, sl_int *mark) {
-    sl_int k, p, s;
+                               const sl_int *new_of, const sl_int *earlier, sl_off *end,
+                               sl_int *mark) {
+    sl_int k, p, s, t;
     for (s = 0; s < S->n_supers; s++) {
         end[s] = S->rows_begin[s];
         mark[s] = -1;
     }
     for (k = 0; k < S->n; k++) {
         const sl_int own = S->super_of[k];
+        for (t = earlier == NULL ? -1 : earlier[own]; t != -1; t = earlier[t]) {
+            mark[t] = k;
+            S->rows[end[t]++] = k;
+        }
         for (p = rows->begin[old_of[k]]; p < rows->begin[old_of[k] + 1]; p++) {
             const sl_int i = new_of[rows->to[p]], home = S->super_of[i];
             const sl_int first = S->super_first[home], width = S->super_first[home + 1] - first;
             sl_int local;
             sl_off at;
             for (s = home; s != own && mark[s] != k; s = S->super_parent[s]) {
-                mark[s] = k;
-                S->rows[end[s]++] = k;
+                for (t = s; t != -1 && mark[t] != k; t = earlier == NULL ? -1 : earlier[t]) {
+                    mark[t] = k;
+                    S->rows[end[t]++] = k;
+                }
             }
             local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
             /* each begin advances to its group's end; shifted back below */

@@ -15,6 +15,10 @@ typedef struct sli_amalgamation {
     sl_int *below;       /* rows below */
     sl_off *zeros;       /* entries stored so far that L does not have */
     sl_int *merged_into; /* the supernode it was merged into, or itself; finally the new number */
+    /* 1: always merged into its parent, as its last column and the next one are a 2x2 pivot; NULL:
+     * none */
+    unsigned char *is_tied;
+    int relaxes; /* merge others too */
 } sli_amalgamation;
 
 /* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
@@ -80,7 +84,8 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
         const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
         const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
         const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * g->below[p];
-        if (sli_may_merge(width, zeros, stored)) {
+        if ((g->is_tied != NULL && g->is_tied[c]) ||
+            (g->relaxes && sli_may_merge(width, zeros, stored))) {
             g->width[p] = width;
             g->zeros[p] = zeros;
             g->merged_into[c] = p;
@@ -180,6 +185,83 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
     }
     g->first[count] = n;
     g->count = count;
+}
+
+/* The end of the part of a supernode that begins at column `from`: a 2x2 pivot that would be in two
+ * column tiles starts the next part. */
+SLI_INLINE sl_int sli_part_end(const unsigned char *is_first, sl_int from, sl_int end) {
+    sl_int k;
+    for (k = from + SLI_TILE - 1; k < end && !is_first[k]; k += SLI_TILE) {
+    }
+    return sli_min(k, end);
+}
+
+/* Cuts supernodes into parts: first, below, and part, the part of each column. Returns how many. */
+static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_first,
+                             sl_int *first, sl_int *below, sl_int *part) {
+    sl_int s, k, count = 0;
+    for (s = 0; s < g->count; s++) {
+        for (k = g->first[s]; k < g->first[s + 1]; count++) {
+            const sl_int end = sli_part_end(is_first, k, g->first[s + 1]);
+            first[count] = k;
+            below[count] = g->first[s + 1] - end + g->below[s];
+            for (; k < end; k++) {
+                part[k] = count;
+            }
+        }
+    }
+    return count;
+}
+
+/* Splits supernodes into parts so that every 2x2 pivot is in one column tile, and numbers them in a
+ * postorder again: order[k] = the old number of the new column k. Each part keeps the rows of its
+ * supernode, and the next part is its parent. earlier[s] := the part before s in its supernode, or
+ * -1. Returns 0 if nothing is to be split. parent: the elimination tree; is_first: by column, is it
+ * the first of a pair? scratch: 5n. */
+static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
+                           const unsigned char *is_first, sl_int *super_of, sl_int *earlier,
+                           sl_int *order, sl_int *scratch) {
+    sl_int *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
+    sl_int *first = g->merged_into; /* free now */
+    const sl_int count = sli_find_parts(g, is_first, first, below, order);
+    sl_int s, k, c, column = 0;
+    for (k = 0; k < n; k++) {
+        earlier[k] = -1;
+    }
+    if (count == g->count) {
+        return 0;
+    }
+    for (s = 0; s < count; s++) {
+        const sl_int end = s + 1 < count ? first[s + 1] : n, up = parent[end - 1];
+        const int continues = end < n && super_of[end] == super_of[end - 1];
+        tree[s] = continues ? s + 1 : up == -1 ? -1 : order[up];
+    }
+    sli_postorder(tree, count, post, number, below + n);
+    for (k = 0; k < count; k++) {
+        number[post[k]] = k;
+    }
+    for (k = 0; k < count; k++) {
+        const sl_int end = post[k] + 1 < count ? first[post[k] + 1] : n;
+        s = post[k];
+        if (end < n && super_of[end] == super_of[end - 1]) {
+            earlier[number[s + 1]] = k;
+        }
+        g->first[k] = column;
+        g->width[k] = end - first[s];
+        g->below[k] = below[s];
+        g->parent[k] = tree[s] == -1 ? -1 : number[tree[s]];
+        for (c = first[s]; c < end; c++) {
+            order[column++] = c;
+        }
+    }
+    g->first[count] = n;
+    g->count = count;
+    for (k = 0; k < count; k++) {
+        for (c = g->first[k]; c < g->first[k + 1]; c++) {
+            super_of[c] = k;
+        }
+    }
+    return 1;
 }
 
 #endif

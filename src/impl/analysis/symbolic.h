@@ -20,7 +20,11 @@ typedef struct sli_analysis {
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
     uint64_t *list;                     /* 2n */
-    sli_septree septree;                /* n each: by rows of A */
+    /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
+    const unsigned char *pairs;
+    unsigned char *is_first; /* n: the same, by column */
+    sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
+    sli_septree septree;     /* n each: by rows of A */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
@@ -45,6 +49,11 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.zeros = SLI_TAKE(b, sl_off, n);
     w->amalgamation.merged_into = SLI_TAKE(b, sl_int, n);
     w->list = SLI_TAKE(b, uint64_t, 2 * n);
+    if (w->pairs != NULL) {
+        w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
+        w->is_first = SLI_TAKE(b, unsigned char, n);
+        w->earlier = SLI_TAKE(b, sl_int, n);
+    }
     w->septree.node_of = SLI_TAKE(b, sl_int, n);
     w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
 }
@@ -64,6 +73,7 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->steps = SLI_TAKE(b, sli_step, supers);
     S->first_descendant = SLI_TAKE(b, sl_int, supers);
+    S->pairs = SLI_TAKE(b, unsigned char, S->n_pairs > 0 ? n : 0);
     S->relative = SLI_TAKE(b, sl_int, rows);
     S->scatter_begin = SLI_TAKE(b, sl_off, supers + 1);
     S->scatter_from = SLI_TAKE(b, sl_int, entries);
@@ -73,13 +83,51 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
+/* Renumbers tree and counts: order[k] = the old number of the new column k. */
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
+    sl_int k;
+    for (k = 0; k < w->n; k++) {
+        w->scratch[k] = w->counts[order[k]];
+    }
+    if (w->n > 0) {
+        memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
+    }
+    sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
+}
+
+/* Marks the supernodes whose last column is the first of a 2x2 pivot. */
+static void sli_analysis_tie(sli_analysis *w) {
+    sl_int s;
+    for (s = 0; s < w->amalgamation.count; s++) {
+        w->amalgamation.is_tied[s] = w->pairs[w->old_of[w->amalgamation.first[s + 1] - 1]];
+    }
+}
+
+/* Splits supernodes so that each 2x2 pivot is in one tile. Its two columns have the same rows. */
+static void sli_analysis_split(sli_analysis *w, sl_int *order) {
+    sl_int k;
+    for (k = 0; k < w->n; k++) {
+        w->is_first[k] = w->pairs[w->old_of[k]];
+        SLI_ASSERT(!w->is_first[k] || w->old_of[k + 1] == w->old_of[k] + 1);
+    }
+    for (k = w->n - 1; k >= 0; k--) {
+        w->counts[k] = w->is_first[k] ? w->counts[k + 1] + 1 : w->counts[k];
+    }
+    if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
+                        order, w->scratch)) {
+        sli_analysis_reorder(w, order);
+        for (k = 0; k < w->n; k++) {
+            w->is_first[k] = w->pairs[w->old_of[k]];
+        }
+    }
+}
+
 /* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
 static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
     const sl_int n = w->n;
     const int keeps_order =
         opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
     sl_int *order = w->scratch, *more = w->scratch + n;
-    sl_int k;
     sli_order_natural(n, w->old_of);
     sli_etree(n, &w->rows, w->parent, order);
     sli_postorder(w->parent, n, order, more, more + n);
@@ -87,19 +135,20 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
-    if (opt == NULL || opt->relaxation != SL_RELAXATION_NONE) {
+    w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
+    if (w->pairs != NULL) {
+        sli_analysis_tie(w);
+    }
+    if (w->amalgamation.relaxes || w->pairs != NULL) {
         sli_amalgamate(&w->amalgamation, order, more, w->list, w->list + n);
     }
     order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
     sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
                           w->scratch);
-    for (k = 0; k < n; k++) {
-        w->scratch[k] = w->counts[order[k]];
+    sli_analysis_reorder(w, order);
+    if (w->pairs != NULL) {
+        sli_analysis_split(w, order);
     }
-    if (n > 0) {
-        memcpy(w->counts, w->scratch, (size_t)n * sizeof(sl_int));
-    }
-    sli_relabel(order, n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
 /* Fills the statistics. depth: n of scratch. */
@@ -134,9 +183,15 @@ static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
  * by it that their analysis was released and another one created at its address. */
 static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
     const sl_int kind = (sl_int)triangle;
+    sl_int k;
     S->identity = sli_hash_ints(S->pattern, &kind, 1);
     S->identity = sli_hash_ints(S->identity, S->perm, S->n);
     S->identity = sli_hash_ints(S->identity, S->super_first, (sl_off)S->n_supers + 1);
+    for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+        if (S->pairs[k] == SLI_PAIR_FIRST) {
+            S->identity = sli_hash_ints(S->identity, &k, 1);
+        }
+    }
 }
 
 /* Copies the tree out of the scratch and fills everything that depends on it. */
@@ -161,8 +216,13 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     }
     /* list has 2n words of 8 bytes: one half for the ends of the row lists, the other for the
      * marks. */
+    for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+        S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
+                      : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
+                                                    : SLI_PAIR_NONE;
+    }
     sli_scatter_map_count(S, &w->columns, w->old_of);
-    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
+    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, (sl_off *)(void *)w->list,
                        (sl_int *)(void *)(w->list + S->n));
     sli_fill_steps(S);
     sli_fill_descendants(S);
@@ -202,6 +262,10 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     draft.n = A->n_cols;
     draft.n_supers = w->amalgamation.count;
     draft.n_nodes = w->septree.count;
+    for (s = 0; w->pairs != NULL && s < w->n; s++) {
+        draft.n_pairs += w->pairs[s];
+    }
+    stats->symbolic.pairs = draft.n_pairs;
     draft.nnz_input = sli_nnz(A);
     (void)sli_pattern_hash(A, &draft.pattern);
     for (s = 0; s < w->amalgamation.count; s++) {
@@ -230,8 +294,10 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
     to->symbolic = from->symbolic;
 }
 
-SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                                    sl_stats *stats) {
+/* sl_symbolic_create of a matrix for which 2x2 pivots are given, or pairs NULL. opt then gives the
+ * order, and pairs[k] = 1 if its rows k and k + 1 are a 2x2 pivot. */
+static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
+                                     const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const double started = sli_seconds();
     sli_analysis w;
@@ -255,6 +321,7 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
         return SL_ERR_ARGUMENT;
     }
     memset(&w, 0, sizeof w);
+    w.pairs = pairs;
     memset(&found, 0, sizeof found);
     sli_stats_clear_error(&found);
     status = sli_csc_triangle(A, &found.symbolic.triangle, opt, stats);
@@ -273,6 +340,11 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
         sli_free(&a, b.base);
     }
     return status;
+}
+
+SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                                    sl_stats *stats) {
+    return sli_symbolic_create(out, A, NULL, opt, stats);
 }
 
 SL_API void sl_symbolic_free(sl_symbolic *S) {
@@ -305,6 +377,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
         v.rows_begin = S->rows_begin;
         v.rows = S->rows;
         v.panel_begin = S->panel_begin;
+        v.pairs = S->n_pairs > 0 ? S->pairs : NULL;
         v.n_nodes = S->n_nodes;
         v.node_of = S->n_nodes > 0 ? S->node_of : NULL;
         v.node_parent = S->n_nodes > 0 ? S->node_parent : NULL;

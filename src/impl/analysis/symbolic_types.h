@@ -5,6 +5,7 @@
 #include "../../public/analyze.h"
 #include "../base/alloc.h"
 #include "../base/hash.h"
+#include "../kernels/pairs.h"
 #include "../kernels/step.h"
 #include "../ordering/graph.h"
 
@@ -19,6 +20,9 @@ struct sl_symbolic {
     sl_int tallest, widest;   /* largest height (columns and rows below) and width of a supernode */
     sl_int *perm, *iperm;     /* n */
     sl_int *parent;           /* n: elimination tree, -1 at a root */
+    int is_pivoted;           /* created from values: pivots of any sign are right */
+    sl_int n_pairs;           /* 2x2 pivots */
+    unsigned char *pairs;     /* n: SLI_PAIR_*; n_pairs = 0: none */
     sl_int *counts;           /* n: entries of each column of L, without relaxation */
     sl_int *super_of;         /* n */
     sl_int *super_first;      /* n_supers + 1 */

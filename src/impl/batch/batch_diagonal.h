@@ -50,6 +50,9 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
         if (!F->is_valid || !sli_factor_is_over(F, d->factors[0]->S, d->factors[0]->analysis)) {
             return SL_ERR_STATE;
         }
+        if (F->E != NULL) {
+            return sli_inverse_check(F);
+        }
     }
     *at = -1;
     return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);

@@ -74,6 +74,15 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
     stats->error.value = F->stats.error.value;
 }
 
+/* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
+static void sli_pairs_done(sl_factor *F) {
+    sl_int k;
+    F->identity = sli_hash_reals(F->identity, F->E, F->S->n);
+    for (k = 0; k < F->S->n; k++) {
+        F->divisors[k] = F->S->pairs[k] == SLI_PAIR_NONE ? F->D[k] : 1.0;
+    }
+}
+
 /* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
  * and for the caller. has_g: see sli_nulls_find. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g,
@@ -87,6 +96,9 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g
     F->is_valid = failure->status == SL_OK;
     if (F->is_valid) { /* the pivots show every option that changes numbers by more than rounding */
         F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
+        if (F->E != NULL) {
+            sli_pairs_done(F);
+        }
     }
     F->status = failure->status;
     if (stats != NULL) {
@@ -112,8 +124,7 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
     }
     F->identity = sli_hash_reals(F->identity, from->coefficients, from->terms);
     for (t = 0; t < from->terms; t++) {
-        F->identity =
-            sli_hash_reals(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
+        F->identity = sli_hash_reals(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
     }
 }
 

@@ -21,7 +21,13 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
         return SL_ERR_STATE;
     }
     for (k = 0; k < F->S->n; k++) {
-        sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
+        if (F->E != NULL && F->S->pairs[k] == SLI_PAIR_FIRST) {
+            double values[2];
+            sli_pair_eigenvalues(F, k++, values);
+            sum += log(fabs(values[0])) + log(fabs(values[1]));
+        } else {
+            sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
+        }
     }
     *log_abs_det = sum;
     *sign = F->stats.factor.negative % 2 == 0 ? 1.0 : -1.0;
@@ -122,11 +128,12 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-    sl_factor_arrays v = {NULL, NULL, NULL};
+    sl_factor_arrays v = {NULL, NULL, NULL, NULL};
     if (F != NULL) {
         v.symbolic = F->S;
         v.L = F->L;
         v.D = F->D;
+        v.E = F->E;
     }
     return v;
 }

@@ -14,6 +14,10 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     const uint64_t workers = (uint64_t)F->schedule.workers;
     (void)sli_take(b, 1, sizeof(sl_factor));
     F->D = SLI_TAKE(b, double, n);
+    if (S->n_pairs > 0) {
+        F->E = SLI_TAKE(b, double, n);
+        F->divisors = SLI_TAKE(b, double, n);
+    }
     if (F->rule.regularization != 0.0) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.shifts = SLI_TAKE(b, double, n);
@@ -121,7 +125,9 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
     const sl_symbolic *S = F->S;
     sl_int i;
-    if (F->rule.regularization != 0.0 && opt->signs == NULL) {
+    if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
+        memset(F->rule.signs, 0, (size_t)S->n); /* any sign is right */
+    } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
         F->rule.signs = NULL;
     } else if (F->rule.regularization != 0.0) {
         for (i = 0; i < S->n; i++) {
@@ -148,6 +154,9 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
  * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
  * supernodal method is 1.1 to 6 times faster. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
+    if (S->n_pairs > 0) { /* only fronts have 2x2 pivots */
+        return SL_METHOD_SUPERNODAL;
+    }
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
         return opt->method;
     }
@@ -184,7 +193,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
         draft.schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(S->n_supers, 1));
     }
     draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
-    if (draft.kernels == NULL) {
+    if (draft.kernels == NULL || (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP)) {
         return SL_ERR_UNSUPPORTED;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -197,6 +206,9 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
         draft.stats.factor.isa = draft.kernels->isa;
         draft.stats.factor.method = draft.method;
         *F = draft;
+        if (F->E != NULL) {
+            memset(F->E, 0, (size_t)S->n * sizeof(double));
+        }
         if (F->method == SL_METHOD_SUPERNODAL) {
             status = sli_factor_schedule(F);
         }

@@ -43,8 +43,8 @@ struct sl_factor {
     sli_pivot_rule rule;
     sl_null_pivots null_pivots;
     sl_method method;
-    int is_valid;        /* L and D hold a factor */
-    sl_status status;    /* of the last factorization */
+    int is_valid;     /* L and D hold a factor */
+    sl_status status; /* of the last factorization */
     /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
      * numbers keeps it */
     sli_hash identity;
@@ -52,6 +52,7 @@ struct sl_factor {
     sli_hash analysis;   /* the identity of S */
     double *L;           /* the panels of all supernodes */
     double *D;           /* n pivots */
+    double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
     /* n: the pivots that regularization changed, ascending; NULL: no regularization */
     sl_int *regularized;
 
@@ -72,9 +73,11 @@ struct sl_factor {
     double *g;
     /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
     double *center;
-    double *squares;  /* components: w' D^+ w of the tree of each anchor */
-    double *ratios;   /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
-    double *divisors; /* n: D, with 1 at the anchors, where the backward sweep is given x itself */
+    double *squares; /* components: w' D^+ w of the tree of each anchor */
+    double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
+    /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
+     * and in 2x2 pivots, which are applied before it; NULL: D */
+    double *divisors;
     double *center_scratch;
     double *buffer; /* kernel scratch, one piece a worker */
 
@@ -122,6 +125,11 @@ SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F
 SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_hash identity) {
     return F->S == S && sli_hash_equals(F->analysis, S->identity) &&
            sli_hash_equals(identity, S->identity);
+}
+
+/* Entries of the inverse are computed with a diagonal D only. */
+SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
+    return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 /* Fills in a failure and returns its status. */
@@ -235,6 +243,50 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot,
     return SL_OK;
 }
 
+/* Refuses a 2x2 pivot that is not finite or null; asked for both of its columns k. */
+SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int k, const double *magnitude,
+                                    sli_failure *failure) {
+    const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
+    if (F->S->pairs[k] == SLI_PAIR_SECOND) {
+        return SL_OK;
+    }
+    if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
+        return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1,
+                        !sli_is_finite(a)   ? a
+                        : !sli_is_finite(b) ? b
+                                            : e);
+    }
+    if (!F->rule.replaces &&
+        sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], F->rule.null_tolerance)) {
+        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, a);
+    }
+    return SL_OK;
+}
+
+/* The eigenvalues of the 2x2 pivot of columns k, k+1, the one of larger magnitude first. */
+SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
+    const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
+    const double middle = 0.5 * a + 0.5 * b, half = 0.5 * a - 0.5 * b;
+    const double size = fabs(half) > fabs(e) ? fabs(half) : fabs(e);
+    const double x = size > 0.0 ? half / size : 0.0, y = size > 0.0 ? e / size : 0.0;
+    const double radius = size * sqrt(x * x + y * y);
+    values[0] = middle < 0.0 ? middle - radius : middle + radius;
+    /* the product of both is the determinant; their difference would cancel */
+    values[1] = a * (b / values[0]) - e * (e / values[0]);
+}
+
+/* Counts one eigenvalue of D by its sign, and records its magnitude. */
+SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
+    const double size = fabs(d);
+    if (info->positive + info->negative == 0) {
+        info->pivot_min = size;
+    }
+    info->positive += d > 0.0;
+    info->negative += d < 0.0;
+    info->pivot_min = size < info->pivot_min ? size : info->pivot_min;
+    info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
+}
+
 /* Counts the first pivots by sign and records their least and largest magnitude. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_stats *stats = &F->stats;
@@ -243,7 +295,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
         stats->factor.regularized = stats->factor.weak = 0;
     stats->factor.pivot_min = stats->factor.pivot_max = 0.0;
     for (k = 0; k < count; k++) {
-        const double size = fabs(F->D[k]);
         if (sli_is_skipped(F, k)) {
             stats->factor.null++;
             continue;
@@ -252,13 +303,14 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
         if (sli_is_regularized(F, k)) {
             F->regularized[stats->factor.regularized++] = k;
         }
-        if (stats->factor.positive + stats->factor.negative == 0) {
-            stats->factor.pivot_min = size;
+        if (F->E == NULL || F->S->pairs[k] == SLI_PAIR_NONE) {
+            sli_count_pivot(&stats->factor, F->D[k]);
+        } else if (F->S->pairs[k] == SLI_PAIR_FIRST) {
+            double values[2];
+            sli_pair_eigenvalues(F, k, values);
+            sli_count_pivot(&stats->factor, values[0]);
+            sli_count_pivot(&stats->factor, values[1]);
         }
-        stats->factor.positive += F->D[k] > 0.0;
-        stats->factor.negative += F->D[k] < 0.0;
-        stats->factor.pivot_min = size < stats->factor.pivot_min ? size : stats->factor.pivot_min;
-        stats->factor.pivot_max = size > stats->factor.pivot_max ? size : stats->factor.pivot_max;
     }
 }
 

@@ -41,9 +41,14 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
                          from.below - first);
     for (r = first; r < last; r++) { /* add |l d l| to the magnitudes of the pivots */
         const double *l = from.panel + sli_panel_at(w, w + r, 0);
-        for (j = 0; j < w; j++) {
-            f->magnitude[p->relative[r - first]] +=
-                fabs(l[SLI_TILE * (ptrdiff_t)j] * l[SLI_TILE * (ptrdiff_t)j] * from.D[j]);
+        double *magnitude = f->magnitude + p->relative[r - first];
+        for (j = 0; j < w; j++, l += SLI_TILE) {
+            if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
+                const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
+                *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
+            } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
+                *magnitude += fabs(*l * *l * from.D[j]);
+            }
         }
     }
 }

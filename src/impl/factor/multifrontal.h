@@ -23,6 +23,8 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.below = step->below;
     f.update = F->stack + F->schedule.stack_begin[s];
     f.D = F->D + step->column;
+    f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
+    f.E = F->E == NULL ? NULL : F->E + step->column;
     f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
     f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
     f.rule = &F->rule;
@@ -96,7 +98,9 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < f->width && status == SL_OK; k++) {
-        status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+        status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
+                     ? sli_check_pair(F, first + k, f->magnitude + k, failure)
+                     : sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
     }
     return status;
 }

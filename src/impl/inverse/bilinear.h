@@ -161,8 +161,9 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    status = sli_inverse_check(F);
+    if (status != SL_OK) {
+        return status;
     }
     if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
         return SL_ERR_TOO_LARGE;

@@ -234,8 +234,9 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
         (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    status = sli_inverse_check(F);
+    if (status != SL_OK) {
+        return status;
     }
     status = sli_check_rows(F->S, rows, n_rows, 0, stats);
     status = status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;

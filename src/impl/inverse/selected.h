@@ -169,8 +169,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
     if (F == NULL || (set != NULL && count < 0) || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
+    status = sli_inverse_check(F);
+    if (status != SL_OK) {
+        return status;
     }
     status = sli_selected_new(&Z, F, set, count, opt, stats);
     if (status == SL_OK) {

@@ -31,8 +31,8 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
     return SLI_GROUP_TILES * SLI_TILE * sli_min(width, SLI_CHUNK_COLUMNS);
 }
 
-/* Doubles in the array `reciprocals` of a front. */
-#define SLI_FRONT_RECIPROCALS (2 * SLI_GROUP_TILES * SLI_TILE)
+/* Doubles in the array `reciprocals` of a front: 24 for each column tile of a group. */
+#define SLI_FRONT_RECIPROCALS (3 * SLI_GROUP_TILES * SLI_TILE)
 
 typedef struct sli_front {
     double *panel;
@@ -40,8 +40,10 @@ typedef struct sli_front {
     double *update;
     double *D;         /* width pivots */
     double *magnitude; /* 8 for each row tile: what the diagonal was computed from, in magnitude */
-    /* 16 for each column tile of a group: 8 values 1/d, then 8 values -sign(d). The first 1/d is 0
-     * if any of them is out of range. */
+    const unsigned char *pairs; /* width: SLI_PAIR_*; NULL: no 2x2 pivots */
+    double *E;                  /* width: D(k+1, k); NULL: no 2x2 pivots */
+    /* 24 for each column tile of a group: 8 values 1/d, 8 values -sign(d) and, in a tile with 2x2
+     * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
     double *reciprocals;
     const sli_pivot_rule *rule;
     sl_int column; /* first column of the supernode */

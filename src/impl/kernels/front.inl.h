@@ -103,7 +103,9 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
                                              const double *reciprocals) {
     const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
     const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-    const double *D = f->D + first, *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+    const int has_pairs = sli_tile_has_pairs(f, c);
+    const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
+    const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
     const int by_reciprocal = reciprocal[0] != 0.0;
     sl_int t;
     for (t = t0; t < t1; t++) {
@@ -117,6 +119,9 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
         SLI_EACH8(SLI_LOAD, q)
         SLI_EACH8(SLI_SOLVE, q)
         SLV_STORE(magnitude, m)
+    }
+    if (has_pairs) {
+        sli_pair_rows(f, c, t0, t1);
     }
 }
 
@@ -134,7 +139,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, s
                                                 sl_int t1, double *B) {
     if (c > c0) {
         SLV_NAME(product)
-        (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+        (f->panel, f->width, f->D, f->E, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
          f->width, 0, B);
     }
 }
@@ -144,12 +149,17 @@ SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double 
     sl_int c;
     if (c0 > 0) {
         SLV_NAME(product)
-        (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+        (f->panel, f->width, f->D, f->E, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
+         B);
     }
     for (c = c0; c < c1; c++) {
-        double *reciprocals = f->reciprocals + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+        double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
-        SLV_NAME(tile_pivots)(f, c, reciprocals);
+        if (sli_tile_has_pairs(f, c)) {
+            sli_pair_tile(f, c, reciprocals);
+        } else {
+            SLV_NAME(tile_pivots)(f, c, reciprocals);
+        }
         SLV_NAME(tile_rows)(f, c, c + 1, c1, reciprocals);
     }
 }
@@ -160,12 +170,13 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
     sl_int c;
     if (c0 > 0) {
         SLV_NAME(product)
-        (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+        (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
+         B);
     }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(tile_rows)
-        (f, c, t0, t1, f->reciprocals + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+        (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     }
 }
 
@@ -175,7 +186,7 @@ SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int 
     sl_int c;
     for (c = c0; c < last; c += SLI_GROUP_TILES) {
         SLV_NAME(product)
-        (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
+        (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
          f->update, SLI_TILE * (t1 - c0), c0, B);
     }
 }

@@ -83,11 +83,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * triangle, t0 <= t < t1, c0 <= c < c1, t0 >= c0. Tile (t, c) of the target is at
  * sli_tile_offset(target_width, t - target_first) + 64 (c - target_first). Columns j are taken in
  * chunks, so that the part of a row tile stays in the first cache and that of the group of column
- * tiles in the second. B: scratch, sli_front_scratch doubles. */
+ * tiles in the second. E: D(j+1, j), or NULL if D is diagonal. B: scratch, sli_front_scratch
+ * doubles. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                                           sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                                           sl_int j1, double *target, sl_int target_width,
-                                           sl_int target_first, double *B) {
+                                           const double *E, sl_int t0, sl_int t1, sl_int c0,
+                                           sl_int c1, sl_int j0, sl_int j1, double *target,
+                                           sl_int target_width, sl_int target_first, double *B) {
     const sl_int tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k;
     for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
@@ -96,6 +97,10 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
             SLV_NAME(pack)
             (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
              B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            if (E != NULL) {
+                sli_pair_pack(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, E + j,
+                              length, B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+            }
         }
         for (t = t0; t < t1; t++) {
             const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;

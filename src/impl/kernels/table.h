@@ -5,6 +5,7 @@
 #include "../../public/types.h"
 #include "front.h"
 #include "inverse_front.h"
+#include "pairs.h"
 #include "step.h"
 
 /* sums(i, j) -= y(k, i) z(k, j) over `count` rows k of 8 values each. sums: 8 x 8, row-major. All

@@ -5,6 +5,7 @@
 #include "../../public/accuracy.h"
 #include "../matrix/csc_products.h"
 #include "../factor/factor.h"
+#include "backward.h"
 #include "work.h"
 
 /* A vector v in pivot order, solved for in place, and its signs. */
@@ -27,8 +28,7 @@ static double sli_norm_estimate_solve(const sli_norm_estimate *p) {
     sl_int k;
     F->kernels->forward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
                                      p->scratch);
-    F->kernels->backward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows + p->all.n_rows, F->L,
-                                      F->D, p->v, p->scratch);
+    sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
     for (k = 0; k < p->all.columns; k++) {
         sum += fabs(p->v[k]);
     }

@@ -2,6 +2,7 @@
 #ifndef SLI_SOLVE_SWEEP_H
 #define SLI_SOLVE_SWEEP_H
 
+#include "backward.h"
 #include "query.h"
 #include "singular.h"
 
@@ -63,9 +64,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     if (F->is_centered) {
         sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes);
     }
-    F->kernels->backward[kind](q->backward.count, q->backward.steps,
-                               q->backward.rows + q->backward.n_rows, F->L,
-                               F->is_centered ? F->divisors : F->D, v->x, v->scratch);
+    sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
 /* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */

@@ -1,0 +1,41 @@
+/* backward.h: the backward sweep of one block: 2x2 pivots first, then the kernel */
+#ifndef SLI_SOLVE_BACKWARD_H
+#define SLI_SOLVE_BACKWARD_H
+
+#include "../analysis/reach.h"
+#include "../factor/factor_types.h"
+
+/* x := D^-1 x in the columns of 2x2 pivots. A reach begins at a whole tile, and a pair is in one
+ * tile, so both of its columns are there or none. */
+static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, sl_int lanes) {
+    sl_int s, k, r;
+    for (s = 0; s < R->count; s++) {
+        const sli_step *step = &R->steps[s];
+        const sl_int first = step->column, columns = sli_step_columns(step);
+        double *row = x + (ptrdiff_t)step->base * lanes;
+        for (k = first; k < first + columns; k++, row += lanes) {
+            sli_pair inverse;
+            if (F->S->pairs[k] != SLI_PAIR_FIRST) {
+                continue;
+            }
+            inverse = sli_pair_invert(F->D[k], F->D[k + 1], F->E[k]);
+            for (r = 0; r < lanes; r++) {
+                const double u = row[r], v = row[lanes + r];
+                row[r] = inverse.p * u + inverse.q * v;
+                row[lanes + r] = inverse.q * u + inverse.r * v;
+            }
+        }
+    }
+}
+
+/* x := L'^-1 D^-1 x over a reach. scratch: sli_sweep_scratch doubles. */
+static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, double *x,
+                         double *scratch) {
+    if (F->E != NULL) {
+        sli_pairs_apply(F, R, x, (sl_int)1 << kind);
+    }
+    F->kernels->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->L,
+                               F->divisors == NULL ? F->D : F->divisors, x, scratch);
+}
+
+#endif

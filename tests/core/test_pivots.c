@@ -1,0 +1,518 @@
+/* test_pivots.c: 1x1 and 2x2 pivots chosen by values: indefinite systems, zeros on the diagonal */
+#include "tests/lib/dense_eigen.h"
+#include "tests/lib/dense_reference.h"
+#include "tests/lib/factored.h"
+#include "tests/lib/local_solve.h"
+#include "tests/lib/parallel_for.h"
+
+/* ---- systems ---- */
+
+typedef enum system_kind_t {
+    SYSTEM_RANDOM,     /* random entries, diagonal included */
+    SYSTEM_TINY,       /* the same with a diagonal of size 1e-12 */
+    SYSTEM_HOLLOW,     /* no diagonal entry at all */
+    SYSTEM_KKT,        /* [H B'; B 0] with an indefinite H */
+    SYSTEM_KKT_HOLLOW, /* the same, and every other diagonal entry of H is 0 */
+    SYSTEM_SHIFTED,    /* the Laplacian of a grid minus a shift inside its spectrum */
+    SYSTEM_KINDS
+} system_kind_t;
+
+/* The Laplacian of a grid of m rows, minus a shift. */
+static void system_shifted_grid(gen_list_t *t, sl_int m, double shift, uint64_t *state) {
+    sl_int width = 1;
+    while ((width + 1) * (width + 1) <= m) {
+        width++;
+    }
+    for (sl_int k = 0; k < m; k++) {
+        gen_add(t, k, k, 4.0 - shift + 0.125 * gen_real(state));
+        if (k % width > 0) {
+            gen_add(t, k, k - 1, -1.0);
+        }
+        if (k >= width) {
+            gen_add(t, k, k - width, -1.0);
+        }
+    }
+}
+
+static gen_list_t system_list(system_kind_t kind, sl_int n, uint64_t seed) {
+    gen_list_t t = gen_list(n);
+    const int is_kkt = kind == SYSTEM_KKT || kind == SYSTEM_KKT_HOLLOW;
+    const sl_int m = is_kkt ? n - n / 3 : n;
+    if (kind == SYSTEM_SHIFTED) {
+        system_shifted_grid(&t, n, 2.7, &seed);
+        return t;
+    }
+    for (sl_int k = 0; k < m; k++) { /* a ring keeps the structure regular */
+        double d = kind == SYSTEM_TINY ? 1e-12 * gen_real(&seed) : gen_real(&seed);
+        if (kind != SYSTEM_HOLLOW && !(kind == SYSTEM_KKT_HOLLOW && k % 2)) {
+            gen_add(&t, k, k, d);
+        }
+        if (k > 0) {
+            gen_add(&t, k, k - 1, 1.0 + gen_real(&seed));
+        }
+        if (k > 3) {
+            gen_add(&t, k, gen_below(&seed, k - 2), gen_real(&seed));
+        }
+    }
+    for (sl_int k = m; k < n; k++) { /* each constraint has a row of its own */
+        gen_add(&t, k, 2 * (k - m), 1.0 + 0.5 * gen_real(&seed));
+        gen_add(&t, k, 2 * (k - m) + 1, gen_real(&seed));
+    }
+    return t;
+}
+
+static gen_matrix_t system_make(system_kind_t kind, sl_int n, int style, uint64_t seed) {
+    gen_list_t t = system_list(kind, n, seed);
+    gen_matrix_t M = gen_store(&t, gen_style(style), seed);
+    gen_list_free(&t);
+    return M;
+}
+
+/* ---- checks ---- */
+
+/* The block diagonal matrix D, dense. */
+static double *dense_d(const sl_factor *F) {
+    sl_factor_arrays f = sl_factor_view(F);
+    sl_symbolic_arrays v = sl_symbolic_view(f.symbolic);
+    sl_int n = v.n;
+    double *D = test_reals((size_t)n * (size_t)n);
+    for (sl_int k = 0; k < n; k++) {
+        AT(D, k, k) = f.D[k];
+        if (f.E && v.pairs[k] == 1) {
+            AT(D, k, k + 1) = AT(D, k + 1, k) = f.E[k];
+        }
+    }
+    return D;
+}
+
+/* NULL, or what is wrong with the pairs of an analysis: each is in one supernode and one tile. */
+static const char *check_pairs(const sl_symbolic *S, sl_int wanted) {
+    sl_symbolic_arrays v = sl_symbolic_view(S);
+    sl_int count = 0;
+    for (sl_int k = 0; v.pairs && k < v.n; k++) {
+        sl_int local = k - v.super_first[v.super_of[k]];
+        if (v.pairs[k] == 1) {
+            count++;
+            if (k + 1 == v.n || v.pairs[k + 1] != 2 || v.super_of[k + 1] != v.super_of[k]) {
+                return "a pair is in two supernodes";
+            }
+            if (local % 8 == 7) {
+                return "a pair is in two tiles";
+            }
+        } else if (v.pairs[k] == 2 && (k == 0 || v.pairs[k - 1] != 1)) {
+            return "the second of a pair without the first";
+        }
+    }
+    return count != wanted ? "the number of pairs is wrong" : check_supernodes(&v);
+}
+
+/* NULL, or a message if |P A P' - L D L'| > c n eps |L| |D| |L'| in some entry, or an entry of L
+ * exceeds the bound of the threshold. */
+static const char *check_blocks(const sl_factor *F, const sl_csc *A) {
+    sl_symbolic_arrays v = sl_symbolic_view(sl_factor_view(F).symbolic);
+    sl_int n = v.n;
+    const char *wrong = NULL;
+    double *M = ref_dense(A), *C = ref_permute(n, M, v.perm), *L = check_expand(F, &wrong);
+    double *D = dense_d(F);
+    for (sl_int j = 0; j < n && !wrong; j++) {
+        for (sl_int i = j; i < n && !wrong; i++) {
+            double sum = 0.0, size = 0.0;
+            for (sl_int k = 0; k <= j; k++) {
+                for (sl_int m = k > 0 ? k - 1 : 0; m <= k + 1 && m < n; m++) {
+                    double term = AT(L, i, m) * AT(D, m, k) * AT(L, j, k);
+                    sum += term;
+                    size += fabs(term);
+                }
+            }
+            if (!(fabs(AT(C, i, j) - sum) <= 8.0 * (double)n * DBL_EPSILON * size)) {
+                wrong = "L D L' is not P A P'";
+            }
+            if (!(fabs(AT(L, i, j)) <= 101.0)) {
+                wrong = "an entry of L is too large";
+            }
+        }
+    }
+    free(M);
+    free(C);
+    free(L);
+    free(D);
+    return wrong;
+}
+
+/* After at most two corrections the backward error is that of a stable solver. */
+static void check_solves(const sl_factor *F, const sl_csc *A) {
+    size_t n = (size_t)A->n_cols;
+    enum { NRHS = 9 };
+    double *B = test_reals(n * NRHS), *X = test_reals(n * NRHS);
+    sl_stats stats;
+    gen_reals(B, n * NRHS, 7);
+    SL_CHECK(sl_factor_solve(F, X, n, B, n, NRHS, NULL));
+    SL_CHECK(sl_factor_refine(F, A, X, n, B, n, NRHS, 2, NULL, &stats));
+    if (!(stats.refine.backward_error <= 4.0 * DBL_EPSILON)) {
+        print_error("backward error %g after %d corrections\n", stats.refine.backward_error,
+                    (int)stats.refine.steps);
+        fail();
+    }
+    free(B);
+    free(X);
+}
+
+static void check_local(const sl_symbolic *S, const sl_factor *F, sl_int n) {
+    static const sl_int counts[5][2] = {{1, 1}, {2, 3}, {3, -1}, {-1, 2}, {-1, -1}};
+    static const sl_int nrhs[4] = {1, 2, 4, 13};
+    for (int c = 0; c < 5; c++) {
+        for (int r = 0; r < 4; r++) {
+            local_solve_t q = local_solve_random(F, n, counts[c][0], counts[c][1], nrhs[r],
+                                                 (uint64_t)(10 * c + r));
+            local_solve_check(S, F, &q, NULL);
+            local_solve_free(&q);
+        }
+    }
+}
+
+/* ---- tests ---- */
+
+static const sl_int sizes[4] = {6, 20, 57, 90};
+
+static void indefinite_systems_are_solved(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int kind = 0; kind < SYSTEM_KINDS; kind++) {
+        for (int size = 0; size < 4; size++) {
+            sl_int n = sizes[size];
+            gen_matrix_t M = system_make((system_kind_t)kind, n, kind + 3 * size, 5);
+            double *dense = ref_dense(&M.view), *V = test_reals((size_t)n * (size_t)n), log_det = 0;
+            const double condition = ref_condition(n, dense);
+            sl_int negative = 0;
+            sl_symbolic *S = NULL;
+            sl_stats stats;
+            eigen_all(dense, V, n);
+            for (sl_int k = 0; k < n; k++) {
+                negative += AT(dense, k, k) < 0.0;
+                log_det += log(fabs(AT(dense, k, k)));
+            }
+            assert_true(condition < 1e10);
+            SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, &stats));
+            NOTHING_WRONG(check_pairs(S, stats.symbolic.pairs));
+            assert_true(kind == SYSTEM_RANDOM || kind == SYSTEM_SHIFTED || n < 20 ||
+                        stats.symbolic.pairs > 0);
+            for (int k = 0; k < isas.count; k++) {
+                sl_options opt = options_none();
+                sl_factor *F = NULL;
+                double rcond, log_abs, sign;
+                opt.isa = isas.isa[k];
+                SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+                assert_int_equal(stats.factor.negative, negative);
+                assert_int_equal(stats.factor.positive, n - negative);
+                assert_true(stats.factor.pivot_min > 0.0);
+                NOTHING_WRONG(check_blocks(F, &M.view));
+                check_solves(F, &M.view);
+                check_local(S, F, n);
+                SL_CHECK(sl_factor_logdet(F, &log_abs, &sign));
+                assert_true(fabs(log_abs - log_det) <= 1e-14 * condition * n);
+                assert_true(sign == (negative % 2 ? -1.0 : 1.0));
+                SL_CHECK(sl_factor_rcond(F, &M.view, &rcond, NULL));
+                assert_true(rcond >= 0.99 / condition && rcond <= 10.0 / condition);
+                sl_factor_free(F);
+            }
+            sl_symbolic_free(S);
+            gen_matrix_free(&M);
+            free(dense);
+            free(V);
+        }
+    }
+}
+
+/* Without pivoting the first is refused and the second gives x = (0, 1) instead of (1, 1). */
+static void smallest_matrices_are_exact(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double values[3][3] = {{0, 1, 0}, {1e-20, 1, 1}, {1e-300, 1e-300, 0}};
+    for (int which = 0; which < 3; which++) {
+        const sl_csc A = {2, 2, p, i, values[which]};
+        const double b[2] = {values[which][0] + values[which][1],
+                             values[which][1] + values[which][2]};
+        double x[2];
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
+        SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
+        assert_int_equal(stats.factor.positive, 1);
+        assert_int_equal(stats.factor.negative, 1);
+        SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
+        assert_true(fabs(x[0] - 1.0) <= 4 * DBL_EPSILON && fabs(x[1] - 1.0) <= 4 * DBL_EPSILON);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+    const sl_csc empty = {0, 0, p, NULL, NULL};
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &empty, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &empty, NULL, NULL));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* A definite matrix needs no pairs, and keeps the order that it was analyzed in. */
+static void definite_matrices_have_no_pairs(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 400, 1, 3);
+    sl_symbolic *S = NULL, *plain = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, &stats));
+    assert_int_equal(stats.symbolic.pairs, 0);
+    assert_int_equal(stats.symbolic.delayed, 0);
+    SL_CHECK(sl_symbolic_create(&plain, &M.view, NULL, NULL));
+    sl_symbolic_arrays v = sl_symbolic_view(S), w = sl_symbolic_view(plain);
+    assert_null(v.pairs);
+    assert_memory_equal(v.perm, w.perm, 400 * sizeof(sl_int));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&G, plain, &M.view, NULL, NULL));
+    assert_null(sl_factor_view(F).E);
+    assert_same_bits(F, G);
+    sl_factor_free(F);
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    sl_symbolic_free(plain);
+    gen_matrix_free(&M);
+}
+
+/* The bits are those of one thread, with any number of threads and by any way to the values. */
+static void factors_have_the_same_bits(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int kind = SYSTEM_KKT; kind < SYSTEM_KINDS; kind++) {
+        gen_matrix_t M = system_make((system_kind_t)kind, 3000, 0, 11);
+        size_t nnz = (size_t)M.p[3000];
+        double *other = test_reals(nnz);
+        for (size_t k = 0; k < nnz; k++) {
+            other[k] = M.x[k] * (1.0 + 1e-3 * sin((double)k));
+        }
+        const sl_csc A = {3000, 3000, M.p, M.i, other};
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, NULL));
+        for (int k = 0; k < isas.count; k++) {
+            sl_options opt = options_none();
+            sl_factor *F = NULL, *G = NULL;
+            sl_stats stats;
+            sl_int column = 17;
+            int calls = 0;
+            opt.isa = isas.isa[k];
+            opt.method = SL_METHOD_UP_LOOKING; /* ignored */
+            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+            assert_int_equal(stats.factor.method, SL_METHOD_SUPERNODAL);
+            opt.threads.count = 3;
+            opt.threads.run = run_backwards;
+            opt.threads.context = &calls;
+            SL_CHECK(sl_factor_create(&G, S, &A, &opt, NULL));
+            check_solves(G, &A);
+            SL_CHECK(sl_factor_refactor(F, &A, NULL));
+            assert_same_bits(F, G);
+            assert_memory_equal(sl_factor_view(F).E, sl_factor_view(G).E, 3000 * sizeof(double));
+            SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
+            SL_CHECK(sl_factor_refactor(G, &M.view, NULL));
+            assert_same_bits(F, G);
+            for (sl_int p = M.p[column]; p < M.p[column + 1]; p++) {
+                M.x[p] *= 1.01;
+            }
+            SL_CHECK(sl_factor_refactor_changed(F, &M.view, &column, 1, NULL));
+            check_solves(F, &M.view);
+            sl_factor_free(F);
+            sl_factor_free(G);
+        }
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        free(other);
+    }
+}
+
+/* [H B'; B 0] where the last constraint repeats the first: refused with a row, or regularized. */
+static void singular_systems_are_refused_or_regularized(void **state) {
+    (void)state;
+    gen_list_t t = system_list(SYSTEM_KKT_HOLLOW, 60, 3);
+    gen_list_t wider = gen_list(61);
+    for (size_t k = 0; k < t.count; k++) {
+        gen_add(&wider, t.row[k], t.col[k], t.x[k]);
+        if (t.row[k] == 59) {
+            gen_add(&wider, 60, t.col[k], t.x[k]);
+        }
+    }
+    gen_matrix_t M = gen_store(&wider, gen_style(0), 1);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    sl_options opt = options_none();
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, &stats));
+    assert_true(stats.symbolic.pairs > 0);
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, NULL, &stats));
+    assert_true(stats.error.row >= 0 && stats.error.row < 61);
+    opt.regularization = 1e-8;
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+    assert_true(stats.factor.regularized >= 1 && stats.factor.regularized <= 2);
+    sl_int rows[2], count;
+    double shifts[2], b[61], x[61], z[61];
+    SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, 2, &count));
+    assert_int_equal(count, stats.factor.regularized);
+    for (sl_int k = 0; k < 61; k++) {
+        z[k] = k % 7 - 3;
+    }
+    SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, b, 61, z, 61, 1));
+    SL_CHECK(sl_factor_solve(F, x, 61, b, 61, 1, NULL));
+    SL_CHECK(sl_factor_refine(F, &M.view, x, 61, b, 61, 1, 20, NULL, &stats));
+    assert_true(stats.refine.backward_error <= 1e-14);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    gen_list_free(&wider);
+}
+
+/* Values that make a pair null: the block is refused, or shifted in both rows. */
+static void null_pairs_are_refused_or_regularized(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double hollow[3] = {0, 1, 0};
+    static const double bad[4][3] = {{1, 1, 1}, {-2, 1, -0.5}, {0, 0, 0}, {0, 0, 5}};
+    sl_csc A = {2, 2, p, i, hollow};
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, NULL));
+    assert_non_null(sl_symbolic_view(S).pairs);
+    for (int which = 0; which < 4; which++) {
+        sl_factor *F = NULL;
+        sl_options opt = options_none();
+        sl_stats stats;
+        sl_int rows[2], count;
+        double shifts[2], x[2], b[2] = {1, 2};
+        A.x = bad[which];
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, NULL, &stats));
+        assert_true(stats.error.row == 0 || stats.error.row == 1);
+        opt.regularization = 0.25;
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+        SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, 2, &count));
+        assert_int_equal(count, 2);
+        SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
+        double shifted[3] = {bad[which][0], bad[which][1], bad[which][2]};
+        for (int m = 0; m < 2; m++) {
+            assert_true(shifts[m] != 0.0);
+            shifted[2 * rows[m]] += shifts[m];
+        }
+        assert_true(fabs(shifted[0] * x[0] + shifted[1] * x[1] - b[0]) <= 1e-14);
+        assert_true(fabs(shifted[1] * x[0] + shifted[2] * x[1] - b[1]) <= 1e-14);
+        sl_factor_free(F);
+    }
+    const double not_finite[3] = {0, 1e308, 0}, nan[3] = {0, NAN, 0};
+    sl_factor *F = NULL;
+    sl_stats stats;
+    A.x = not_finite;
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    A.x = nan;
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &A, &stats));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* What needs a diagonal D says so. The rest works: batches, sums, L as a matrix. */
+static void other_calls_work_or_are_refused(void **state) {
+    (void)state;
+    gen_matrix_t M = system_make(SYSTEM_KKT, 90, 0, 2);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    sl_selected *Z = NULL;
+    sl_region *R = NULL;
+    sl_options opt = options_none();
+    sl_matrix *L = NULL;
+    sl_int rows[2] = {1, 5};
+    double out[4], b[90], x[90], y[90];
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_region_create(&R, F, rows, 2, NULL, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_diagonal(F, out, rows, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_pairs(F, out, rows, rows, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_block(F, out, 2, rows, 2, rows, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_inverse_bilinear(F, out, rows, b, 2, rows, b, 2, NULL, NULL));
+    assert_null(Z);
+    assert_null(R);
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_create(&G, S, &M.view, &opt, NULL));
+    assert_null(G);
+    SL_CHECK(sl_factor_lower(&L, F, NULL));
+    sl_matrix_free(L);
+    gen_reals(b, 90, 1);
+    SL_CHECK(sl_factor_solve(F, x, 90, b, 90, 1, NULL));
+    SL_CHECK(sl_factor_solve_interleaved(F, y, 1, b, 1, 1, NULL));
+    SAME_VALUES(x, y, 90);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+static void bad_arguments_are_refused(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1}, far[3] = {0, 9, 1};
+    double x[3] = {1, 2, 3};
+    sl_csc A = {2, 2, p, i, x};
+    sl_options opt = options_none();
+    sl_stats stats;
+    sl_symbolic *S = (sl_symbolic *)(void *)x;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(NULL, &A, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(&S, NULL, NULL, NULL));
+    assert_null(S);
+    A.x = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(&S, &A, NULL, NULL));
+    A.x = x;
+    A.i = far;
+    SL_EXPECT(SL_ERR_PATTERN, sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
+    A.i = i;
+    A.n_rows = 3;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(&S, &A, NULL, NULL));
+    A.n_rows = 2;
+    opt.relaxation = (sl_relaxation)7;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create_pivoted(&S, &A, &opt, NULL));
+    static const double bad[3] = {NAN, INFINITY, -INFINITY};
+    for (int k = 0; k < 3; k++) {
+        x[1] = bad[k];
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
+        assert_int_equal(stats.error.row, 1);
+        assert_int_equal(stats.error.column, 0);
+    }
+    assert_null(S);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    gen_matrix_t M = system_make(SYSTEM_KKT_HOLLOW, 300, 0, 4);
+    for (int64_t fail_at = 0;; fail_at++) {
+        counter_t c = counter_make();
+        sl_options opt = options_counted(&c);
+        sl_symbolic *S = NULL;
+        c.fail_at = fail_at;
+        sl_status status = sl_symbolic_create_pivoted(&S, &M.view, &opt, NULL);
+        assert_true((S != NULL) == (status == SL_OK));
+        assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+        sl_symbolic_free(S);
+        COUNTER_CLEAN(&c);
+        if (status == SL_OK) {
+            assert_true(fail_at > 20);
+            break;
+        }
+    }
+    gen_matrix_free(&M);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(indefinite_systems_are_solved),
+        cmocka_unit_test(smallest_matrices_are_exact),
+        cmocka_unit_test(definite_matrices_have_no_pairs),
+        cmocka_unit_test(factors_have_the_same_bits),
+        cmocka_unit_test(singular_systems_are_refused_or_regularized),
+        cmocka_unit_test(null_pairs_are_refused_or_regularized),
+        cmocka_unit_test(other_calls_work_or_are_refused),
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
