@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 743924f3f3f953de
+ * FNV-1a of the lines after this comment, without the license: d5532e1d28b674dc
  *
  * Contents
  * (what a user reads)
@@ -7,57 +7,57 @@
  *    130 config.h     macros that a user may define before the include, the version, and the integer types
  *    202 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    327 options.h    options of all calls, threads, and the allocator
- *    448 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    565 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    707 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    792 factor.h     the numerical factorization P A P' = L D L'
- *    973 solve.h      full solves, and the workspace of all solves
- *   1083 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1177 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1275 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1409 batch.h      many independent solves by one call, distributed over threads
- *   1459 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1635 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1753 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *    452 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    571 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    713 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    832 factor.h     the numerical factorization P A P' = L D L'
+ *   1020 solve.h      full solves, and the workspace of all solves
+ *   1130 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1224 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1322 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1458 batch.h      many independent solves by one call, distributed over threads
+ *   1508 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1684 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1803 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   1865 base.h   1988 status.h   2049 options.h   2108 alloc.h   2232 hash.h   2335 sort.h
- *   2405 parallel.h
+ *   1916 base.h   2044 status.h   2105 options.h   2164 alloc.h   2288 hash.h   2391 sort.h
+ *   2461 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2443 panel.h   2475 step.h   2532 pivot_rule.h   2617 front.h   2692 inverse_front.h
- *   2784 table.h   2805 simd.h   2899 simd_scalar.h   3018 simd_avx2.h   3211 simd_avx512.h
- *   3317 simd_neon.h   3497 dispatch.h
+ *   2499 panel.h   2531 step.h   2588 pivot_rule.h   2673 front.h   2750 pairs.h
+ *   2968 inverse_front.h   3060 table.h   3081 simd.h   3175 simd_scalar.h   3294 simd_avx2.h
+ *   3487 simd_avx512.h   3593 simd_neon.h   3773 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   3562 csc.h   3676 csc_build.h   3815 csc_triangle.h   3886 csc_products.h   4010 permute.h
- *   4079 sum.h   4164 output_file.h   4316 matrix_market.h
+ *   3838 csc.h   3952 csc_build.h   4091 csc_triangle.h   4162 csc_products.h   4286 permute.h
+ *   4355 sum.h   4440 output_file.h   4592 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   4795 graph.h   4961 coarsen.h   5236 labels.h   5448 subgraph.h   5659 heap.h   5722 bisect.h
- *   5974 separator.h   6264 mindeg.h   6460 dissect.h   6787 levelset.h   6918 geometric.h
- *   7117 septree.h   7182 metis.h   7345 metis_refined.h   7467 nd.h   7678 compress.h
- *   7807 quotient.h   8218 order.h
+ *   5071 graph.h   5237 coarsen.h   5512 labels.h   5724 subgraph.h   5935 heap.h   5998 bisect.h
+ *   6248 separator.h   6538 mindeg.h   6734 dissect.h   7084 levelset.h   7214 geometric.h
+ *   7425 septree.h   7490 metis.h   7653 metis_refined.h   7777 nd.h   7984 compress.h
+ *   8113 quotient.h   8524 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   8440 symbolic_types.h   8480 etree.h   8560 counts.h   8630 supernodes.h   8808 structure.h
- *   8941 schedule.h   9156 symbolic.h   9462 reach.h
+ *   8746 symbolic_types.h   8789 etree.h   8869 counts.h   8939 supernodes.h   9200 structure.h
+ *   9341 schedule.h   9556 symbolic.h   9935 reach.h
  * (factor: the numbers of L and D)
- *   9773 factor_types.h  10022 scatter.h  10195 uplooking.h  10272 multifrontal.h
- *  10519 null_vectors.h  10721 nullspace.h  10980 factor_setup.h  11188 factor.h
- *  11378 leftlooking.h  11556 factor_query.h  11685 combination.h
+ *  10246 factor_types.h  10555 pivot_search.h  10926 pivoted.h  10995 scatter.h  11168 uplooking.h
+ *  11245 null_vectors.h  11537 multifrontal.h  11799 nullspace.h  12050 factor_setup.h
+ *  12267 factor.h  12473 leftlooking.h  12659 factor_query.h  12795 combination.h
  * (solve: full and local solves)
- *  11746 region_types.h  11864 work.h  11971 query.h  12172 singular.h  12403 sweep.h
- *  12580 compile.h  12789 plan.h  12896 local.h  13054 refine.h  13235 refine_local.h
- *  13464 rcond.h  13598 defects.h
+ *  12856 region_types.h  12974 work.h  13081 query.h  13282 singular.h  13513 backward.h
+ *  13548 sweep.h  13723 compile.h  13932 plan.h  14039 local.h  14197 refine.h
+ *  14378 refine_local.h  14607 rcond.h  14740 defects.h
  * (inverse: entries of the inverse, regions)
- *  13655 traversal.h  13933 traversal_run.h  14114 row_sets.h  14145 unit_vectors.h
- *  14404 bilinear.h  14591 entries.h  14893 block.h  15150 reserve.h  15361 selected.h
- *  15571 selected_query.h  15679 region_choose.h  15931 region.h
+ *  14797 traversal.h  15075 traversal_run.h  15256 row_sets.h  15287 unit_vectors.h
+ *  15546 bilinear.h  15734 entries.h  16037 block.h  16295 reserve.h  16506 selected.h
+ *  16717 selected_query.h  16825 region_choose.h  17077 region.h
  * (batch: many solves, factors and diagonals by one call)
- *  16178 batch_solve.h  16406 batch_factor.h  16607 batch_diagonal.h
+ *  17324 batch_solve.h  17552 batch_factor.h  17753 batch_diagonal.h
  * (last: undefine every internal macro)
- *  16752 undef.h
+ *  17901 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  16860 multi_rhs.inl.h  17234 kernel_set.inl.h  17238 unit_triangle.inl.h  17279 two_rhs.inl.h
- *  17451 product.inl.h  17587 front.inl.h  17803 inverse_front.inl.h  18106 small_supernode.inl.h
- *  18274 single_rhs.inl.h
+ *  18010 multi_rhs.inl.h  18384 kernel_set.inl.h  18388 unit_triangle.inl.h  18429 two_rhs.inl.h
+ *  18601 product.inl.h  18742 front.inl.h  18969 inverse_front.inl.h  19272 small_supernode.inl.h
+ *  19440 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -356,7 +356,11 @@ typedef struct sl_allocator {
  *  | call                                       | fields that it reads                     |
  *  |--------------------------------------------|------------------------------------------|
  *  | every call with an sl_options argument     | size, allocator                          |
+<<<<<<< HEAD
  *  | sl_symbolic_create                         | ordering .. purpose                      |
+=======
+ *  | sl_symbolic_create, _create_pivoted        | ordering .. block_size                   |
+>>>>>>> eb6e1a4 (Pivoted analyses: docs, changelog, options of the new call)
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination   | threads, isa .. signs, null_vector       |
  *  | sl_batch_factor                            | threads, isa .. signs, null_vector       |
@@ -455,7 +459,7 @@ typedef struct sl_error {
     double value;  /* the pivot or entry that was refused; 0 if none */
 } sl_error;
 
-/** An analysis: sl_symbolic_create, sl_symbolic_stats. */
+/** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_stats. */
 typedef struct sl_symbolic_info {
     sl_int n;
     sl_triangle triangle;
@@ -467,6 +471,8 @@ typedef struct sl_symbolic_info {
     sl_int supernodes_fundamental; /* before relaxation */
     sl_int tree_height;            /* columns on the longest path of the elimination tree */
     sl_int components;             /* roots of the elimination tree */
+    sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
+    sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
     double seconds_order;          /* processor seconds of the ordering */
     double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
     double seconds_tree;           /* elimination tree, column counts and supernodes */
@@ -478,7 +484,7 @@ typedef struct sl_symbolic_info {
 typedef struct sl_factor_info {
     sl_isa isa;
     sl_method method;   /* the method that was used */
-    sl_int positive;    /* pivots by sign: the inertia of A */
+    sl_int positive;    /* pivots (eigenvalues of 2x2 ones) by sign: the inertia of A */
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
     sl_int regularized; /* pivots that regularization changed; they count by their new sign */
@@ -488,8 +494,8 @@ typedef struct sl_factor_info {
     /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
-    double pivot_min;   /* smallest |d| */
-    double pivot_max;   /* largest |d| */
+    double pivot_min;   /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
+    double pivot_max;   /* largest */
     double seconds_setup; /* processor seconds of schedule and memory in sl_factor_create */
     double seconds;       /* processor seconds of the numbers, summed over all threads */
     size_t bytes;
@@ -556,7 +562,7 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[31];
+    sl_off reserved[30];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -736,7 +742,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
  *  Threads  any number of calls at once, with the same result for the same pattern however it is
- *           stored, except with METIS: METIS seeds and draws from rand() of the C library and
+ *           stored, on every processor and with every compiler, except with METIS: METIS seeds and draws from rand() of the C library and
  *           prints a line if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and
  *           SIGTERM of the whole process; during SL_ORDERING_METIS_REFINED it raises SIGABRT if it
  *           runs out of memory. Concurrent calls with METIS are safe only if rand() is, and may
@@ -748,6 +754,39 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
+
+/** Analyses a symmetric indefinite matrix, with pivots that are chosen by its values.
+ *
+ *  For matrices that have no stable factorization with a diagonal D in the order of the pattern, as
+ *  KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1 and 2x2
+ *  pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A column
+ *  without an acceptable pivot in its front is delayed: it moves up to the parent's front. The
+ *  result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
+ *
+ *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
+ *  accurate than in any fixed order: check sl_factor_refine's backward error, and analyze again if
+ *  it is large. All calls work on these factors except the following.
+ *  - If there are 2x2 pivots, factors use the supernodal method, whatever options.method, and
+ *    entries of the inverse, selected inverses and regions give SL_ERR_UNSUPPORTED.
+ *  - SL_NULL_PIVOT_SKIP gives SL_ERR_UNSUPPORTED.
+ *  - With options.regularization and no signs, pivots of both signs are right, and only null ones
+ *    are replaced. Signs do not apply to 2x2 pivots. A null one is shifted in both rows.
+ *
+ *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
+ *                tree.
+ *  A      [in]   n x n, symmetric, with values; not kept.
+ *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
+ *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
+ *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
+ *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
+ *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which
+ *           keeps its update matrices in memory of their own.
+ *  Threads  as sl_symbolic_create.
+ *  Source   [DR83] multifrontal with 1x1 and 2x2 pivots.
+ *  Example  tests/core/test_pivots.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
+                                                           const sl_options *opt, sl_stats *stats);
 
 /** Releases an analysis; NULL is allowed. Objects made from it must not be used afterwards. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
@@ -781,6 +820,7 @@ typedef struct sl_symbolic_arrays {
     const sl_off *rows_begin;   /* n_supers + 1 */
     const sl_int *rows;         /* rows_begin[n_supers] */
     const sl_off *panel_begin;  /* n_supers + 1, in doubles */
+    const unsigned char *pairs; /* n: 1, 2 at the two columns of a 2x2 pivot, else 0; or NULL */
     sl_int n_nodes;             /* nodes of the separator tree */
     const sl_int *node_of;      /* n: node of column k */
     const sl_int *node_parent;  /* n_nodes: -1 at a root */
@@ -791,18 +831,22 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 
 /* src/public/factor.h: the numerical factorization P A P' = L D L' */
 
-/** Factors P A P' = L D L' without pivoting: L unit lower triangular, D diagonal and of any sign.
+/** Factors P A P' = L D L' in the order of S: L unit lower triangular, D diagonal and of any sign,
+ *  or with the 2x2 blocks of sl_symbolic_create_pivoted.
  *
  *  Definite and quasi-definite matrices can be factored in any order. Other symmetric indefinite
  *  matrices can be factored if no pivot is null. A pivot d is null if
  *  |d| <= null_tolerance * (sum of the magnitudes it was computed from); it is refused, skipped or
- *  regularized, depending on the options.
+ *  regularized, depending on the options. Rounding from heavier rows may hide a null pivot from
+ *  this test. Where null pivots are refused and null_tolerance is not negative, the last pivot of a
+ *  component is therefore also null if it is below 16 (64 + n/8) epsilon times the heaviest pivot
+ *  and constants are a null vector of the component, as defined below.
  *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
  *  magnitude, so the null vector decides. Let z be options.null_vector, or constant. Components are
- *  those of the graph of nonzero entries.
+ *  those of the graph of nonzero entries; duplicates that cancel are zeros.
  *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
  *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
  *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
@@ -834,6 +878,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  add a small multiple of the signs to the whole diagonal beforehand: A becomes quasi-definite,
  *  and refinement removes the perturbation. If the signs are not those of the blocks, as when H is
  *  indefinite, regularization does not replace pivoting; stats.refine.backward_error shows this.
+ *  sl_symbolic_create_pivoted needs neither signs nor shifts.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -846,12 +891,13 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa;
+ *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa, or
+ *           SL_NULL_PIVOT_SKIP with a pivoted analysis;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
- *           with A, 42 bytes per row and, with null pivots, a sweep over L; mass adds a forward
+ *           with A and 54 bytes per row; mass adds a forward
  *           sweep, 24 bytes per row, and a few operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
@@ -966,6 +1012,7 @@ typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
     const double *L; /* panels, in the layout described at sl_symbolic_arrays */
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
+    const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
@@ -1312,6 +1359,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *
  * If null pivots were skipped (SL_NULL_PIVOT_SKIP), the inverse is that of the matrix without their
  * rows and columns, and 0 in these: A Z A = A if A has no other null vectors.
+ *
+ * Factors with 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
@@ -1651,7 +1700,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
  *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
  *                F. The instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes. Keeps entries
  *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
  *           memory: 8 height^2 bytes per active front, where height counts the columns of a
@@ -1787,7 +1837,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_se
  *                fits, solves go to the roots of the tree.
  *  stats  [out]  region; error.row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
- *           SL_ERR_UNSUPPORTED: a factor made with options.mass; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
  *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
@@ -1954,6 +2005,11 @@ SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
 /* a clamped */
 SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
   return a < 0 ? 0 : a > high ? high : a;
+}
+
+/* Whether a > factor sqrt(n), without rounding; a < 2^32. */
+SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
+  return (uint64_t)a * (uint64_t)a > (uint64_t)(factor * factor) * (uint64_t)n;
 }
 
 SLI_INLINE int sli_is_finite(double a) {
@@ -2642,8 +2698,8 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
   return SLI_GROUP_TILES * SLI_TILE * sli_min(width, SLI_CHUNK_COLUMNS);
 }
 
-/* Doubles in the array `reciprocals` of a front. */
-#define SLI_FRONT_RECIPROCALS (2 * SLI_GROUP_TILES * SLI_TILE)
+/* Doubles in the array `reciprocals` of a front: 24 for each column tile of a group. */
+#define SLI_FRONT_RECIPROCALS (3 * SLI_GROUP_TILES * SLI_TILE)
 
 typedef struct sli_front {
   double *panel;
@@ -2651,8 +2707,10 @@ typedef struct sli_front {
   double *update;
   double *D;         /* width pivots */
   double *magnitude; /* 8 for each row tile: what the diagonal was computed from, in magnitude */
-  /* 16 for each column tile of a group: 8 values 1/d, then 8 values -sign(d). The first 1/d is 0
-   * if any of them is out of range. */
+  const unsigned char *pairs; /* width: SLI_PAIR_*; NULL: no 2x2 pivots */
+  double *E;                  /* width: D(k+1, k); NULL: no 2x2 pivots */
+  /* 24 for each column tile of a group: 8 values 1/d, 8 values -sign(d) and, in a tile with 2x2
+   * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
   double *reciprocals;
   const sli_pivot_rule *rule;
   sl_int column; /* first column of the supernode */
@@ -2688,6 +2746,224 @@ typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_i
 typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
                   const sl_int *relative, sl_int columns, sl_int first,
                   sl_int last);
+
+/* src/impl/kernels/pairs.h: 2x2 pivots: the column tile that holds some, and the rows below it, in plain C */
+
+/* Two adjacent columns u, u+1 of one supernode and one tile form a pair if they are eliminated
+ * together. D then has a 2x2 block [D(u) E(u); E(u) D(u+1)], and L(u+1, u) = 0. Tiles without pairs
+ * go through the kernels as always. */
+enum { SLI_PAIR_NONE = 0, SLI_PAIR_FIRST, SLI_PAIR_SECOND };
+
+/* Does column tile c of the front hold pairs? */
+SLI_INLINE int sli_tile_has_pairs(const sli_front *f, sl_int c) {
+  sl_int k, any = 0;
+  if (f->pairs != NULL) {
+    for (k = SLI_TILE * c; k < sli_min(f->width, SLI_TILE * (c + 1)); k++) {
+      any |= f->pairs[k];
+    }
+  }
+  return any != 0;
+}
+
+/* [a e; e b]^-1 = [p q; q r] */
+typedef struct sli_pair {
+  double p, q, r;
+} sli_pair;
+
+/* Divided by e, the products cannot overflow; where e is negligible, the block is diagonal. */
+SLI_INLINE sli_pair sli_pair_invert(double a, double b, double e) {
+  const double f = a / e, g = b / e, product = f * g;
+  sli_pair inverse;
+  if (fabs(product) <= 1e100) {
+    const double t = 1.0 / (product - 1.0) / e;
+    inverse.p = g * t;
+    inverse.q = -t;
+    inverse.r = f * t;
+  } else {
+    inverse.p = 1.0 / a;
+    inverse.q = -(e / a) / b;
+    inverse.r = 1.0 / b;
+  }
+  return inverse;
+}
+
+/* |D| = (D^2)^(1/2) = [p q; q r], positive semidefinite. |l' D l| alone may be 0 where an update
+ * cancels the whole row, as in a constraint that repeats another one: l' |D| l is not. */
+SLI_INLINE sli_pair sli_pair_absolute(double a, double b, double e) {
+  const double most = fabs(a) > fabs(b) ? fabs(a) : fabs(b),
+         size = most > fabs(e) ? most : fabs(e);
+  const double f = size > 0.0 ? a / size : 0.0, g = size > 0.0 ? b / size : 0.0;
+  const double h = size > 0.0 ? e / size : 0.0, det = fabs(f * g - h * h);
+  const double trace = sqrt(f * f + g * g + 2.0 * (h * h + det)); /* of |D| / size */
+  const double scale = trace > 0.0 ? size / trace : 0.0;
+  sli_pair D;
+  D.p = scale * (f * f + h * h + det);
+  D.q = scale * fabs(h * (f + g));
+  D.r = scale * (g * g + h * h + det);
+  return D;
+}
+
+/* The magnitude of a row's update by a pair: l' |D| l, summed in magnitude. */
+SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
+  return l * l * D->p + 2.0 * fabs(l * m) * D->q + m * m * D->r;
+}
+
+/* A pair is null if its block, scaled by the sums of the magnitudes m that a and b were computed
+ * from, has an eigenvalue within rounding of 0: |det| <= tolerance * (largest entry). */
+SLI_INLINE int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
+                double tolerance) {
+  const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
+  const double most = fabs(f) > fabs(g) ? fabs(f) : fabs(g);
+  if (e == 0.0) {
+    return sli_is_null(a, m_a, tolerance) || sli_is_null(b, m_b, tolerance);
+  }
+  if (m_a == 0.0 || m_b == 0.0 || !sli_is_finite(m_a) || !sli_is_finite(m_b)) {
+    return 0; /* one diagonal entry is 0 and nothing was subtracted from it; or nothing known */
+  }
+  return !(fabs(f * g - h * h) > tolerance * (most > fabs(h) ? most : fabs(h)));
+}
+
+/* Regularizes a null pair: moves both diagonal entries away from 0, in the direction of the trace,
+ * so that the determinant of a semidefinite block grows. */
+static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, double *b, double e,
+               const double *magnitude) {
+  const double sign = *a + *b < 0.0 ? -1.0 : 1.0, other = e != 0.0 ? fabs(e) : 1.0;
+  const int is_null =
+    sli_pair_is_null(*a, *b, e, magnitude[0], magnitude[1], rule->null_tolerance);
+  double *const d[2] = {a, b};
+  int m;
+  for (m = 0; m < 2; m++) {
+    const double size = magnitude[m] > 0.0 ? magnitude[m] : other, before = *d[m];
+    *d[m] += is_null ? sign * rule->regularization * size : 0.0;
+    rule->shifts[k + m] = *d[m] - before;
+  }
+}
+
+/* Subtracts l x' of one column from the columns i of a tile. p: the tile, 8 x 8. */
+SLI_INLINE void sli_pair_subtract(double *p, sl_int i, sl_int columns, const double *l,
+                  const double *x) {
+  sl_int r;
+  for (; i < columns; i++) {
+    for (r = i; r < SLI_TILE; r++) {
+      p[SLI_TILE * i + r] -= l[r] * x[i];
+    }
+  }
+}
+
+/* One pivot of a tile with pairs. k: the column in the tile. */
+static void sli_pair_tile_single(const sli_front *f, sl_int first, sl_int k, sl_int columns,
+                 double *p, double *reciprocals) {
+  double *magnitude = f->magnitude + first, d = p[SLI_TILE * k + k];
+  double l[SLI_TILE], x[SLI_TILE];
+  sl_int r;
+  if (f->rule->replaces) {
+    d = sli_pivot_by_rule(f->rule, f->column + first + k, d, magnitude[k]);
+  }
+  f->D[first + k] = d;
+  f->E[first + k] = 0.0;
+  reciprocals[k] = 1.0 / d;
+  reciprocals[SLI_TILE + k] = d < 0.0 ? 1.0 : -1.0;
+  reciprocals[2 * SLI_TILE + k] = d;
+  for (r = 0; r < SLI_TILE; r++) {
+    x[r] = p[SLI_TILE * k + r];
+    l[r] = r > k ? x[r] / d : 0.0;
+    magnitude[r] += r > k ? fabs(l[r] * x[r]) : 0.0;
+    p[SLI_TILE * k + r] = l[r];
+  }
+  sli_pair_subtract(p, k + 1, columns, l, x);
+}
+
+/* The 2x2 pivot of columns k, k+1 of a tile. For the rows below, the kernel computes x = l D with
+ * divisors 1; sli_pair_rows then computes l. */
+static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_int columns,
+                 double *p, double *reciprocals) {
+  double *magnitude = f->magnitude + first, *u = p + SLI_TILE * k, *v = u + SLI_TILE;
+  double a = u[k], b = v[k + 1], x[2][SLI_TILE], l[2][SLI_TILE];
+  const double e = u[k + 1];
+  sli_pair inverse, size;
+  sl_int r;
+  if (f->rule->replaces) {
+    sli_pair_by_rule(f->rule, f->column + first + k, &a, &b, e, magnitude + k);
+  }
+  inverse = sli_pair_invert(a, b, e);
+  size = sli_pair_absolute(a, b, e);
+  f->D[first + k] = a;
+  f->D[first + k + 1] = b;
+  f->E[first + k] = e;
+  f->E[first + k + 1] = 0.0;
+  for (r = k; r < k + 2; r++) {
+    reciprocals[r] = reciprocals[2 * SLI_TILE + r] = 1.0;
+    reciprocals[SLI_TILE + r] = 0.0;
+  }
+  for (r = 0; r < SLI_TILE; r++) {
+    x[0][r] = u[r];
+    x[1][r] = v[r];
+    l[0][r] = r > k + 1 ? inverse.p * u[r] + inverse.q * v[r] : 0.0;
+    l[1][r] = r > k + 1 ? inverse.q * u[r] + inverse.r * v[r] : 0.0;
+    magnitude[r] += r > k + 1 ? sli_pair_gain(&size, l[0][r], l[1][r]) : 0.0;
+    u[r] = l[0][r];
+    v[r] = l[1][r];
+  }
+  sli_pair_subtract(p, k + 2, columns, l[0], x[0]);
+  sli_pair_subtract(p, k + 2, columns, l[1], x[1]);
+}
+
+/* The pivots of column tile c, which holds pairs. The columns before it are already applied.
+ * reciprocals: as in sli_front, then the 8 divisors of the rows below. */
+static void sli_pair_tile(const sli_front *f, sl_int c, double *reciprocals) {
+  const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+  double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+  int safe = 1;
+  sl_int k;
+  for (k = 0; k < columns; k++) {
+    if (f->pairs[first + k] == SLI_PAIR_FIRST) {
+      sli_pair_tile_double(f, first, k++, columns, p, reciprocals);
+    } else {
+      sli_pair_tile_single(f, first, k, columns, p, reciprocals);
+      safe &= fabs(f->D[first + k]) > 1e-290 && fabs(f->D[first + k]) < 1e290;
+    }
+  }
+  if (!safe) {
+    reciprocals[0] = 0.0;
+  }
+}
+
+/* l := x D^-1 in the pairs of column tile c, for row tiles t0 .. t1-1 that hold x. */
+static void sli_pair_rows(const sli_front *f, sl_int c, sl_int t0, sl_int t1) {
+  sl_int k, t, r;
+  for (k = SLI_TILE * c; k < sli_min(f->width, SLI_TILE * (c + 1)); k++) {
+    sli_pair inverse, size;
+    if (f->pairs[k] != SLI_PAIR_FIRST) {
+      continue;
+    }
+    inverse = sli_pair_invert(f->D[k], f->D[k + 1], f->E[k]);
+    size = sli_pair_absolute(f->D[k], f->D[k + 1], f->E[k]);
+    for (t = t0; t < t1; t++) {
+      double *u = f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)k;
+      double *v = u + SLI_TILE, *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+      for (r = 0; r < SLI_TILE; r++) {
+        const double x = u[r], y = v[r];
+        u[r] = inverse.p * x + inverse.q * y;
+        v[r] = inverse.q * x + inverse.r * y;
+        magnitude[r] += sli_pair_gain(&size, u[r], v[r]);
+      }
+    }
+  }
+}
+
+/* B += L E on the 8 rows of a tile, for `length` columns: completes the product L D. */
+static void sli_pair_pack(const double *l, const double *E, sl_int length, double *B) {
+  sl_int j, r;
+  for (j = 0; j < length; j++) {
+    if (E[j] != 0.0) {
+      const ptrdiff_t u = SLI_TILE * (ptrdiff_t)j, v = u + SLI_TILE;
+      for (r = 0; r < SLI_TILE; r++) {
+        B[u + r] += l[v + r] * E[j];
+        B[v + r] += l[u + r] * E[j];
+      }
+    }
+  }
+}
 
 /* src/impl/kernels/inverse_front.h: a front of the inverse, and the contract of the kernels that compute it */
 
@@ -5536,16 +5812,16 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_l
   sub->total[1] = 0;
 }
 
-/* A band gets no further layer once it has this share of the finest vertices below its node. In a
- * volume, two or three layers contain most of a small subgraph, and a cut anywhere in them would be
- * unbalanced. */
-#define SLI_BAND_SHARE 0.3
+/* A band gets no further layer once it has this percentage of the finest vertices below its node.
+ * In a volume, two or three layers contain most of a small subgraph, and a cut anywhere in them
+ * would be unbalanced. */
+#define SLI_BAND_SHARE 30
 
 /* Makes the band of a node: the vertices at its border, and up to `layers` layers on each side of
  * them. The first layer is added regardless of SLI_BAND_SHARE. */
 static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
                 sl_int node, const sl_int *label, const sli_borders *l, int layers) {
-  const sl_int most = (sl_int)(SLI_BAND_SHARE * (double)t->weight[node]);
+  const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
   sl_int entry, head = 0;
   sl_off e;
   int layer;
@@ -5721,13 +5997,12 @@ SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int v) {
 
 /* src/impl/ordering/bisect.h: graph bisection: greedy graph growing, and Fiduccia-Mattheyses refinement of a cut */
 
-#define SLI_BISECT_BALANCE 0.6 /* largest share of the weight that one side may get */
+#define SLI_BISECT_BALANCE 60 /* percent of the weight that one side may get */
 
-/* The cost of a cut: the weight of its edges, increased by the imbalance of the sides. */
-SLI_INLINE double sli_cut_cost(double cut, const int64_t *total) {
-  const double sum = (double)(total[0] + total[1]);
-  const double skew = sum > 0.0 ? fabs((double)(total[0] - total[1])) / sum : 0.0;
-  return cut * (1.0 + skew);
+/* The cost of a cut: the weight of its edges times that of the heavier side, so that imbalance
+ * increases it. At most 2^31 * 2^31. */
+SLI_INLINE int64_t sli_cut_cost(int64_t cut, const int64_t *total) {
+  return cut * (total[0] > total[1] ? total[0] : total[1]);
 }
 
 /* The gain of moving v to the other side: the weight of its edges across the cut minus that of its
@@ -5830,10 +6105,10 @@ static void sli_fm_update(sli_fm *m, sl_int v) {
 
 /* One pass: repeatedly moves the vertex of highest gain, even at a loss, but each vertex only once;
  * then undoes the moves after the best cut. Returns whether that cut is better than the first. */
-static int sli_fm_pass(sli_fm *m, double *cut) {
+static int sli_fm_pass(sli_fm *m, int64_t *cut) {
   sli_subgraph *sub = m->sub;
   const sl_int patience = 20 + sub->n / 20 < 100 ? 20 + sub->n / 20 : 100;
-  double here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
+  int64_t here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
   sl_int v, made = 0, best = 0;
   int side;
   m->heap[0].count = m->heap[1].count = 0;
@@ -5878,14 +6153,14 @@ static sli_fm sli_fm_of(sli_subgraph *sub) {
   m.moves = sub->scratch + 4 * (size_t)sub->n;
   m.locked = sub->locked;
   m.heap[0].count = m.heap[1].count = 0;
-  m.most = (int64_t)(SLI_BISECT_BALANCE * (double)(sub->total[0] + sub->total[1]));
+  m.most = (sub->total[0] + sub->total[1]) * SLI_BISECT_BALANCE / 100;
   return m;
 }
 
 /* Refines the cut of a subgraph in up to `rounds` passes and returns its cost. [FM82] */
-static double sli_subgraph_refine(sli_subgraph *sub, int rounds) {
+static int64_t sli_subgraph_refine(sli_subgraph *sub, int rounds) {
   sli_fm m = sli_fm_of(sub);
-  double cut = (double)sli_subgraph_cut_weight(sub);
+  int64_t cut = sli_subgraph_cut_weight(sub);
   while (rounds-- > 0 && sli_fm_pass(&m, &cut)) {
   }
   return sli_cut_cost(cut, sub->total);
@@ -5948,12 +6223,11 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
 
 /* Bisects a subgraph: keeps the cheapest cut of several tries. */
 static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
-  double best = -1.0;
-  int64_t total[2] = {0, 0};
+  int64_t best = 0, total[2] = {0, 0};
   int k;
   for (k = 0; k < tries; k++) {
     sl_int seed = (sl_int)(sli_hash32((uint32_t)k + 77u) % (uint32_t)sub->n);
-    double cost;
+    int64_t cost;
     if (k % 2 == 0) {
       seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
     }
@@ -6477,9 +6751,9 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
-/* Largest share of the weight that one side of a separator may have. It exceeds SLI_BISECT_BALANCE
- * because the last step may lose some balance for a smaller separator. */
-#define SLI_SEPARATOR_BALANCE 0.7
+/* Largest percentage of the weight that one side of a separator may have. It exceeds
+ * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
+#define SLI_SEPARATOR_BALANCE 70
 
 /* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
  * the largest. */
@@ -6627,7 +6901,7 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
   }
   sum = total[0] + total[1];
   total[0] = total[0] > total[1] ? total[0] : total[1];
-  return (double)total[0] <= SLI_SEPARATOR_BALANCE * (double)sum || total[0] <= before;
+  return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
 /* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
@@ -6699,7 +6973,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     const sli_level *g = &d->levels[last];
     /* Three times the mean weight keeps the weights of a level even enough for balanced
      * bisection. */
-    const sl_int heaviest = (sl_int)(3.0 * (double)d->total / (double)g->n) + 1;
+    const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
     if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
       *working = last;
       sli_dissect_weigh(d, last);
@@ -6751,15 +7025,38 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
   return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
+/* An estimate of cost, exact: high * 2^32 + low, with low < 2^32. */
+typedef struct sli_tree_cost {
+  uint64_t high, low;
+} sli_tree_cost;
+
+/* Adds a * b: a < 2^62, b < 2^31. */
+SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
+  c->low += (a & 0xffffffffu) * b;
+  c->high += (a >> 32) * b + (c->low >> 32);
+  c->low &= 0xffffffffu;
+}
+
+SLI_INLINE sli_tree_cost sli_tree_cost_times(sli_tree_cost c, uint64_t factor) {
+  c.low *= factor;
+  c.high = c.high * factor + (c.low >> 32);
+  c.low &= 0xffffffffu;
+  return c;
+}
+
+SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
+  return a.high < b.high || (a.high == b.high && a.low < b.low);
+}
+
 /* Estimates the cost of local solves with the order of a tree, as path weight: the entries of L on
  * the paths from the columns to the root. The paths of about half of a subgraph's vertices contain
  * its separator, which has about as many columns as rows below. So each node counts its weight
  * times the square of its border. *flat := the same for square flat grids of that size. */
-static double sli_dissect_cost(sli_dissection *d, double *flat) {
+static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
   const sli_level *g = &d->levels[0];
   sl_int *border = d->nodes, v, k;
   sl_off e;
-  double cost = 0.0;
+  sli_tree_cost cost = {0, 0};
   memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
   for (v = 0; v < g->n; v++) {
     const sl_int own = d->label[v];
@@ -6773,12 +7070,12 @@ static double sli_dissect_cost(sli_dissection *d, double *flat) {
       }
     }
   }
-  *flat = 0.0;
+  *flat = cost;
   for (k = 0; k < d->tree.count; k++) {
-    const double weight = d->tree.weight[k];
+    const uint64_t weight = (uint64_t)d->tree.weight[k], across = (uint64_t)border[k];
     if (!sli_label_tree_is_leaf(&d->tree, k)) {
-      cost += weight * (double)border[k] * (double)border[k];
-      *flat += weight * weight;
+      sli_tree_cost_add(&cost, weight * across, across);
+      sli_tree_cost_add(flat, weight, weight);
     }
   }
   return cost;
@@ -6786,8 +7083,8 @@ static double sli_dissect_cost(sli_dissection *d, double *flat) {
 
 /* src/impl/ordering/levelset.h: bisection between level sets of a breadth-first search, cheaper in regular volumes */
 
-/* Each side of a bisection has at least this share, if a level set allows it. */
-#define SLI_LEVELSET_SHARE 0.35
+/* Each side of a bisection has at least this percentage, if a level set allows it. */
+#define SLI_LEVELSET_SHARE 35
 
 /* Breadth-first search: distances from a vertex, and the vertices in the order of their distances.
  * Vertices that are not reached follow at larger distances. Returns one more than the largest
@@ -6828,9 +7125,9 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
   const sl_int n = sub->n;
   sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
        *size = sub->scratch + 2 * (size_t)n;
-  const sl_int low = (sl_int)(SLI_LEVELSET_SHARE * n), high = n - low;
+  const sl_int low = (sl_int)((int64_t)n * SLI_LEVELSET_SHARE / 100), high = n - low;
   sl_int k, n_sets, before = 0, best = -1;
-  double cost = 0.0;
+  int64_t cost = 0;
   const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
   n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                  distance);
@@ -6839,8 +7136,8 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
     size[distance[k]]++;
   }
   for (k = 0; k < n_sets; before += size[k++]) {
-    const double skew = fabs((double)(n - size[k] - 2 * (int64_t)before)) / n;
-    const double here = (1.0 + skew) * size[k];
+    const int64_t skew = n - size[k] - 2 * (int64_t)before;
+    const int64_t here = (n + (skew < 0 ? -skew : skew)) * size[k]; /* < 2^63 */
     if (before >= low && before + size[k] <= high && (best == -1 || here < cost)) {
       best = k;
       cost = here;
@@ -6891,24 +7188,23 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
   return count;
 }
 
-/* A border of more than this many times sqrt(n) vertices is unusual on a surface: the graph may be
- * a volume. */
-#define SLI_VOLUME_BORDER 2.5
+/* A border of more than half of this many times sqrt(n) vertices is unusual on a surface: the graph
+ * may be a volume. */
+#define SLI_VOLUME_BORDER 5
 
 /* Finds labels by multilevel dissection. In graphs that may be volumes, level sets are tried too
  * and taken if they are estimated to be cheaper: in a 7-point grid they are diagonal planes, and
  * the largest has 3/4 of the vertices of a straight plane. */
 static sl_status sli_dissect_graph(sli_dissection *d) {
-  double multilevel, levelset, flat;
+  sli_tree_cost multilevel, flat;
   sl_status status = sli_dissect_multilevel(d);
-  if (status != SL_OK ||
-    (double)sli_dissect_root_border(d) < SLI_VOLUME_BORDER * sqrt((double)d->levels[0].n)) {
+  if (status != SL_OK || !sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d),
+                       SLI_VOLUME_BORDER, d->levels[0].n)) {
     return status;
   }
   multilevel = sli_dissect_cost(d, &flat);
   sli_dissect_levelset(d);
-  levelset = sli_dissect_cost(d, &flat);
-  if (levelset < multilevel) {
+  if (sli_tree_cost_is_less(sli_dissect_cost(d, &flat), multilevel)) {
     d->band_growth = 0;
     return SL_OK;
   }
@@ -6917,12 +7213,26 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
 
 /* src/impl/ordering/geometric.h: nested dissection by coordinates, used where its estimated cost is lower */
 
-/* Coordinates of the vertices of a graph: those of vertex v start at xyz[dimensions * row[v]]. */
+/* Coordinates of the vertices of a graph: those of vertex v start at xyz[dimensions * row[v]].
+ * Multiplied by unit, they are below 2^60 and become integers, so that every compiler and processor
+ * finds the same order. */
 typedef struct sli_points {
   const double *xyz;
   sl_int dimensions;
   const sl_int *row;
+  double unit; /* a power of 2 */
 } sli_points;
+
+SLI_INLINE double sli_points_unit(const double *xyz, size_t count) {
+  double largest = 0.0;
+  int exponent;
+  size_t k;
+  for (k = 0; k < count; k++) {
+    largest = fabs(xyz[k]) > largest ? fabs(xyz[k]) : largest;
+  }
+  (void)frexp(largest, &exponent);
+  return ldexp(1.0, exponent > 60 - DBL_MAX_EXP ? 60 - exponent : DBL_MAX_EXP - 1);
+}
 
 /* Directions of bisection as sums of coordinates: the axes and the diagonals of two axes. */
 static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
@@ -6934,30 +7244,27 @@ static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0
 #define SLI_POINTS_MANY 16384
 #define SLI_POINTS_TRIED 512
 
-/* The coordinate of v along a direction. */
-SLI_INLINE double sli_point_along(const sli_points *p, sl_int v, int direction) {
+/* The coordinate of v along a direction, which has length 1 or, for a diagonal, sqrt(2). */
+SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction) {
   const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
   const signed char *along = sli_directions[direction];
-  /* Halve the terms: coordinates may be as large as a double can be, and a sum must not
-   * overflow. */
-  const double sum = along[0] * (0.5 * x[0]) + along[1] * (0.5 * x[1]) +
-             (p->dimensions == 3 ? along[2] * (0.5 * x[2]) : 0.0);
-  return direction == 2 || direction == 3 || direction > 4 ? 0.70710678118654752 * sum : sum;
+  return along[0] * (int64_t)(x[0] * p->unit) + along[1] * (int64_t)(x[1] * p->unit) +
+       (p->dimensions == 3 ? along[2] * (int64_t)(x[2] * p->unit) : 0);
 }
 
 /* The axis along which the vertices have the largest extent, and *spread := that extent, from a
  * sample of about SLI_POINTS_TRIED vertices. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
-               double *spread) {
+               int64_t *spread) {
   static const int sli_axes[3] = {0, 1, 4};
   const sl_int step = count / SLI_POINTS_TRIED + 1;
   sl_int axis, k;
   int best = 0;
-  *spread = -1.0;
+  *spread = -1;
   for (axis = 0; axis < p->dimensions; axis++) {
-    double low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
+    int64_t low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
     for (k = step; k < count; k = k < count - step ? k + step : count) {
-      const double x = sli_point_along(p, vertices[k], sli_axes[axis]);
+      const int64_t x = sli_point_along(p, vertices[k], sli_axes[axis]);
       low = x < low ? x : low;
       high = x > high ? x : high;
     }
@@ -6971,7 +7278,7 @@ static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int c
 
 /* A vertex and its coordinate along a direction, ordered by both, so that no two are equal. */
 typedef struct sli_projection {
-  double x;
+  int64_t x;
   sl_int v;
 } sli_projection;
 
@@ -7016,7 +7323,7 @@ static void sli_projection_halve(sli_projection *a, sl_int count) {
  * small. */
 static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_int count,
                 sli_projection *projections) {
-  double spread;
+  int64_t spread;
   const int axis = sli_points_axis(p, vertices, count, &spread);
   int direction, best = axis;
   const int directions = p->dimensions == 3 ? 9 : 4;
@@ -7025,8 +7332,10 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
     return best;
   }
   for (direction = 0; direction < directions; direction++) {
+    const int is_diagonal = direction == 2 || direction == 3 || direction > 4;
+    const int64_t close = spread / 1000 * (is_diagonal ? 141 : 100); /* a tenth */
+    int64_t middle;
     sl_int n_close = 0;
-    double middle;
     for (k = 0; k < SLI_POINTS_TRIED; k++) {
       const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
       projections[k].x = sli_point_along(p, v, direction);
@@ -7035,7 +7344,8 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
     sli_projection_halve(projections, SLI_POINTS_TRIED);
     middle = projections[SLI_POINTS_TRIED / 2].x;
     for (k = 0; k < SLI_POINTS_TRIED; k++) {
-      n_close += fabs(projections[k].x - middle) < 0.1 * spread;
+      const int64_t away = projections[k].x - middle;
+      n_close += (away < 0 ? -away : away) < close;
     }
     /* a handicap: chance must not decide against the longest axis */
     n_close += direction == axis ? 0 : n_close / 3;
@@ -7088,28 +7398,26 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* A tree that costs at most this many times a flat square grid is taken without comparison. Flat
- * grids have 0.9 to 1.06; surfaces have 2 and more, because a plane cuts several sheets. */
-#define SLI_FLAT_ENOUGH 1.1
+/* A tree that costs less than this percentage of a flat square grid is taken without comparison.
+ * Flat grids have 90 to 106; surfaces have 200 and more, because a plane cuts several sheets. */
+#define SLI_FLAT_ENOUGH 110
 
 /* Finds labels by coordinates. They are used if their estimated cost is that of a flat mesh, or
  * lower than that of the labels found without coordinates; otherwise the latter are used. */
 static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
                      sli_projection *projections) {
-  double cost, other, flat;
+  sli_tree_cost cost, flat;
   sl_status status;
   sli_dissect_points(d, points, projections);
   cost = sli_dissect_cost(d, &flat);
-  if (cost <= SLI_FLAT_ENOUGH * flat) {
+  if (sli_tree_cost_is_less(sli_tree_cost_times(cost, 100),
+                sli_tree_cost_times(flat, SLI_FLAT_ENOUGH))) {
     d->band_growth = 0;
     return SL_OK;
   }
   status = sli_dissect_graph(d);
-  if (status == SL_OK) {
-    other = sli_dissect_cost(d, &flat);
-    if (cost < other) {
-      sli_dissect_points(d, points, projections);
-    }
+  if (status == SL_OK && sli_tree_cost_is_less(cost, sli_dissect_cost(d, &flat))) {
+    sli_dissect_points(d, points, projections);
   }
   return status;
 }
@@ -7441,13 +7749,13 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
 }
 
 /* The borders left by METIS's separators are ragged and overestimate its cost. The tree of this
- * library's dissection is used only if its estimate is below this share of METIS's. */
-#define SLI_METIS_REFINED_SHARE 0.8
+ * library's dissection is used only if its estimate is below this percentage of METIS's. */
+#define SLI_METIS_REFINED_SHARE 80
 
 /* Finds labels by METIS, or by this library's dissection if that is estimated to be cheaper. This
  * happens occasionally, because the quality of METIS's trees varies as that of any heuristic. */
 static sl_status sli_dissect_metis_refined(sli_dissection *d) {
-  double own, flat;
+  sli_tree_cost own, flat;
   sl_status status = sli_dissect_graph(d);
   if (status != SL_OK) {
     return status;
@@ -7455,7 +7763,9 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
   own = sli_dissect_cost(d, &flat);
   d->band_growth = 1;
   status = sli_dissect_metis(d);
-  if (status == SL_OK && own < SLI_METIS_REFINED_SHARE * sli_dissect_cost(d, &flat)) {
+  if (status == SL_OK && sli_tree_cost_is_less(sli_tree_cost_times(own, 100),
+                         sli_tree_cost_times(sli_dissect_cost(d, &flat),
+                                   SLI_METIS_REFINED_SHARE))) {
     d->band_growth = 2;
     status = sli_dissect_graph(d);
   }
@@ -7468,7 +7778,7 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
 
 /* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
  * eliminated last. */
-#define SLI_ND_DENSE_ROW 10.0
+#define SLI_ND_DENSE_ROW 10
 
 /* A leaf that is more than twice its intended size after the borders have moved is bisected again.
  * This many rounds at most. */
@@ -7478,8 +7788,7 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
 typedef struct sli_nd {
   const sli_graph *G;
   const sl_int *weight; /* NULL: 1 each */
-  const double *xyz;    /* NULL: none */
-  sl_int dimensions;
+  sli_points points;    /* points.xyz is NULL: none */
   int by_metis;
   sl_int *local;   /* n: number of a row in its component; -1 not yet visited, -2 dense */
   sl_int *row;     /* n: the rows of the component */
@@ -7498,7 +7807,7 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
   w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
   w->to = SLI_TAKE(b, sl_int, edges);
   w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
-  w->projections = SLI_TAKE(b, sli_projection, w->xyz != NULL ? n : 0);
+  w->projections = SLI_TAKE(b, sli_projection, w->points.xyz != NULL ? n : 0);
   sli_dissection_layout(&w->d, b, n, edges);
 }
 
@@ -7561,12 +7870,8 @@ static sl_status sli_nd_label(sli_nd *w) {
     return SL_ERR_UNSUPPORTED;
 #endif
   }
-  if (w->xyz != NULL) {
-    sli_points points;
-    points.xyz = w->xyz;
-    points.dimensions = w->dimensions;
-    points.row = w->row;
-    return sli_dissect_geometric(d, &points, w->projections);
+  if (w->points.xyz != NULL) {
+    return sli_dissect_geometric(d, &w->points, w->projections);
   }
   return sli_dissect_graph(d);
 }
@@ -7594,11 +7899,10 @@ static sl_status sli_nd_dissect(sli_nd *w) {
 /* Marks the dense rows and puts them at the end of the order. Returns their number. */
 static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
   const sli_graph *G = w->G;
-  const double limit = SLI_ND_DENSE_ROW * sqrt((double)G->n);
   sl_int v, count = 0;
   for (v = G->n - 1; v >= 0; v--) {
     w->local[v] = -1;
-    if ((double)(G->begin[v + 1] - G->begin[v]) > limit) {
+    if (sli_exceeds_sqrt(G->begin[v + 1] - G->begin[v], SLI_ND_DENSE_ROW, G->n)) {
       w->local[v] = -2;
       perm[G->n - ++count] = v;
     }
@@ -7656,8 +7960,9 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
   memset(&w, 0, sizeof w);
   w.G = G;
   w.weight = weight;
-  w.xyz = xyz;
-  w.dimensions = dimensions;
+  w.points.xyz = xyz;
+  w.points.dimensions = dimensions;
+  w.points.unit = xyz != NULL ? sli_points_unit(xyz, (size_t)G->n * (size_t)dimensions) : 1.0;
   w.by_metis = by_metis;
   w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
   w.d.a = a;
@@ -7666,6 +7971,7 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
     sli_nd_layout(&w, &b);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
+  w.points.row = w.row;
   if (status == SL_OK) {
     sli_borders_init(&w.d.borders, a);
     status = sli_nd_run(&w, perm, septree);
@@ -7677,8 +7983,8 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
 
 /* src/impl/ordering/compress.h: graph compression: indistinguishable rows are ordered as one vertex */
 
-/* The graph is compressed if at most this share of its vertices remains. */
-#define SLI_COMPRESS_SHARE 0.8
+/* The graph is compressed if at most this percentage of its vertices remains. */
+#define SLI_COMPRESS_SHARE 80
 
 typedef struct sli_compressed {
   sli_graph G;
@@ -7780,7 +8086,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
   int pass;
   memset(&c, 0, sizeof c);
   c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
-  if ((double)c.G.n > SLI_COMPRESS_SHARE * (double)G->n) {
+  if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
     return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, a);
   }
   c.first = scratch;
@@ -8450,6 +8756,9 @@ struct sl_symbolic {
   sl_int tallest, widest;   /* largest height (columns and rows below) and width of a supernode */
   sl_int *perm, *iperm;     /* n */
   sl_int *parent;           /* n: elimination tree, -1 at a root */
+  int is_pivoted;           /* created from values: pivots of any sign are right */
+  sl_int n_pairs;           /* 2x2 pivots */
+  unsigned char *pairs;     /* n: SLI_PAIR_*; n_pairs = 0: none */
   sl_int *counts;           /* n: entries of each column of L, without relaxation */
   sl_int *super_of;         /* n */
   sl_int *super_first;      /* n_supers + 1 */
@@ -8637,8 +8946,12 @@ typedef struct sli_amalgamation {
   sl_int *parent;      /* parent supernode, -1 at a root */
   sl_int *width;       /* columns so far */
   sl_int *below;       /* rows below */
-  double *zeros;       /* entries stored so far that L does not have */
+  sl_off *zeros;       /* entries stored so far that L does not have */
   sl_int *merged_into; /* the supernode it was merged into, or itself; finally the new number */
+  /* 1: always merged into its parent, as its last column and the next one are a 2x2 pivot; NULL:
+   * none */
+  unsigned char *is_tied;
+  int relaxes; /* merge others too */
 } sli_amalgamation;
 
 /* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
@@ -8665,27 +8978,28 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     g->width[s] = g->first[s + 1] - g->first[s];
     g->below[s] = counts[last] - 1;
     g->parent[s] = parent[last] == -1 ? -1 : super_of[parent[last]];
-    g->zeros[s] = 0.0;
+    g->zeros[s] = 0;
     g->merged_into[s] = s;
   }
 }
 
-/* Largest share of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44 entries,
- * 0.64, and 2D grids have no more. It bounds the stored entries of each supernode by 1 / (1 - 0.70)
- * = 3.34 times its entries of L, even where short columns are children of tall ones. */
-#define SLI_ZEROS_SMALL 0.70
+/* Largest percentage of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44
+ * entries, 64 %, and 2D grids have no more. It bounds the stored entries of each supernode by
+ * 1 / (1 - 0.70) = 3.34 times its entries of L, even where short columns are children of tall
+ * ones. */
+#define SLI_ZEROS_SMALL 70
 
-/* Returns whether a supernode of this width may have a share z of zeros. The cost of small panels
- * is their calls, not their flops. The thresholds gave the fastest solves on 2D and 3D meshes, at
- * 2-3 % more flops. */
-static int sli_may_merge(sl_int width, double z) {
-  return (width <= 8 && z < SLI_ZEROS_SMALL) || (width <= 16 && z < 0.30) ||
-       (width <= 48 && z < 0.15) || z < 0.05;
+/* Returns whether a supernode of this width may have so many zeros among its stored entries. The
+ * cost of small panels is their calls, not their flops. The thresholds gave the fastest solves on
+ * 2D and 3D meshes, at 2-3 % more flops. Integers, so that all platforms merge alike. */
+static int sli_may_merge(sl_int width, sl_off zeros, sl_off stored) {
+  const sl_off percent = width <= 8 ? SLI_ZEROS_SMALL : width <= 16 ? 30 : width <= 48 ? 15 : 5;
+  return zeros < stored / 100 * percent + (stored % 100 * percent + 99) / 100;
 }
 
 /* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
-static double sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
-  return (double)g->width[c] * (double)(g->width[p] + g->below[p] - g->below[c]);
+static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
+  return (sl_off)g->width[c] * (g->width[p] + g->below[p] - g->below[c]);
 }
 
 /* Merges children into p while the share of zeros allows it, those with the fewest new zeros first.
@@ -8695,15 +9009,16 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
   sl_int k;
   for (k = 0; k < count; k++) {
     const sl_int c = sli_value(list[k]);
-    const double cost = sli_new_zeros(g, c, p);
-    list[k] = sli_keyed(cost < 2e9 ? (sl_int)cost : INT32_MAX, c);
+    const sl_off cost = sli_new_zeros(g, c, p);
+    list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c);
   }
   sli_sort(list, count, scratch);
   for (k = 0; k < count; k++) {
     const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
-    const double zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
-    const double stored = (double)width * (0.5 * (width + 1.0) + g->below[p]);
-    if (sli_may_merge(width, zeros / stored)) {
+    const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
+    const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * g->below[p];
+    if ((g->is_tied != NULL && g->is_tied[c]) ||
+      (g->relaxes && sli_may_merge(width, zeros, stored))) {
       g->width[p] = width;
       g->zeros[p] = zeros;
       g->merged_into[c] = p;
@@ -8805,6 +9120,83 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
   g->count = count;
 }
 
+/* The end of the part of a supernode that begins at column `from`: a 2x2 pivot that would be in two
+ * column tiles starts the next part. */
+SLI_INLINE sl_int sli_part_end(const unsigned char *is_first, sl_int from, sl_int end) {
+  sl_int k;
+  for (k = from + SLI_TILE - 1; k < end && !is_first[k]; k += SLI_TILE) {
+  }
+  return sli_min(k, end);
+}
+
+/* Cuts supernodes into parts: first, below, and part, the part of each column. Returns how many. */
+static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_first,
+               sl_int *first, sl_int *below, sl_int *part) {
+  sl_int s, k, count = 0;
+  for (s = 0; s < g->count; s++) {
+    for (k = g->first[s]; k < g->first[s + 1]; count++) {
+      const sl_int end = sli_part_end(is_first, k, g->first[s + 1]);
+      first[count] = k;
+      below[count] = g->first[s + 1] - end + g->below[s];
+      for (; k < end; k++) {
+        part[k] = count;
+      }
+    }
+  }
+  return count;
+}
+
+/* Splits supernodes into parts so that every 2x2 pivot is in one column tile, and numbers them in a
+ * postorder again: order[k] = the old number of the new column k. Each part keeps the rows of its
+ * supernode, and the next part is its parent. earlier[s] := the part before s in its supernode, or
+ * -1. Returns 0 if nothing is to be split. parent: the elimination tree; is_first: by column, is it
+ * the first of a pair? scratch: 5n. */
+static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
+               const unsigned char *is_first, sl_int *super_of, sl_int *earlier,
+               sl_int *order, sl_int *scratch) {
+  sl_int *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
+  sl_int *first = g->merged_into; /* free now */
+  const sl_int count = sli_find_parts(g, is_first, first, below, order);
+  sl_int s, k, c, column = 0;
+  for (k = 0; k < n; k++) {
+    earlier[k] = -1;
+  }
+  if (count == g->count) {
+    return 0;
+  }
+  for (s = 0; s < count; s++) {
+    const sl_int end = s + 1 < count ? first[s + 1] : n, up = parent[end - 1];
+    const int continues = end < n && super_of[end] == super_of[end - 1];
+    tree[s] = continues ? s + 1 : up == -1 ? -1 : order[up];
+  }
+  sli_postorder(tree, count, post, number, below + n);
+  for (k = 0; k < count; k++) {
+    number[post[k]] = k;
+  }
+  for (k = 0; k < count; k++) {
+    const sl_int end = post[k] + 1 < count ? first[post[k] + 1] : n;
+    s = post[k];
+    if (end < n && super_of[end] == super_of[end - 1]) {
+      earlier[number[s + 1]] = k;
+    }
+    g->first[k] = column;
+    g->width[k] = end - first[s];
+    g->below[k] = below[s];
+    g->parent[k] = tree[s] == -1 ? -1 : number[tree[s]];
+    for (c = first[s]; c < end; c++) {
+      order[column++] = c;
+    }
+  }
+  g->first[count] = n;
+  g->count = count;
+  for (k = 0; k < count; k++) {
+    for (c = g->first[k]; c < g->first[k + 1]; c++) {
+      super_of[c] = k;
+    }
+  }
+  return 1;
+}
+
 /* src/impl/analysis/structure.h: rows of the supernodes, relative indices, and the scatter map of A into L */
 
 /* scatter_begin := sums of the numbers of entries of A in each supernode's columns. */
@@ -8826,25 +9218,33 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
  * Row k of L occupies the part of the supernode tree between row k's entries of A and k's own
  * supernode. k is appended to the row list of each of these supernodes; as k ascends, so do the
  * lists. The position in the list is the local row of k's entries. end: n_supers, the end of each
- * list so far; mark: n_supers.
+ * list so far; mark: n_supers. earlier: the part before each supernode if one was split, or NULL:
+ * a row of one part is also a row of the parts before it.
  */
 static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
-                 const sl_int *new_of, sl_off *end, sl_int *mark) {
-  sl_int k, p, s;
+                 const sl_int *new_of, const sl_int *earlier, sl_off *end,
+                 sl_int *mark) {
+  sl_int k, p, s, t;
   for (s = 0; s < S->n_supers; s++) {
     end[s] = S->rows_begin[s];
     mark[s] = -1;
   }
   for (k = 0; k < S->n; k++) {
     const sl_int own = S->super_of[k];
+    for (t = earlier == NULL ? -1 : earlier[own]; t != -1; t = earlier[t]) {
+      mark[t] = k;
+      S->rows[end[t]++] = k;
+    }
     for (p = rows->begin[old_of[k]]; p < rows->begin[old_of[k] + 1]; p++) {
       const sl_int i = new_of[rows->to[p]], home = S->super_of[i];
       const sl_int first = S->super_first[home], width = S->super_first[home + 1] - first;
       sl_int local;
       sl_off at;
       for (s = home; s != own && mark[s] != k; s = S->super_parent[s]) {
-        mark[s] = k;
-        S->rows[end[s]++] = k;
+        for (t = s; t != -1 && mark[t] != k; t = earlier == NULL ? -1 : earlier[t]) {
+          mark[t] = k;
+          S->rows[end[t]++] = k;
+        }
       }
       local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
       /* each begin advances to its group's end; shifted back below */
@@ -9166,7 +9566,11 @@ typedef struct sli_analysis {
   sl_int *parent, *counts, *super_of; /* n each */
   sl_int *scratch;                    /* 5n */
   uint64_t *list;                     /* 2n */
-  sli_septree septree;                /* n each: by rows of A */
+  /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
+  const unsigned char *pairs;
+  unsigned char *is_first; /* n: the same, by column */
+  sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
+  sli_septree septree;     /* n each: by rows of A */
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
@@ -9188,9 +9592,14 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
   w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->amalgamation.zeros = SLI_TAKE(b, double, n);
+  w->amalgamation.zeros = SLI_TAKE(b, sl_off, n);
   w->amalgamation.merged_into = SLI_TAKE(b, sl_int, n);
   w->list = SLI_TAKE(b, uint64_t, 2 * n);
+  if (w->pairs != NULL) {
+    w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
+    w->is_first = SLI_TAKE(b, unsigned char, n);
+    w->earlier = SLI_TAKE(b, sl_int, n);
+  }
   w->septree.node_of = SLI_TAKE(b, sl_int, n);
   w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
 }
@@ -9210,6 +9619,7 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
   S->panel_begin = SLI_TAKE(b, sl_off, supers + 1);
   S->steps = SLI_TAKE(b, sli_step, supers);
   S->first_descendant = SLI_TAKE(b, sl_int, supers);
+  S->pairs = SLI_TAKE(b, unsigned char, S->n_pairs > 0 ? n : 0);
   S->relative = SLI_TAKE(b, sl_int, rows);
   S->scatter_begin = SLI_TAKE(b, sl_off, supers + 1);
   S->scatter_from = SLI_TAKE(b, sl_int, entries);
@@ -9219,13 +9629,51 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
   S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
+/* Renumbers tree and counts: order[k] = the old number of the new column k. */
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
+  sl_int k;
+  for (k = 0; k < w->n; k++) {
+    w->scratch[k] = w->counts[order[k]];
+  }
+  if (w->n > 0) {
+    memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
+  }
+  sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
+}
+
+/* Marks the supernodes whose last column is the first of a 2x2 pivot. */
+static void sli_analysis_tie(sli_analysis *w) {
+  sl_int s;
+  for (s = 0; s < w->amalgamation.count; s++) {
+    w->amalgamation.is_tied[s] = w->pairs[w->old_of[w->amalgamation.first[s + 1] - 1]];
+  }
+}
+
+/* Splits supernodes so that each 2x2 pivot is in one tile. Its two columns have the same rows. */
+static void sli_analysis_split(sli_analysis *w, sl_int *order) {
+  sl_int k;
+  for (k = 0; k < w->n; k++) {
+    w->is_first[k] = w->pairs[w->old_of[k]];
+    SLI_ASSERT(!w->is_first[k] || w->old_of[k + 1] == w->old_of[k] + 1);
+  }
+  for (k = w->n - 1; k >= 0; k--) {
+    w->counts[k] = w->is_first[k] ? w->counts[k + 1] + 1 : w->counts[k];
+  }
+  if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
+            order, w->scratch)) {
+    sli_analysis_reorder(w, order);
+    for (k = 0; k < w->n; k++) {
+      w->is_first[k] = w->pairs[w->old_of[k]];
+    }
+  }
+}
+
 /* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
 static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
   const sl_int n = w->n;
   const int keeps_order =
     opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
   sl_int *order = w->scratch, *more = w->scratch + n;
-  sl_int k;
   sli_order_natural(n, w->old_of);
   sli_etree(n, &w->rows, w->parent, order);
   sli_postorder(w->parent, n, order, more, more + n);
@@ -9233,19 +9681,20 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
-  if (opt == NULL || opt->relaxation != SL_RELAXATION_NONE) {
+  w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
+  if (w->pairs != NULL) {
+    sli_analysis_tie(w);
+  }
+  if (w->amalgamation.relaxes || w->pairs != NULL) {
     sli_amalgamate(&w->amalgamation, order, more, w->list, w->list + n);
   }
   order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
   sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
               w->scratch);
-  for (k = 0; k < n; k++) {
-    w->scratch[k] = w->counts[order[k]];
+  sli_analysis_reorder(w, order);
+  if (w->pairs != NULL) {
+    sli_analysis_split(w, order);
   }
-  if (n > 0) {
-    memcpy(w->counts, w->scratch, (size_t)n * sizeof(sl_int));
-  }
-  sli_relabel(order, n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
 /* Fills the statistics. depth: n of scratch. */
@@ -9280,9 +9729,15 @@ static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
  * by it that their analysis was released and another one created at its address. */
 static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
   const sl_int kind = (sl_int)triangle;
+  sl_int k;
   S->identity = sli_hash_ints(S->pattern, &kind, 1);
   S->identity = sli_hash_ints(S->identity, S->perm, S->n);
   S->identity = sli_hash_ints(S->identity, S->super_first, (sl_off)S->n_supers + 1);
+  for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+    if (S->pairs[k] == SLI_PAIR_FIRST) {
+      S->identity = sli_hash_ints(S->identity, &k, 1);
+    }
+  }
 }
 
 /* Copies the tree out of the scratch and fills everything that depends on it. */
@@ -9307,8 +9762,13 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
   }
   /* list has 2n words of 8 bytes: one half for the ends of the row lists, the other for the
    * marks. */
+  for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+    S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
+            : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
+                          : SLI_PAIR_NONE;
+  }
   sli_scatter_map_count(S, &w->columns, w->old_of);
-  sli_fill_structure(S, &w->rows, w->old_of, w->new_of, (sl_off *)(void *)w->list,
+  sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, (sl_off *)(void *)w->list,
              (sl_int *)(void *)(w->list + S->n));
   sli_fill_steps(S);
   sli_fill_descendants(S);
@@ -9348,6 +9808,10 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   draft.n = A->n_cols;
   draft.n_supers = w->amalgamation.count;
   draft.n_nodes = w->septree.count;
+  for (s = 0; w->pairs != NULL && s < w->n; s++) {
+    draft.n_pairs += w->pairs[s];
+  }
+  stats->symbolic.pairs = draft.n_pairs;
   draft.nnz_input = sli_nnz(A);
   (void)sli_pattern_hash(A, &draft.pattern);
   for (s = 0; s < w->amalgamation.count; s++) {
@@ -9376,8 +9840,10 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
   to->symbolic = from->symbolic;
 }
 
-SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                  sl_stats *stats) {
+/* sl_symbolic_create of a matrix for which 2x2 pivots are given, or pairs NULL. opt then gives the
+ * order, and pairs[k] = 1 if its rows k and k + 1 are a 2x2 pivot. */
+static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
+                   const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const double started = sli_seconds();
   sli_analysis w;
@@ -9401,6 +9867,7 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     return SL_ERR_ARGUMENT;
   }
   memset(&w, 0, sizeof w);
+  w.pairs = pairs;
   memset(&found, 0, sizeof found);
   sli_stats_clear_error(&found);
   status = sli_csc_triangle(A, &found.symbolic.triangle, opt, stats);
@@ -9419,6 +9886,11 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
     sli_free(&a, b.base);
   }
   return status;
+}
+
+SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
+                  sl_stats *stats) {
+  return sli_symbolic_create(out, A, NULL, opt, stats);
 }
 
 SL_API void sl_symbolic_free(sl_symbolic *S) {
@@ -9451,6 +9923,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
     v.rows_begin = S->rows_begin;
     v.rows = S->rows;
     v.panel_begin = S->panel_begin;
+    v.pairs = S->n_pairs > 0 ? S->pairs : NULL;
     v.n_nodes = S->n_nodes;
     v.node_of = S->n_nodes > 0 ? S->node_of : NULL;
     v.node_parent = S->n_nodes > 0 ? S->node_parent : NULL;
@@ -9791,6 +10264,15 @@ typedef struct sli_failure {
   double value;
 } sli_failure;
 
+/* Row k of A z in pivot order. A cache line holds two: the product visits rows at random. */
+typedef struct sli_null_row {
+  double z;       /* the assumed null vectors of all components */
+  double product; /* scratch: (A z)(k) */
+  double size;    /* scratch: (|A| |z|)(k) */
+  sl_int entries; /* scratch: entries of the row */
+  sl_int last;    /* the last pivot of the component of the row */
+} sli_null_row;
+
 struct sl_factor {
   sl_allocator allocator;
   sl_stats stats;       /* the factor group and the error group */
@@ -9799,8 +10281,8 @@ struct sl_factor {
   sli_pivot_rule rule;
   sl_null_pivots null_pivots;
   sl_method method;
-  int is_valid;        /* L and D hold a factor */
-  sl_status status;    /* of the last factorization */
+  int is_valid;     /* L and D hold a factor */
+  sl_status status; /* of the last factorization */
   /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
    * numbers keeps it */
   sli_hash identity;
@@ -9808,6 +10290,7 @@ struct sl_factor {
   sli_hash analysis;   /* the identity of S */
   double *L;           /* the panels of all supernodes */
   double *D;           /* n pivots */
+  double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
   /* n: the pivots that regularization changed, ascending; NULL: no regularization */
   sl_int *regularized;
 
@@ -9820,18 +10303,19 @@ struct sl_factor {
   sl_int n_anchors;
   /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
   sl_int *anchors;
-  double *mass; /* n: the weights m in pivot order; NULL: none */
-  double *z;    /* n: the assumed null vectors of all components, in pivot order */
-  /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h) */
+  double *mass;       /* n: the weights m in pivot order; NULL: none */
+  sli_null_row *rows; /* n */
+  double *rounding;   /* n: for the rule */
+  /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h); before
+   * a column of L is computed, z or 0 */
   double *g;
-  sl_int *last; /* n: the last pivot of the component of each row */
-  double *product, *size; /* n: scratch: A v and |A| |v| */
-  sl_int *entries;        /* n: scratch: entries of each row */
   /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
   double *center;
-  double *squares;  /* components: w' D^+ w of the tree of each anchor */
-  double *ratios;   /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
-  double *divisors; /* n: D, with 1 at the anchors, where the backward sweep is given x itself */
+  double *squares; /* components: w' D^+ w of the tree of each anchor */
+  double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
+  /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
+   * and in 2x2 pivots, which are applied before it; NULL: D */
+  double *divisors;
   double *center_scratch;
   double *buffer; /* kernel scratch, one piece a worker */
 
@@ -9879,6 +10363,11 @@ SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F
 SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_hash identity) {
   return F->S == S && sli_hash_equals(F->analysis, S->identity) &&
        sli_hash_equals(identity, S->identity);
+}
+
+/* Entries of the inverse are computed with a diagonal D only. */
+SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
+  return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 /* Fills in a failure and returns its status. */
@@ -9992,6 +10481,50 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot,
   return SL_OK;
 }
 
+/* Refuses a 2x2 pivot that is not finite or null; asked for both of its columns k. */
+SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int k, const double *magnitude,
+                  sli_failure *failure) {
+  const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
+  if (F->S->pairs[k] == SLI_PAIR_SECOND) {
+    return SL_OK;
+  }
+  if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
+    return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1,
+            !sli_is_finite(a)   ? a
+            : !sli_is_finite(b) ? b
+                      : e);
+  }
+  if (!F->rule.replaces &&
+    sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], F->rule.null_tolerance)) {
+    return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, a);
+  }
+  return SL_OK;
+}
+
+/* The eigenvalues of the 2x2 pivot of columns k, k+1, the one of larger magnitude first. */
+SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
+  const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
+  const double middle = 0.5 * a + 0.5 * b, half = 0.5 * a - 0.5 * b;
+  const double size = fabs(half) > fabs(e) ? fabs(half) : fabs(e);
+  const double x = size > 0.0 ? half / size : 0.0, y = size > 0.0 ? e / size : 0.0;
+  const double radius = size * sqrt(x * x + y * y);
+  values[0] = middle < 0.0 ? middle - radius : middle + radius;
+  /* the product of both is the determinant; their difference would cancel */
+  values[1] = a * (b / values[0]) - e * (e / values[0]);
+}
+
+/* Counts one eigenvalue of D by its sign, and records its magnitude. */
+SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
+  const double size = fabs(d);
+  if (info->positive + info->negative == 0) {
+    info->pivot_min = size;
+  }
+  info->positive += d > 0.0;
+  info->negative += d < 0.0;
+  info->pivot_min = size < info->pivot_min ? size : info->pivot_min;
+  info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
+}
+
 /* Counts the first pivots by sign and records their least and largest magnitude. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
   sl_stats *stats = &F->stats;
@@ -10000,7 +10533,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
     stats->factor.regularized = stats->factor.weak = 0;
   stats->factor.pivot_min = stats->factor.pivot_max = 0.0;
   for (k = 0; k < count; k++) {
-    const double size = fabs(F->D[k]);
     if (sli_is_skipped(F, k)) {
       stats->factor.null++;
       continue;
@@ -10009,14 +10541,455 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
     if (sli_is_regularized(F, k)) {
       F->regularized[stats->factor.regularized++] = k;
     }
-    if (stats->factor.positive + stats->factor.negative == 0) {
-      stats->factor.pivot_min = size;
+    if (F->E == NULL || F->S->pairs[k] == SLI_PAIR_NONE) {
+      sli_count_pivot(&stats->factor, F->D[k]);
+    } else if (F->S->pairs[k] == SLI_PAIR_FIRST) {
+      double values[2];
+      sli_pair_eigenvalues(F, k, values);
+      sli_count_pivot(&stats->factor, values[0]);
+      sli_count_pivot(&stats->factor, values[1]);
     }
-    stats->factor.positive += F->D[k] > 0.0;
-    stats->factor.negative += F->D[k] < 0.0;
-    stats->factor.pivot_min = size < stats->factor.pivot_min ? size : stats->factor.pivot_min;
-    stats->factor.pivot_max = size > stats->factor.pivot_max ? size : stats->factor.pivot_max;
   }
+}
+
+/* src/impl/factor/pivot_search.h: a multifrontal factorization that only selects 1x1 and 2x2 pivots by values */
+
+/* Pivots are selected by threshold partial pivoting [DR83]: no entry of L exceeds
+ * 1 / SLI_PIVOT_THRESHOLD. Where no column of a front has such a pivot, those that remain are
+ * delayed: they become columns of the parent's front. At a root all rows are columns, and every
+ * finite column has one. */
+#define SLI_PIVOT_THRESHOLD 0.01
+
+/* What a front passes to its parent: a lower triangle, column-major. */
+typedef struct sli_contribution {
+  void *block;    /* owns index and values */
+  sl_int delayed; /* columns that come first and could not be eliminated */
+  sl_int count;   /* rows */
+  sl_int *index;  /* count: columns of L */
+  double *values; /* count x count */
+} sli_contribution;
+
+/* A front as a dense column-major matrix. The columns of its pivots are complete; of the others
+ * only the lower triangle is used. */
+typedef struct sli_dense_front {
+  sl_int rows, columns; /* rows and columns are numbered alike; the columns come first */
+  sl_int *index;        /* rows: columns of L */
+  double *values;       /* rows x rows */
+  double *D, *E;        /* columns: the pivots found, E as in sl_factor */
+} sli_dense_front;
+
+typedef struct sli_pivot_search {
+  const sl_symbolic *S;
+  sl_allocator allocator;
+  sli_contribution *contributions; /* n_supers */
+  sl_int *local;                   /* n: the row of each column of L in the current front */
+  sl_int *order;                   /* n: the columns of S in the order of elimination */
+  unsigned char *is_first;         /* n: by position in order, is it the first of a pair? */
+  sl_int selected;                 /* length of order */
+  sl_int delayed;                  /* how often a column was delayed */
+  void *front_block;               /* memory of the current front; grows */
+  size_t front_size;
+} sli_pivot_search;
+
+SLI_INLINE double *sli_dense_column(const sli_dense_front *f, sl_int j) {
+  return f->values + (size_t)f->rows * (size_t)j;
+}
+
+/* The largest magnitude in rows first .. last-1 of a column, except rows a and b, and its row. */
+static double sli_column_max(const double *column, sl_int first, sl_int last, sl_int a, sl_int b,
+               sl_int *row) {
+  double most = 0.0;
+  sl_int i;
+  for (i = first; i < last; i++) {
+    const double size = fabs(column[i]);
+    if (size > most && i != a && i != b) {
+      most = size;
+      *row = i;
+    }
+  }
+  return most;
+}
+
+/* Tests column c after k pivots. Returns the size of an acceptable pivot, 1 or 2 with *partner, or
+ * 0. */
+static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *partner) {
+  const double *column = sli_dense_column(f, c), *other;
+  sl_int t = -1, row = -1;
+  double e, most, rest, a, b, room, rest_t;
+  e = sli_column_max(column, k, f->columns, c, c, &t);
+  rest = sli_column_max(column, f->columns, f->rows, c, c, &row);
+  most = e > rest ? e : rest;
+  if (fabs(column[c]) >= SLI_PIVOT_THRESHOLD * most && (column[c] != 0.0 || most == 0.0)) {
+    return 1;
+  }
+  if (t == -1) {
+    return 0;
+  }
+  other = sli_dense_column(f, t);
+  rest = sli_column_max(column, k, f->rows, c, t, &row);
+  rest_t = sli_column_max(other, k, f->rows, c, t, &row);
+  a = fabs(column[c] / e);
+  b = fabs(other[t] / e);
+  /* |D^-1| = [b 1; 1 a] / (e |a b - 1|), with the signs of a and b in the determinant */
+  room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
+  *partner = t;
+  return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
+}
+
+/* Exchanges rows and columns i and j of the pivots' part. */
+static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
+  double *a = sli_dense_column(f, i), *b = sli_dense_column(f, j);
+  const sl_int index = f->index[i];
+  sl_int k;
+  if (i == j) {
+    return;
+  }
+  for (k = 0; k < f->rows; k++) {
+    const double keep = a[k];
+    a[k] = b[k];
+    b[k] = keep;
+  }
+  for (k = 0; k < f->columns; k++) {
+    double *column = sli_dense_column(f, k);
+    const double keep = column[i];
+    column[i] = column[j];
+    column[j] = keep;
+  }
+  f->index[i] = f->index[j];
+  f->index[j] = index;
+}
+
+/* Eliminates `size` columns from k on: their columns become those of L, and the remaining columns
+ * are updated. */
+static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
+  double *u = sli_dense_column(f, k), *v = u;
+  sl_int i, j;
+  sli_pair inverse;
+  inverse.p = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
+  inverse.q = inverse.r = 0.0;
+  f->D[k] = u[k];
+  f->E[k] = 0.0;
+  if (size == 2) {
+    v = sli_dense_column(f, k + 1);
+    f->E[k] = u[k + 1];
+    f->D[k + 1] = v[k + 1];
+    f->E[k + 1] = 0.0;
+    inverse = sli_pair_invert(u[k], v[k + 1], u[k + 1]);
+  }
+  for (j = k + size; j < f->columns; j++) { /* x is symmetric: row j of it is in both columns */
+    double *column = sli_dense_column(f, j);
+    const double x = inverse.p * u[j] + inverse.q * v[j];
+    const double y = inverse.q * u[j] + inverse.r * v[j];
+    if (size == 2) {
+      for (i = k + 2; i < f->rows; i++) {
+        column[i] -= u[i] * x + v[i] * y;
+      }
+    } else if (x != 0.0) {
+      for (i = k + 1; i < f->rows; i++) {
+        column[i] -= u[i] * x;
+      }
+    }
+  }
+  for (i = k + size; i < f->rows; i++) {
+    const double x = u[i], y = v[i];
+    u[i] = inverse.p * x + inverse.q * y;
+    if (size == 2) {
+      v[i] = inverse.q * x + inverse.r * y;
+    }
+  }
+}
+
+/* Selects and eliminates pivots while there are acceptable ones. Returns how many columns were
+ * eliminated. */
+static sl_int sli_dense_factor(sli_pivot_search *p, sli_dense_front *f) {
+  sl_int k = 0, c = 0, failures = 0;
+  while (k < f->columns && failures < f->columns - k) {
+    sl_int partner = -1;
+    const int size = sli_pivot_test(f, k, c, &partner);
+    failures = size == 0 ? failures + 1 : 0;
+    if (size > 0) {
+      sli_dense_swap(f, k, c);
+      if (size == 2) {
+        sli_dense_swap(f, k + 1, partner == k ? c : partner);
+      }
+      sli_dense_eliminate(f, k, size);
+      p->is_first[p->selected] = (unsigned char)(size == 2);
+      p->order[p->selected++] = f->index[k];
+      if (size == 2) {
+        p->is_first[p->selected] = 0;
+        p->order[p->selected++] = f->index[k + 1];
+      }
+      k += size;
+    }
+    c = c + 1 < f->columns ? sli_max(c + 1, k) : k;
+  }
+  return k;
+}
+
+/* Subtracts L D L' of the first `pivots` columns, four at a time, from the rows below the columns.
+ */
+static void sli_dense_update(const sli_dense_front *f, sl_int pivots) {
+  sl_int i, j, k, m;
+  for (j = f->columns; j < f->rows; j++) {
+    double *to = sli_dense_column(f, j);
+    for (k = 0; k < pivots; k += 4) {
+      const double *l[4];
+      double x[4];
+      for (m = 0; m < 4; m++) {
+        const sl_int c = sli_min(k + m, pivots - 1);
+        l[m] = sli_dense_column(f, c);
+        x[m] = k + m < pivots ? f->D[c] * l[m][j] : 0.0;
+        if (k + m < pivots && f->E[c] != 0.0) {
+          x[m] += f->E[c] * sli_dense_column(f, c + 1)[j];
+        } else if (k + m < pivots && c > 0 && f->E[c - 1] != 0.0) {
+          x[m] += f->E[c - 1] * sli_dense_column(f, c - 1)[j];
+        }
+      }
+      for (i = j; i < f->rows; i++) {
+        to[i] -= l[0][i] * x[0] + l[1][i] * x[1] + (l[2][i] * x[2] + l[3][i] * x[3]);
+      }
+    }
+  }
+}
+
+/* Adds a value at a row and a column of the front. */
+SLI_INLINE void sli_dense_add(const sli_dense_front *f, sl_int i, sl_int j, double value) {
+  const sl_int low = sli_min(i, j), high = sli_max(i, j);
+  sli_dense_column(f, low)[high] += value;
+  if (high < f->columns && low != high) {
+    sli_dense_column(f, high)[low] += value;
+  }
+}
+
+/* Adds the entries of A in the columns of supernode s. */
+static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_int s,
+                 const sli_dense_front *f, sl_stats *stats) {
+  const sl_symbolic *S = p->S;
+  sl_int tile = sli_last_tile(S, s), i, j;
+  sl_off m;
+  for (m = S->scatter_begin[s + 1] - 1; m >= S->scatter_begin[s]; m--) {
+    const sl_int from = S->scatter_from[m];
+    if (!sli_is_finite(A->x[from])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[from], sli_column_of(A, from),
+                 A->x[from]);
+    }
+    sli_scatter_map_pivots(S, s, m, &tile, &i, &j);
+    sli_dense_add(f, p->local[i], p->local[j], A->x[from]);
+  }
+  return SL_OK;
+}
+
+static void sli_search_assemble(const sli_pivot_search *p, const sli_contribution *c,
+                const sli_dense_front *f) {
+  sl_int i, j;
+  for (j = 0; j < c->count; j++) {
+    const double *column = c->values + (size_t)c->count * (size_t)j;
+    const sl_int to = p->local[c->index[j]];
+    for (i = j; i < c->count; i++) {
+      sli_dense_add(f, p->local[c->index[i]], to, column[i]);
+    }
+  }
+}
+
+/* Makes an empty front of supernode s: the columns that its children delay, its own, and the rows
+ * below. */
+static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front *f) {
+  const sl_symbolic *S = p->S;
+  sli_block b = {NULL, 0, 0};
+  sl_int c, k, at = 0;
+  int pass;
+  f->columns = S->steps[s].width;
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    f->columns += p->contributions[c].delayed;
+  }
+  f->rows = f->columns + S->steps[s].below;
+  for (pass = 0; pass < 2; pass++) {
+    f->index = SLI_TAKE(&b, sl_int, f->rows);
+    f->D = SLI_TAKE(&b, double, f->columns);
+    f->E = SLI_TAKE(&b, double, f->columns);
+    f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
+    if (b.overflow) {
+      return SL_ERR_TOO_LARGE;
+    }
+    if (pass == 0 && b.used > p->front_size) {
+      sli_free(&p->allocator, p->front_block);
+      p->front_size = 0;
+      p->front_block = sli_alloc(&p->allocator, b.used);
+      if (p->front_block == NULL) {
+        return SL_ERR_MEMORY;
+      }
+      p->front_size = b.used;
+    }
+    b.base = (unsigned char *)p->front_block;
+    b.used = 0;
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    for (k = 0; k < p->contributions[c].delayed; k++) {
+      f->index[at++] = p->contributions[c].index[k];
+    }
+  }
+  for (k = 0; k < S->steps[s].width; k++) {
+    f->index[at++] = S->super_first[s] + k;
+  }
+  for (k = 0; k < S->steps[s].below; k++) {
+    f->index[at++] = S->rows[S->rows_begin[s] + k];
+  }
+  for (k = 0; k < f->rows; k++) {
+    p->local[f->index[k]] = k;
+  }
+  memset(f->values, 0, (size_t)f->rows * (size_t)f->rows * sizeof(double));
+  return SL_OK;
+}
+
+/* Keeps what is left of a front after `pivots` columns for its parent. */
+static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
+                 sl_int pivots) {
+  sli_contribution *c = &p->contributions[s];
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int j;
+  int pass;
+  c->delayed = f->columns - pivots;
+  c->count = f->rows - pivots;
+  p->delayed += c->delayed;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c->index = SLI_TAKE(&b, sl_int, c->count);
+    c->values = SLI_TAKE(&b, double, (uint64_t)c->count *(uint64_t)c->count);
+    status = pass == 0 ? sli_block_alloc(&b, &p->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  c->block = b.base;
+  memcpy(c->index, f->index + pivots, (size_t)c->count * sizeof(sl_int));
+  for (j = 0; j < c->count; j++) {
+    memcpy(c->values + (size_t)c->count * (size_t)j + j,
+         sli_dense_column(f, pivots + j) + pivots + j,
+         (size_t)(c->count - j) * sizeof(double));
+  }
+  return SL_OK;
+}
+
+/* Selects the pivots of supernode s and of what its children delayed. */
+static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
+                    sl_stats *stats) {
+  const sl_symbolic *S = p->S;
+  sli_dense_front f;
+  sl_status status = sli_search_front(p, s, &f);
+  sl_int c, k;
+  if (status == SL_OK) {
+    status = sli_search_load(p, A, s, &f, stats);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    sli_search_assemble(p, &p->contributions[c], &f);
+    sli_free(&p->allocator, p->contributions[c].block);
+    p->contributions[c].block = NULL;
+  }
+  k = sli_dense_factor(p, &f);
+  if (S->super_parent[s] != -1) {
+    sli_dense_update(&f, k);
+    return sli_search_keep(p, s, &f, k);
+  }
+  for (; k < f.columns; k++) { /* not finite: the factorization refuses them */
+    p->is_first[p->selected] = 0;
+    p->order[p->selected++] = f.index[k];
+  }
+  return SL_OK;
+}
+
+static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
+  p->contributions = SLI_TAKE(b, sli_contribution, p->S->n_supers);
+  p->local = SLI_TAKE(b, sl_int, p->S->n);
+  p->order = SLI_TAKE(b, sl_int, p->S->n);
+  p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
+}
+
+/* Selects all pivots of a matrix that has the analyzed pattern. p has its memory. */
+static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
+  sl_status status = SL_OK;
+  sl_int s;
+  memset(p->contributions, 0, (size_t)p->S->n_supers * sizeof(sli_contribution));
+  for (s = 0; s < p->S->n_supers && status == SL_OK; s++) {
+    status = sli_search_supernode(p, A, s, stats);
+  }
+  for (s = 0; s < p->S->n_supers; s++) {
+    sli_free(&p->allocator, p->contributions[s].block);
+  }
+  sli_free(&p->allocator, p->front_block);
+  SLI_ASSERT(status != SL_OK || p->selected == p->S->n);
+  return status;
+}
+
+/* src/impl/factor/pivoted.h: sl_symbolic_create_pivoted: an analysis whose order follows the values of a matrix */
+
+/* Analyzes A again, in the order of the pivots that were found. */
+static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *p, const sl_csc *A,
+                   const sl_options *opt, sl_stats *stats) {
+  sl_options given = sli_options_with(&p->allocator);
+  const sl_symbolic_info *first = &p->S->stats.symbolic;
+  sl_int k, pairs = 0;
+  sl_stats found;
+  sl_status status;
+  for (k = 0; k < p->S->n; k++) {
+    p->local[k] = p->S->perm[p->order[k]];
+    pairs += p->is_first[k];
+  }
+  given.ordering = SL_ORDERING_GIVEN;
+  given.perm = p->local;
+  given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
+  given.triangle = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
+  status = sli_symbolic_create(out, A, pairs > 0 ? p->is_first : NULL, &given, &found);
+  if (status == SL_OK) {
+    sl_symbolic_info *info = &(*out)->stats.symbolic;
+    (*out)->is_pivoted = 1;
+    info->delayed = p->delayed;
+    info->seconds_order = first->seconds_order;
+    info->seconds_analyze += first->seconds_analyze;
+    if (stats != NULL) {
+      stats->symbolic = *info;
+    }
+  }
+  return status;
+}
+
+SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
+                      const sl_options *opt, sl_stats *stats) {
+  double started;
+  sli_pivot_search p;
+  sl_symbolic *S = NULL;
+  sl_stats found;
+  sli_block b = {NULL, 0, 0};
+  sl_status status;
+  int pass;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status = sl_symbolic_create(&S, A, opt, &found);
+  if (status != SL_OK) {
+    return stats == NULL ? status
+               : sli_fail_at(stats, status, found.error.row, found.error.column,
+                       found.error.value);
+  }
+  memset(&p, 0, sizeof p);
+  p.S = S;
+  p.allocator = S->allocator;
+  started = sli_seconds();
+  status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_search_layout(&p, &b);
+    status = pass == 0 ? sli_block_alloc(&b, &p.allocator) : SL_OK;
+  }
+  status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
+  S->stats.symbolic.seconds_analyze += sli_seconds() - started;
+  status = status == SL_OK ? sli_pivoted_analyze(out, &p, A, opt, stats) : status;
+  sli_free(&p.allocator, b.base);
+  sl_symbolic_free(S);
+  return status;
 }
 
 /* src/impl/factor/scatter.h: scatters a matrix into a value array in the order of the scatter map */
@@ -10269,6 +11242,298 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
   return status;
 }
 
+/* src/impl/factor/null_vectors.h: before a factorization: components of A, and which of them have a null vector */
+
+/* Rounding alone cannot tell whether a small pivot is null: the rounding error of a pivot comes
+ * from all rows before it, which may be much heavier than its own row. The structure can tell. Let
+ * z be a vector with A z = 0 in a connected component C of A, not 0 in the last row k of C. The
+ * Schur complement of all rows of C before k is the pivot d of row k, and d z(k) = 0. So this pivot
+ * is null, whatever rounding makes of it. If A is semidefinite and z spans its null space in C, no
+ * other pivot of C is null.
+ *
+ * A z = 0 is tested row by row with a bound on the rounding errors of the entries and of the
+ * product, |A z|_i <= 16 n_i epsilon (|A| |z|)_i, where row i has n_i entries [Hi02] 3.1. A
+ * diagonal that is the sum of n_i - 1 weights needs n_i epsilon / 2 for itself and as much for the
+ * product. The factor 16 is for entries that are themselves sums with cancellation, such as
+ * cotangent weights.
+ *
+ * Components are those of the graph of nonzero values, so that explicit zeros separate, and so do
+ * duplicates that cancel. */
+
+/* The last pivot of the component of row k, as far as entries were joined. Halves the path. */
+SLI_INLINE sl_int sli_component_last(sli_null_row *rows, sl_int k) {
+  while (rows[k].last != k) {
+    rows[k].last = rows[rows[k].last].last;
+    k = rows[k].last;
+  }
+  return k;
+}
+
+/* What is left of a product with A. The entries come backward; duplicates are neighbors. */
+typedef struct sli_null_product_state {
+  sli_null_row *rows;
+  double *diagonal; /* n: the diagonal of A; NULL: not needed */
+  sl_off to;        /* where the last entry goes in L; -1: none */
+  sl_int k, j;      /* its pivots */
+  double value;     /* the sum of the duplicates so far */
+} sli_null_product_state;
+
+/* Joins the components of the entry that is complete now. */
+SLI_INLINE void sli_null_product_join(const sli_null_product_state *p) {
+  if (p->to != -1 && p->k != p->j && p->value != 0.0) {
+    const sl_int x = sli_component_last(p->rows, p->k), y = sli_component_last(p->rows, p->j);
+    p->rows[sli_min(x, y)].last = sli_max(x, y);
+  }
+}
+
+/* Adds the map entries first .. first+count-1 of supernode s, whose values are a. Runs backward. */
+static void sli_null_product_add(const sl_symbolic *S, sl_int s, sl_off first, sl_int count,
+                 const double *values, const sl_int *scatter_from, sl_int *tile,
+                 sli_null_product_state *p) {
+  sli_null_row *rows = p->rows;
+  sl_int m;
+  for (m = count - 1; m >= 0; m--) {
+    const double a = values[scatter_from != NULL ? scatter_from[first + m] : m];
+    double term;
+    if (S->scatter_to[first + m] != p->to) {
+      sli_null_product_join(p);
+      sli_scatter_map_pivots(S, s, first + m, tile, &p->k, &p->j);
+      p->to = S->scatter_to[first + m];
+      p->value = 0.0;
+    }
+    p->value += a;
+    term = a * rows[p->j].z;
+    rows[p->k].product += term;
+    rows[p->k].size += fabs(term);
+    rows[p->k].entries++;
+    if (p->k != p->j) {
+      term = a * rows[p->k].z;
+      rows[p->j].product += term;
+      rows[p->j].size += fabs(term);
+      rows[p->j].entries++;
+    } else if (p->diagonal != NULL) {
+      p->diagonal[p->k] += a;
+    }
+  }
+}
+
+/* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal. Supernodes descend:
+ * most rows then find the last pivot of their component at once. */
+static void sli_null_product(const sl_symbolic *S, const sli_source *from, sli_null_row *rows,
+               double *diagonal) {
+  double sums[SLI_SUM_ENTRIES];
+  sli_null_product_state p;
+  sl_int s, k;
+  memset(&p, 0, sizeof p);
+  p.rows = rows;
+  p.diagonal = diagonal;
+  p.to = -1;
+  for (k = 0; k < S->n; k++) {
+    rows[k].product = rows[k].size = 0.0;
+    rows[k].entries = 0;
+    rows[k].last = k;
+    if (diagonal != NULL) {
+      diagonal[k] = 0.0;
+    }
+  }
+  for (s = S->n_supers - 1; s >= 0; s--) {
+    const sl_off begin = S->scatter_begin[s];
+    sl_off end = S->scatter_begin[s + 1];
+    sl_int tile = sli_last_tile(S, s);
+    while (end > begin) {
+      const sl_int count =
+        (sl_int)(end - begin < SLI_SUM_ENTRIES ? end - begin : SLI_SUM_ENTRIES);
+      end -= count;
+      if (from->A != NULL) {
+        sli_null_product_add(S, s, end, count, from->A->x, S->scatter_from, &tile, &p);
+      } else {
+        sli_source_sum(from, end, count, sums);
+        sli_null_product_add(S, s, end, count, sums, NULL, &tile, &p);
+      }
+    }
+  }
+  sli_null_product_join(&p);
+}
+
+/* Can (A z)(k), as computed, be the rounding error of 0? */
+SLI_INLINE int sli_null_row_is_zero(const sli_null_row *row) {
+  const double bound = 16.0 * DBL_EPSILON * row->entries * row->size;
+  return fabs(row->product) <= bound && sli_is_finite(bound);
+}
+
+/* After sli_null_product: the last pivots of all components are final, and `entries` of the last
+ * row becomes 1 if z is a null vector of the component, 0 if not. */
+static void sli_null_components(sli_null_row *rows, sl_int n) {
+  sl_int k;
+  for (k = n - 1; k >= 0; k--) { /* descending: the last pivot comes first */
+    rows[k].last = rows[k].last == k ? k : rows[rows[k].last].last;
+    rows[k].entries = sli_null_row_is_zero(&rows[k]) && (rows[k].last != k || rows[k].z != 0.0);
+    if (!rows[k].entries) {
+      rows[rows[k].last].entries = 0;
+    }
+  }
+}
+
+/* Sets the kind of every pivot. */
+static void sli_null_kinds_fill(sl_factor *F) {
+  sl_int k;
+  for (k = 0; k < F->S->n; k++) {
+    const sl_int last = F->rows[k].last;
+    if (!F->rows[last].entries) {
+      F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
+    } else if (k == last) {
+      F->rule.kinds[k] = SLI_PIVOT_NULL;
+    } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
+      F->rule.kinds[k] = SLI_PIVOT_KEPT;
+    }
+  }
+}
+
+/* g := z in each tree with one component of several rows whose null vector is known, else 0. */
+static void sli_null_vectors_load(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int k, first = 0, only = -1, count = 0;
+  for (k = 0; k < S->n; k++) {
+    const sl_int last = F->rows[k].last;
+    if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
+      only = last; /* two components may alternate: then more than one is counted anyway */
+      count++;
+    }
+    if (S->parent[k] == -1) {
+      for (; first <= k; first++) {
+        F->g[first] = count == 1 && F->rows[first].last == only ? F->rows[first].z : 0.0;
+      }
+      count = 0;
+      only = -1;
+    }
+  }
+}
+
+/* g := L' g in the columns of supernode s; the rows below still hold z. z: scratch for the rows of
+ * the front. */
+static void sli_null_vectors_multiply(const sl_factor *F, sl_int s, double *z) {
+  const sl_symbolic *S = F->S;
+  const sli_step *step = &S->steps[s];
+  const sl_int w = step->width, height = w + step->below;
+  const sl_int *rows = S->rows + S->rows_begin[s];
+  double *g = F->g + step->column;
+  sl_int t, j, r;
+  for (r = 0; r < SLI_TILE * sli_tiles(height); r++) {
+    z[r] = r < w ? g[r] : r < height ? F->g[rows[r - w]] : 0.0;
+  }
+  for (t = 0; t < sli_tiles(height); t++) {
+    const double *tile = F->L + step->panel + sli_tile_offset(w, t);
+    for (j = 0; j < sli_min(w, SLI_TILE * (t + 1)); j++) {
+      const double *l = tile + SLI_TILE * (ptrdiff_t)j, *x = z + SLI_TILE * (ptrdiff_t)t;
+      /* g(j) += L(rows, j)' z(rows); the pairs are independent of each other */
+      g[j] += ((l[0] * x[0] + l[1] * x[1]) + (l[2] * x[2] + l[3] * x[3])) +
+          ((l[4] * x[4] + l[5] * x[5]) + (l[6] * x[6] + l[7] * x[7]));
+    }
+  }
+}
+
+/* May both be diagonal entries of one semidefinite component of several rows? NaN passes. */
+SLI_INLINE int sli_signs_agree(double a, double b) {
+  return a != 0.0 && b != 0.0 && !(a < 0.0 && b > 0.0) && !(a > 0.0 && b < 0.0);
+}
+
+/* The rounding error that the heaviest rows of a matrix may cause in a pivot, relative to their
+ * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign
+ * stayed below (128 + n/4) epsilon. The factor 16 leaves a margin. */
+static double sli_null_rounding(sl_int n) {
+  return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
+}
+
+/* Finds the components of A and those whose null vector is known, and with them the kind of every
+ * pivot. Refuses a matrix whose diagonal shows that it is indefinite. An entry that is not finite
+ * is left to the factorization. */
+static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
+                    sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const double rounding = sli_null_rounding(S->n), *diagonal = F->g;
+  sl_int k, refused = -1;
+  F->stats.factor.regular = 0;
+  sli_null_product(S, from, F->rows, F->g);
+  sli_null_components(F->rows, S->n);
+  memset(F->rounding, 0, (size_t)S->n * sizeof(double));
+  for (k = 0; k < S->n; k++) {
+    const sl_int last = F->rows[k].last;
+    const double here = rounding * fabs(diagonal[k]);
+    if (refused == -1 && last != k && !sli_signs_agree(diagonal[k], diagonal[last])) {
+      refused = diagonal[last] == 0.0 ? last : k;
+    }
+    F->rule.signs[k] = diagonal[last] < 0.0 ? -1 : 1;
+    F->rounding[last] = here > F->rounding[last] ? here : F->rounding[last];
+  }
+  for (k = 0; k < S->n; k++) { /* ascending: the last pivot of a component comes last */
+    F->rounding[k] = F->rounding[F->rows[k].last];
+  }
+  if (refused != -1) {
+    memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
+    return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
+            diagonal[refused]);
+  }
+  F->rule.rounding = F->rounding;
+  sli_null_kinds_fill(F);
+  sli_null_vectors_load(F);
+  return SL_OK;
+}
+
+/* Are all pivots that were skipped before still null, or judged by the tolerance? */
+static int sli_nulls_remain(const sl_factor *F) {
+  sl_int m;
+  for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
+    if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Where null pivots are refused: may a root of the elimination forest be a null pivot that the
+ * tolerance missed, because its rounding error comes from heavier rows? Reads D only. */
+static int sli_null_is_suspected(const sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  const double rounding = sli_null_rounding(S->n);
+  double most = 0.0;
+  sl_int k;
+  for (k = 0; k < S->n && !F->rule.replaces && F->rule.null_tolerance >= 0.0; k++) {
+    most = fabs(F->D[k]) > most ? fabs(F->D[k]) : most;
+    if (S->parent[k] == -1) {
+      if (fabs(F->D[k]) <= rounding * most) {
+        return 1;
+      }
+      most = 0.0;
+    }
+  }
+  return 0;
+}
+
+/* Refuses A if constants are a null vector of a component whose last pivot is suspected. Overwrites
+ * L, which has 8 doubles or more for each column. */
+static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
+                    sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const double rounding = sli_null_rounding(S->n);
+  sli_null_row *rows = (sli_null_row *)(void *)F->L;
+  sl_int k;
+  for (k = 0; k < S->n; k++) {
+    rows[k].z = 1.0;
+  }
+  sli_null_product(S, from, rows, NULL);
+  sli_null_components(rows, S->n);
+  for (k = 0; k < S->n; k++) { /* the heaviest pivot of each component, in its last row */
+    double *most = &rows[rows[k].last].size; /* at least the diagonal entry's share already */
+    *most = fabs(F->D[k]) > *most ? fabs(F->D[k]) : *most;
+  }
+  for (k = 0; k < S->n; k++) {
+    if (rows[k].last == k && rows[k].entries && fabs(F->D[k]) <= rounding * rows[k].size) {
+      return sli_fail(failure, SL_ERR_PIVOT, S->super_of[k], k, -1, F->D[k]);
+    }
+  }
+  return SL_OK;
+}
+
 /* src/impl/factor/multifrontal.h: supernodal factorization: fronts in postorder pass update matrices upward */
 
 /* What the workers of one parallel call share. First each worker factors whole subtrees; then all
@@ -10289,6 +11554,8 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   f.below = step->below;
   f.update = F->stack + F->schedule.stack_begin[s];
   f.D = F->D + step->column;
+  f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
+  f.E = F->E == NULL ? NULL : F->E + step->column;
   f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
   f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
   f.rule = &F->rule;
@@ -10362,7 +11629,22 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
   sl_status status = SL_OK;
   sl_int k;
   for (k = 0; k < f->width && status == SL_OK; k++) {
-    status = sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+    status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
+           ? sli_check_pair(F, first + k, f->magnitude + k, failure)
+           : sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+  }
+  return status;
+}
+
+/* The end of a front: what its parent needs, its pivots, and its part of g while the panel is in
+ * the cache. */
+static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
+                  sli_failure *failure) {
+  sl_status status;
+  sli_front_hand_over(f);
+  status = sli_front_check(F, f, s, failure);
+  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    sli_null_vectors_multiply(F, s, f->magnitude);
   }
   return status;
 }
@@ -10400,8 +11682,7 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
   sli_front_assemble(F, &f, s, 0, tiles);
   sli_front_eliminate(F->kernels, &f, scratch);
   sli_front_update(F->kernels, &f, scratch);
-  sli_front_hand_over(&f);
-  return sli_front_check(F, &f, s, failure);
+  return sli_front_finish(F, &f, s, failure);
 }
 
 /* Factors worker k's subtrees. A failure ends the subtree only: the failure to report is the first
@@ -10480,8 +11761,7 @@ static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
   if (job->front.below > 0) {
     sli_parallel(threads, workers, sli_shared_update, job);
   }
-  sli_front_hand_over(&job->front);
-  return sli_front_check(F, &job->front, job->super, failure);
+  return sli_front_finish(F, &job->front, job->super, failure);
 }
 
 /* Factors the whole matrix, which has the analyzed pattern. [DR83], [Liu92] */
@@ -10514,208 +11794,6 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
     sli_keep_first_failure(failure, &here);
   }
   return failure->status;
-}
-
-/* src/impl/factor/null_vectors.h: before a factorization: components of A, and which of them have a null vector */
-
-/* Rounding alone cannot tell whether a small pivot is null: the rounding error of a pivot comes
- * from all rows before it, which may be much heavier than its own row. The structure can tell. Let
- * z be a vector with A z = 0 in a connected component C of A, not 0 in the last row k of C. The
- * Schur complement of all rows of C before k is the pivot d of row k, and d z(k) = 0. So this pivot
- * is null, whatever rounding makes of it. If A is semidefinite and z spans its null space in C, no
- * other pivot of C is null.
- *
- * A z = 0 is tested row by row with a bound on the rounding errors of the entries and of the
- * product, |A z|_i <= 16 n_i epsilon (|A| |z|)_i, where row i has n_i entries [Hi02] 3.1. A
- * diagonal that is the sum of n_i - 1 weights needs n_i epsilon / 2 for itself and as much for the
- * product. The factor 16 is for entries that are themselves sums with cancellation, such as
- * cotangent weights.
- *
- * Components are those of the graph of nonzero entries, so that explicit zeros separate. Duplicates
- * count as entries even where they cancel. */
-
-/* The last pivot of the component of row k, as far as entries were joined. Halves the path. */
-SLI_INLINE sl_int sli_component_last(sl_int *last, sl_int k) {
-  while (last[k] != k) {
-    last[k] = last[last[k]];
-    k = last[k];
-  }
-  return k;
-}
-
-/* What sli_null_product computes besides A v. */
-typedef struct sli_null_work {
-  double *product;  /* n: A v */
-  double *size;     /* n: |A| |v| */
-  double *diagonal; /* n: the diagonal of A; NULL: not needed, nor are the next two */
-  sl_int *entries;  /* n: entries in each row */
-  sl_int *last;     /* n: joins the components */
-} sli_null_work;
-
-/* Adds the map entries first .. first+count-1 of supernode s, whose values are a. Runs backward. */
-static void sli_null_product_add(const sl_symbolic *S, sl_int s, sl_off first, sl_int count,
-                 const double *values, const sl_int *scatter_from, const double *v,
-                 sl_int *tile, const sli_null_work *w) {
-  sl_int m, k, j;
-  for (m = count - 1; m >= 0; m--) {
-    const double a = values[scatter_from != NULL ? scatter_from[first + m] : m];
-    sli_scatter_map_pivots(S, s, first + m, tile, &k, &j);
-    w->product[k] += a * v[j];
-    w->size[k] += fabs(a * v[j]);
-    if (k != j) {
-      w->product[j] += a * v[k];
-      w->size[j] += fabs(a * v[k]);
-    }
-    if (w->diagonal != NULL && k == j) {
-      w->diagonal[k] += a;
-      w->entries[k]++;
-    } else if (w->diagonal != NULL && a != 0.0) {
-      const sl_int x = sli_component_last(w->last, k), y = sli_component_last(w->last, j);
-      w->last[sli_min(x, y)] = sli_max(x, y);
-      w->entries[k]++;
-      w->entries[j]++;
-    }
-  }
-}
-
-/* Computes A v and |A| |v|, and the components if w asks for them. */
-static void sli_null_product(const sl_factor *F, const sli_source *from, const double *v,
-               const sli_null_work *w) {
-  const sl_symbolic *S = F->S;
-  const size_t bytes = (size_t)S->n * sizeof(double);
-  double sums[SLI_SUM_ENTRIES];
-  sl_int s, k;
-  memset(w->product, 0, bytes);
-  memset(w->size, 0, bytes);
-  for (k = 0; k < S->n && w->diagonal != NULL; k++) {
-    w->diagonal[k] = 0.0;
-    w->entries[k] = 0;
-    w->last[k] = k;
-  }
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_off begin = S->scatter_begin[s];
-    sl_off end = S->scatter_begin[s + 1];
-    sl_int tile = sli_last_tile(S, s);
-    while (end > begin) {
-      const sl_int count =
-        (sl_int)(end - begin < SLI_SUM_ENTRIES ? end - begin : SLI_SUM_ENTRIES);
-      end -= count;
-      if (from->A != NULL) {
-        sli_null_product_add(S, s, end, count, from->A->x, S->scatter_from, v, &tile, w);
-      } else {
-        sli_source_sum(from, end, count, sums);
-        sli_null_product_add(S, s, end, count, sums, NULL, v, &tile, w);
-      }
-    }
-  }
-}
-
-/* Sets the kind of every pivot. is_null: of the last pivot of each component. */
-static void sli_null_kinds_fill(sl_factor *F, const signed char *is_null) {
-  sl_int k;
-  for (k = 0; k < F->S->n; k++) {
-    const sl_int last = F->last[k];
-    if (!is_null[last]) {
-      F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
-    } else if (k == last) {
-      F->rule.kinds[k] = SLI_PIVOT_NULL;
-    } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
-      F->rule.kinds[k] = SLI_PIVOT_KEPT;
-    }
-  }
-}
-
-/* g := z in each tree with one component of several rows whose null vector is known, else 0. */
-static void sli_null_vectors_load(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  sl_int k, first = 0, only = -1, count = 0;
-  for (k = 0; k < S->n; k++) {
-    const sl_int last = F->last[k];
-    if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
-      only = last; /* two components may alternate: then more than one is counted anyway */
-      count++;
-    }
-    if (S->parent[k] == -1) {
-      for (; first <= k; first++) {
-        F->g[first] = count == 1 && F->last[first] == only ? F->z[first] : 0.0;
-      }
-      count = 0;
-      only = -1;
-    }
-  }
-}
-
-/* May both be diagonal entries of one semidefinite component of several rows? NaN passes. */
-SLI_INLINE int sli_signs_agree(double a, double b) {
-  return a != 0.0 && b != 0.0 && !(a < 0.0 && b > 0.0) && !(a > 0.0 && b < 0.0);
-}
-
-/* Finds the components of A and those whose null vector is known, and with them the kind of every
- * pivot. Refuses a matrix whose diagonal shows that it is indefinite. An entry that is not finite
- * is left to the factorization. */
-static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
-                    sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sli_null_work w;
-  signed char *is_null = F->rule.signs; /* of the last pivot; replaced by the signs at the end */
-  sl_int k, refused = -1;
-  w.product = F->product;
-  w.size = F->size;
-  w.diagonal = F->g;
-  w.entries = F->entries;
-  w.last = F->last;
-  F->stats.factor.regular = 0;
-  sli_null_product(F, from, F->z, &w);
-  for (k = S->n - 1; k >= 0; k--) { /* descending: the last pivot comes first */
-    F->last[k] = F->last[k] == k ? k : F->last[F->last[k]];
-    if (F->last[k] == k) {
-      is_null[k] = F->z[k] != 0.0;
-    }
-  }
-  for (k = 0; k < S->n; k++) {
-    const double bound = 16.0 * DBL_EPSILON * F->entries[k] * F->size[k];
-    if (!(fabs(F->product[k]) <= bound) || !sli_is_finite(bound)) {
-      is_null[F->last[k]] = 0;
-    }
-    if (refused == -1 && F->last[k] != k && !sli_signs_agree(F->g[k], F->g[F->last[k]])) {
-      refused = F->g[F->last[k]] == 0.0 ? F->last[k] : k;
-    }
-  }
-  /* the diagonal is in g until here */
-  for (k = 0; k < S->n; k++) {
-    F->product[k] = F->g[F->last[k]] < 0.0 ? -1.0 : 1.0;
-  }
-  if (refused != -1) {
-    memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
-    return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1, F->g[refused]);
-  }
-  sli_null_kinds_fill(F, is_null);
-  for (k = 0; k < S->n; k++) {
-    F->rule.signs[k] = (signed char)F->product[k];
-    F->size[k] = 0.0;
-  }
-  /* Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign stayed below
-   * (128 + n/4) epsilon times the largest diagonal entry. The factor 16 leaves a margin. */
-  for (k = 0; k < S->n; k++) {
-    const double here = 16.0 * (64.0 + S->n / 8) * DBL_EPSILON * fabs(F->g[k]);
-    F->size[F->last[k]] = here > F->size[F->last[k]] ? here : F->size[F->last[k]];
-  }
-  for (k = 0; k < S->n; k++) { /* ascending: the last pivot of a component comes last */
-    F->size[k] = F->size[F->last[k]];
-  }
-  F->rule.rounding = F->size;
-  return SL_OK;
-}
-
-/* Are all pivots that were skipped before still null, or judged by the tolerance? */
-static int sli_nulls_remain(const sl_factor *F) {
-  sl_int m;
-  for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
-    if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
-      return 0;
-    }
-  }
-  return 1;
 }
 
 /* src/impl/factor/nullspace.h: after a factorization: the null pivots, and constants for centered solves */
@@ -10836,7 +11914,9 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   F->ratios[m] = 1.0;
   if (F->g[anchor] != 0.0) {
     for (k = first; k <= root; k++) {
-      const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
+      const sli_null_row *row = &F->rows[k];
+      const double term =
+        row->last == anchor ? row->z / F->rows[anchor].z * F->mass[k] : 0.0;
       z_m += term;
       size += fabs(term);
     }
@@ -10878,43 +11958,33 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   return status;
 }
 
-/* g := L' g, in place: ascending, because a column needs the rows below it only. */
-static void sli_null_vectors_multiply(sl_factor *F) {
-  const sl_symbolic *S = F->S;
-  double *z = F->center_scratch;
-  sl_int s, t, j, r;
-  for (s = 0; s < S->n_supers; s++) {
-    const sli_step *step = &S->steps[s];
-    const sl_int w = step->width, height = w + step->below;
-    const sl_int *rows = S->rows + S->rows_begin[s];
-    double *g = F->g + step->column;
-    for (r = 0; r < SLI_TILE * sli_tiles(height); r++) {
-      z[r] = r < w ? g[r] : r < height ? F->g[rows[r - w]] : 0.0;
-    }
-    for (t = 0; t < sli_tiles(height); t++) {
-      const double *tile = F->L + step->panel + sli_tile_offset(w, t);
-      for (j = 0; j < sli_min(w, SLI_TILE * (t + 1)); j++) {
-        const double *l = tile + SLI_TILE * (ptrdiff_t)j, *x = z + SLI_TILE * (ptrdiff_t)t;
-        /* g(j) += L(rows, j)' z(rows); the pairs are independent of each other */
-        g[j] += ((l[0] * x[0] + l[1] * x[1]) + (l[2] * x[2] + l[3] * x[3])) +
-            ((l[4] * x[4] + l[5] * x[5]) + (l[6] * x[6] + l[7] * x[7]));
-      }
-    }
+/* Exchanges g and the assumed null vectors. */
+static void sli_null_vectors_swap(sl_factor *F) {
+  sl_int k;
+  for (k = 0; k < F->S->n; k++) {
+    const double z = F->rows[k].z;
+    F->rows[k].z = F->g[k];
+    F->g[k] = z;
   }
 }
 
 /* Checks the null pivots that the tolerance has found: a random combination z of their null vectors
  * L^-T e_k has A z = 0 up to rounding if A is semidefinite. If it is indefinite, a pivot can be
  * null although its column is not, and A z is as large as |A| |z|. */
-static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
+static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from, int *has_g,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  sli_null_work w;
   double *z = F->g;
   uint64_t random = 1;
+  sl_status status = SL_OK;
   sl_int k, m, first = -1;
-  memset(&w, 0, sizeof w);
+  for (m = F->n_nulls - 1; m >= 0; m--) {
+    first = F->rule.kinds[F->nulls[m]] == SLI_PIVOT_UNKNOWN ? F->nulls[m] : first;
+  }
+  if (first == -1) {
+    return SL_OK;
+  }
   memset(z, 0, (size_t)S->n * sizeof(double));
   for (m = 0; m < F->n_nulls; m++) {
     k = F->nulls[m];
@@ -10922,44 +11992,45 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
       random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
       /* divided by D(k), which is SLI_NULL_PIVOT, it is between 0.5 and 1 */
       z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
-      first = first == -1 ? k : first;
     }
-  }
-  if (first == -1) {
-    return SL_OK;
   }
   F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
                    F->center_scratch);
-  w.product = F->product;
-  w.size = F->size;
-  sli_null_product(F, from, z, &w);
-  for (k = 0; k < S->n; k++) {
-    if (!(fabs(w.product[k]) <= 1e-4 * w.size[k])) {
-      return sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
+  sli_null_vectors_swap(F);
+  sli_null_product(S, from, F->rows, NULL);
+  sli_null_vectors_swap(F);
+  for (k = 0; k < S->n && status == SL_OK; k++) {
+    if (!(fabs(F->rows[k].product) <= 1e-4 * F->rows[k].size)) {
+      status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
     }
   }
-  return SL_OK;
+  sli_null_components(F->rows, S->n);
+  sli_null_vectors_load(F);
+  *has_g = 0;
+  return status;
 }
 
 /* Counts the components without a null pivot. */
 static sl_int sli_regular_components(const sl_factor *F) {
   sl_int k, m, count = 0;
   for (k = 0; k < F->S->n; k++) {
-    F->entries[k] = F->last[k] == k;
+    F->rows[k].entries = F->rows[k].last == k;
   }
   for (m = 0; m < F->n_nulls; m++) {
-    F->entries[F->last[F->nulls[m]]] = 0;
+    F->rows[F->rows[F->nulls[m]].last].entries = 0;
   }
   for (k = 0; k < F->S->n; k++) {
-    count += F->entries[k];
+    count += F->rows[k].entries;
   }
   return count;
 }
 
-/* Finds the null pivots of a new factorization and prepares solves with them. */
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
+/* Finds the null pivots of a new factorization and prepares solves with them. has_g: g is computed
+ * already; else it holds what sli_null_vectors_load made. */
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, int has_g,
+                sli_failure *failure) {
   sl_status status;
-  sl_int k;
+  sl_int k, s;
   F->n_nulls = 0;
   for (k = 0; k < F->S->n; k++) {
     if (sli_is_skipped(F, k)) {
@@ -10969,10 +12040,9 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
   F->stats.factor.regular = sli_regular_components(F);
   F->is_centered = F->mass != NULL && F->n_nulls > 0;
   F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-  status = sli_null_pivots_verify(F, from, failure);
-  if (status == SL_OK && F->n_nulls > 0) {
-    sli_null_vectors_load(F);
-    sli_null_vectors_multiply(F);
+  status = sli_null_pivots_verify(F, from, &has_g, failure);
+  for (s = 0; s < F->S->n_supers && !has_g && status == SL_OK && F->n_nulls > 0; s++) {
+    sli_null_vectors_multiply(F, s, F->center_scratch); /* ascending: see there */
   }
   return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
@@ -10985,6 +12055,10 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
   const uint64_t workers = (uint64_t)F->schedule.workers;
   (void)sli_take(b, 1, sizeof(sl_factor));
   F->D = SLI_TAKE(b, double, n);
+  if (S->n_pairs > 0) {
+    F->E = SLI_TAKE(b, double, n);
+    F->divisors = SLI_TAKE(b, double, n);
+  }
   if (F->rule.regularization != 0.0) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.shifts = SLI_TAKE(b, double, n);
@@ -10994,12 +12068,9 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     F->nulls = SLI_TAKE(b, sl_int, n);
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.kinds = SLI_TAKE(b, signed char, n);
-    F->z = SLI_TAKE(b, double, n);
+    F->rows = SLI_TAKE(b, sli_null_row, n);
+    F->rounding = SLI_TAKE(b, double, n);
     F->g = SLI_TAKE(b, double, n);
-    F->last = SLI_TAKE(b, sl_int, n);
-    F->product = SLI_TAKE(b, double, n);
-    F->size = SLI_TAKE(b, double, n);
-    F->entries = SLI_TAKE(b, sl_int, n);
     F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
   }
   if (F->is_centered) {
@@ -11095,7 +12166,9 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
   sl_int i;
-  if (F->rule.regularization != 0.0 && opt->signs == NULL) {
+  if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
+    memset(F->rule.signs, 0, (size_t)S->n); /* any sign is right */
+  } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
     F->rule.signs = NULL;
   } else if (F->rule.regularization != 0.0) {
     for (i = 0; i < S->n; i++) {
@@ -11112,7 +12185,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
       if (!sli_is_finite(z)) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
       }
-      F->z[S->iperm[i]] = z;
+      F->rows[S->iperm[i]].z = z;
     }
   }
   return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
@@ -11122,6 +12195,9 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
  * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
  * supernodal method is 1.1 to 6 times faster. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
+  if (S->n_pairs > 0) { /* only fronts have 2x2 pivots */
+    return SL_METHOD_SUPERNODAL;
+  }
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
     return opt->method;
   }
@@ -11158,7 +12234,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     draft.schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(S->n_supers, 1));
   }
   draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
-  if (draft.kernels == NULL) {
+  if (draft.kernels == NULL || (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP)) {
     return SL_ERR_UNSUPPORTED;
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -11171,6 +12247,9 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     draft.stats.factor.isa = draft.kernels->isa;
     draft.stats.factor.method = draft.method;
     *F = draft;
+    if (F->E != NULL) {
+      memset(F->E, 0, (size_t)S->n * sizeof(double));
+    }
     if (F->method == SL_METHOD_SUPERNODAL) {
       status = sli_factor_schedule(F);
     }
@@ -11253,19 +12332,31 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
   stats->error.value = F->stats.error.value;
 }
 
+/* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
+static void sli_pairs_done(sl_factor *F) {
+  sl_int k;
+  F->identity = sli_hash_reals(F->identity, F->E, F->S->n);
+  for (k = 0; k < F->S->n; k++) {
+    F->divisors[k] = F->S->pairs[k] == SLI_PAIR_NONE ? F->D[k] : 1.0;
+  }
+}
+
 /* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
- * and for the caller. */
-static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
-                 double started, sl_stats *stats) {
+ * and for the caller. has_g: see sli_nulls_find. */
+static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g,
+                 sli_failure *failure, double started, sl_stats *stats) {
   sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    (void)sli_nulls_find(F, from, failure);
+    (void)sli_nulls_find(F, from, has_g, failure);
   }
   sli_factor_report(F, from->A, failure);
   F->stats.factor.seconds = sli_seconds() - started;
   F->is_valid = failure->status == SL_OK;
   if (F->is_valid) { /* the pivots show every option that changes numbers by more than rounding */
     F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
+    if (F->E != NULL) {
+      sli_pairs_done(F);
+    }
   }
   F->status = failure->status;
   if (stats != NULL) {
@@ -11291,8 +12382,7 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
   }
   F->identity = sli_hash_reals(F->identity, from->coefficients, from->terms);
   for (t = 0; t < from->terms; t++) {
-    F->identity =
-      sli_hash_reals(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
+    F->identity = sli_hash_reals(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
   }
 }
 
@@ -11301,6 +12391,11 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
 static void sli_factor_begin(sl_factor *F) {
   F->is_valid = 0;
   F->generation++;
+}
+
+static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from, sli_failure *failure) {
+  return F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, failure)
+                       : sli_uplooking(F, from, failure);
 }
 
 /* Computes L and D of a matrix that has the analyzed pattern. */
@@ -11318,11 +12413,11 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     (void)sli_null_vectors_check(F, from, &failure);
   }
-  if (failure.status == SL_OK) {
-    (void)(F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, &failure)
-                         : sli_uplooking(F, from, &failure));
+  if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
+    sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
+    (void)sli_factor_eliminate(F, from, &failure); /* the check has overwritten L */
   }
-  return sli_factor_done(F, from, &failure, started, stats);
+  return sli_factor_done(F, from, F->method == SL_METHOD_SUPERNODAL, &failure, started, stats);
 }
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
@@ -11413,9 +12508,14 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
              from.below - first);
   for (r = first; r < last; r++) { /* add |l d l| to the magnitudes of the pivots */
     const double *l = from.panel + sli_panel_at(w, w + r, 0);
-    for (j = 0; j < w; j++) {
-      f->magnitude[p->relative[r - first]] +=
-        fabs(l[SLI_TILE * (ptrdiff_t)j] * l[SLI_TILE * (ptrdiff_t)j] * from.D[j]);
+    double *magnitude = f->magnitude + p->relative[r - first];
+    for (j = 0; j < w; j++, l += SLI_TILE) {
+      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
+        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
+        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
+      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
+        *magnitude += fabs(*l * *l * from.D[j]);
+      }
     }
   }
 }
@@ -11550,7 +12650,10 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     (void)sli_left_factor_all(F, &work, &from, seeds, count, &failure);
   }
   sli_free(&F->allocator, b.base);
-  return sli_factor_done(F, &from, &failure, started, stats);
+  if (failure.status == SL_OK && sli_null_is_suspected(F)) {
+    return sli_factor_numbers(F, &from, started, stats);
+  }
+  return sli_factor_done(F, &from, 0, &failure, started, stats);
 }
 
 /* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
@@ -11572,7 +12675,13 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_ERR_STATE;
   }
   for (k = 0; k < F->S->n; k++) {
-    sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
+    if (F->E != NULL && F->S->pairs[k] == SLI_PAIR_FIRST) {
+      double values[2];
+      sli_pair_eigenvalues(F, k++, values);
+      sum += log(fabs(values[0])) + log(fabs(values[1]));
+    } else {
+      sum += sli_is_skipped(F, k) ? 0.0 : log(fabs(F->D[k]));
+    }
   }
   *log_abs_det = sum;
   *sign = F->stats.factor.negative % 2 == 0 ? 1.0 : -1.0;
@@ -11673,11 +12782,12 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-  sl_factor_arrays v = {NULL, NULL, NULL};
+  sl_factor_arrays v = {NULL, NULL, NULL, NULL};
   if (F != NULL) {
     v.symbolic = F->S;
     v.L = F->L;
     v.D = F->D;
+    v.E = F->E;
   }
   return v;
 }
@@ -12283,7 +13393,7 @@ static void sli_null_products(const sl_factor *F, const sli_reach *R, double *y,
         }
         sli_chains_sum(chains, lanes, sums);
         for (r = 0; r < lanes; r++) {
-          y[(ptrdiff_t)at * lanes + r] = sums[r] / F->z[null];
+          y[(ptrdiff_t)at * lanes + r] = sums[r] / F->rows[null].z;
         }
         break;
       }
@@ -12400,6 +13510,41 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
 
 #undef SLI_FOR_LANES
 
+/* src/impl/solve/backward.h: the backward sweep of one block: 2x2 pivots first, then the kernel */
+
+/* x := D^-1 x in the columns of 2x2 pivots. A reach begins at a whole tile, and a pair is in one
+ * tile, so both of its columns are there or none. */
+static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, sl_int lanes) {
+  sl_int s, k, r;
+  for (s = 0; s < R->count; s++) {
+    const sli_step *step = &R->steps[s];
+    const sl_int first = step->column, columns = sli_step_columns(step);
+    double *row = x + (ptrdiff_t)step->base * lanes;
+    for (k = first; k < first + columns; k++, row += lanes) {
+      sli_pair inverse;
+      if (F->S->pairs[k] != SLI_PAIR_FIRST) {
+        continue;
+      }
+      inverse = sli_pair_invert(F->D[k], F->D[k + 1], F->E[k]);
+      for (r = 0; r < lanes; r++) {
+        const double u = row[r], v = row[lanes + r];
+        row[r] = inverse.p * u + inverse.q * v;
+        row[lanes + r] = inverse.q * u + inverse.r * v;
+      }
+    }
+  }
+}
+
+/* x := L'^-1 D^-1 x over a reach. scratch: sli_sweep_scratch doubles. */
+static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, double *x,
+             double *scratch) {
+  if (F->E != NULL) {
+    sli_pairs_apply(F, R, x, (sl_int)1 << kind);
+  }
+  F->kernels->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->L,
+                 F->divisors == NULL ? F->D : F->divisors, x, scratch);
+}
+
 /* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
 
 /* Copies y to the backward vector in the columns that are in both reaches; the rest of that vector
@@ -12460,9 +13605,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   if (F->is_centered) {
     sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes);
   }
-  F->kernels->backward[kind](q->backward.count, q->backward.steps,
-                 q->backward.rows + q->backward.n_rows, F->L,
-                 F->is_centered ? F->divisors : F->D, v->x, v->scratch);
+  sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
 /* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */
@@ -13483,8 +14626,7 @@ static double sli_norm_estimate_solve(const sli_norm_estimate *p) {
   sl_int k;
   F->kernels->forward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
                    p->scratch);
-  F->kernels->backward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows + p->all.n_rows, F->L,
-                    F->D, p->v, p->scratch);
+  sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
   for (k = 0; k < p->all.columns; k++) {
     sum += fabs(p->v[k]);
   }
@@ -14557,8 +15699,9 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
   if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  status = sli_inverse_check(F);
+  if (status != SL_OK) {
+    return status;
   }
   if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
     return SL_ERR_TOO_LARGE;
@@ -14857,8 +16000,9 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
   if (count < 0 || (count > 0 && out == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  status = sli_inverse_check(F);
+  if (status != SL_OK) {
+    return status;
   }
   status = sli_check_rows(F->S, rows, count, 0, stats);
   status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
@@ -15122,8 +16266,9 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  status = sli_inverse_check(F);
+  if (status != SL_OK) {
+    return status;
   }
   status = sli_check_rows(F->S, rows, n_rows, 0, stats);
   status = status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
@@ -15521,8 +16666,9 @@ SL_API sl_status sl_selected_create(sl_selected **out, const sl_factor *F, const
   if (F == NULL || (set != NULL && count < 0) || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
+  status = sli_inverse_check(F);
+  if (status != SL_OK) {
+    return status;
   }
   status = sli_selected_new(&Z, F, set, count, opt, stats);
   if (status == SL_OK) {
@@ -16082,7 +17228,7 @@ static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *
   if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
     return SL_ERR_STATE;
   }
-  return F->is_centered ? SL_ERR_UNSUPPORTED : SL_OK;
+  return F->is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
@@ -16650,6 +17796,9 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
     if (!F->is_valid || !sli_factor_is_over(F, d->factors[0]->S, d->factors[0]->analysis)) {
       return SL_ERR_STATE;
     }
+    if (F->E != NULL) {
+      return sli_inverse_check(F);
+    }
   }
   *at = -1;
   return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
@@ -16792,6 +17941,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_GROUP_TILES
 #undef SLI_CHUNK_COLUMNS
 #undef SLI_FRONT_RECIPROCALS
+#undef SLI_PIVOT_THRESHOLD
 #undef SLI_NULL_PIVOT
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_ROW
@@ -17533,11 +18683,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * triangle, t0 <= t < t1, c0 <= c < c1, t0 >= c0. Tile (t, c) of the target is at
  * sli_tile_offset(target_width, t - target_first) + 64 (c - target_first). Columns j are taken in
  * chunks, so that the part of a row tile stays in the first cache and that of the group of column
- * tiles in the second. B: scratch, sli_front_scratch doubles. */
+ * tiles in the second. E: D(j+1, j), or NULL if D is diagonal. B: scratch, sli_front_scratch
+ * doubles. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                       sl_int t0, sl_int t1, sl_int c0, sl_int c1, sl_int j0,
-                       sl_int j1, double *target, sl_int target_width,
-                       sl_int target_first, double *B) {
+                       const double *E, sl_int t0, sl_int t1, sl_int c0,
+                       sl_int c1, sl_int j0, sl_int j1, double *target,
+                       sl_int target_width, sl_int target_first, double *B) {
   const sl_int tile_size = SLI_TILE * SLI_TILE;
   sl_int j, t, c, k;
   for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
@@ -17546,6 +18697,10 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
       SLV_NAME(pack)
       (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
        B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+      if (E != NULL) {
+        sli_pair_pack(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, E + j,
+                length, B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
+      }
     }
     for (t = t0; t < t1; t++) {
       const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
@@ -17689,7 +18844,9 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
                        const double *reciprocals) {
   const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
   const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-  const double *D = f->D + first, *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  const int has_pairs = sli_tile_has_pairs(f, c);
+  const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
+  const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
   const int by_reciprocal = reciprocal[0] != 0.0;
   sl_int t;
   for (t = t0; t < t1; t++) {
@@ -17703,6 +18860,9 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
     SLI_EACH8(SLI_LOAD, q)
     SLI_EACH8(SLI_SOLVE, q)
     SLV_STORE(magnitude, m)
+  }
+  if (has_pairs) {
+    sli_pair_rows(f, c, t0, t1);
   }
 }
 
@@ -17720,7 +18880,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, s
                         sl_int t1, double *B) {
   if (c > c0) {
     SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
+    (f->panel, f->width, f->D, f->E, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
      f->width, 0, B);
   }
 }
@@ -17730,12 +18890,17 @@ SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double 
   sl_int c;
   if (c0 > 0) {
     SLV_NAME(product)
-    (f->panel, f->width, f->D, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    (f->panel, f->width, f->D, f->E, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
+     B);
   }
   for (c = c0; c < c1; c++) {
-    double *reciprocals = f->reciprocals + 2 * SLI_TILE * (ptrdiff_t)(c - c0);
+    double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
     SLV_NAME(catch_up)(f, c0, c, c, c1, B);
-    SLV_NAME(tile_pivots)(f, c, reciprocals);
+    if (sli_tile_has_pairs(f, c)) {
+      sli_pair_tile(f, c, reciprocals);
+    } else {
+      SLV_NAME(tile_pivots)(f, c, reciprocals);
+    }
     SLV_NAME(tile_rows)(f, c, c + 1, c1, reciprocals);
   }
 }
@@ -17746,12 +18911,13 @@ SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0
   sl_int c;
   if (c0 > 0) {
     SLV_NAME(product)
-    (f->panel, f->width, f->D, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0, B);
+    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
+     B);
   }
   for (c = c0; c < c1; c++) {
     SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
     SLV_NAME(tile_rows)
-    (f, c, t0, t1, f->reciprocals + 2 * SLI_TILE * (ptrdiff_t)(c - c0));
+    (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
   }
 }
 
@@ -17761,7 +18927,7 @@ SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int 
   sl_int c;
   for (c = c0; c < last; c += SLI_GROUP_TILES) {
     SLV_NAME(product)
-    (f->panel, w, f->D, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
+    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
      f->update, SLI_TILE * (t1 - c0), c0, B);
   }
 }

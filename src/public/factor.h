@@ -5,7 +5,8 @@
 #include "options.h"
 #include "stats.h"
 
-/** Factors P A P' = L D L' without pivoting: L unit lower triangular, D diagonal and of any sign.
+/** Factors P A P' = L D L' in the order of S: L unit lower triangular, D diagonal and of any sign,
+ *  or with the 2x2 blocks of sl_symbolic_create_pivoted.
  *
  *  Definite and quasi-definite matrices can be factored in any order. Other symmetric indefinite
  *  matrices can be factored if no pivot is null. A pivot d is null if
@@ -51,6 +52,7 @@
  *  add a small multiple of the signs to the whole diagonal beforehand: A becomes quasi-definite,
  *  and refinement removes the perturbation. If the signs are not those of the blocks, as when H is
  *  indefinite, regularization does not replace pivoting; stats.refine.backward_error shows this.
+ *  sl_symbolic_create_pivoted needs neither signs nor shifts.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -63,7 +65,8 @@
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa;
+ *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa, or
+ *           SL_NULL_PIVOT_SKIP with a pivoted analysis;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D

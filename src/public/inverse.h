@@ -43,6 +43,8 @@
  *
  * If null pivots were skipped (SL_NULL_PIVOT_SKIP), the inverse is that of the matrix without their
  * rows and columns, and 0 in these: A Z A = A if A has no other null vectors.
+ *
+ * Factors with 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).

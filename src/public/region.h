@@ -40,7 +40,8 @@
  *                fits, solves go to the roots of the tree.
  *  stats  [out]  region; error.row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
- *           SL_ERR_UNSUPPORTED: a factor made with options.mass; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
  *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the

@@ -22,7 +22,8 @@
  *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
  *                F. The instruction set is that of F.
  *  stats  [out]  selected; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes. Keeps entries
  *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
  *           memory: 8 height^2 bytes per active front, where height counts the columns of a

@@ -12,7 +12,7 @@ typedef struct sl_error {
     double value;  /* the pivot or entry that was refused; 0 if none */
 } sl_error;
 
-/** An analysis: sl_symbolic_create, sl_symbolic_stats. */
+/** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_stats. */
 typedef struct sl_symbolic_info {
     sl_int n;
     sl_triangle triangle;
@@ -37,7 +37,7 @@ typedef struct sl_symbolic_info {
 typedef struct sl_factor_info {
     sl_isa isa;
     sl_method method;   /* the method that was used */
-    sl_int positive;    /* pivots by sign: the inertia of A */
+    sl_int positive;    /* pivots (eigenvalues of 2x2 ones) by sign: the inertia of A */
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
     sl_int regularized; /* pivots that regularization changed; they count by their new sign */
@@ -47,8 +47,8 @@ typedef struct sl_factor_info {
     /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
-    double pivot_min;   /* smallest |d| */
-    double pivot_max;   /* largest |d| */
+    double pivot_min;   /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
+    double pivot_max;   /* largest */
     double seconds_setup; /* processor seconds of schedule and memory in sl_factor_create */
     double seconds;       /* processor seconds of the numbers, summed over all threads */
     size_t bytes;

@@ -74,6 +74,8 @@ OPTION_CALL(option_sum, sl_matrix,
             sl_matrix_sum(&out, f->coefficients, f->pair.terms, TERMS, opt, NULL))
 OPTION_CALL(option_lower, sl_matrix, sl_factor_lower(&out, f->F, opt))
 OPTION_CALL(option_symbolic, sl_symbolic, sl_symbolic_create(&out, &f->U, opt, NULL))
+OPTION_CALL(option_pivoted, sl_symbolic,
+            sl_symbolic_create_pivoted(&out, &f->pair.terms[1], opt, NULL))
 OPTION_CALL(option_factor, sl_factor,
             sl_factor_create(&out, f->pair.S, &f->pair.terms[1], opt, NULL))
 OPTION_CALL(option_combination, sl_factor,
@@ -158,6 +160,7 @@ static const struct {
     {"sl_csc_triangle", option_triangle, READS_TRIANGLE},
     {"sl_matrix_sum", option_sum, READS_TRIANGLE},
     {"sl_symbolic_create", option_symbolic, READS_ANALYSIS | READS_TRIANGLE},
+    {"sl_symbolic_create_pivoted", option_pivoted, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_factor_create", option_factor, READS_FACTOR},
     {"sl_factor_create_combination", option_combination, READS_FACTOR},
     {"sl_factor_lower", option_lower, READS_NOTHING},
