@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d5532e1d28b674dc
+ * FNV-1a of the lines after this comment, without the license: b5907ab32d818129
  *
  * Contents
  * (what a user reads)
@@ -7,57 +7,57 @@
  *    130 config.h     macros that a user may define before the include, the version, and the integer types
  *    202 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    327 options.h    options of all calls, threads, and the allocator
- *    452 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    571 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    713 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    832 factor.h     the numerical factorization P A P' = L D L'
- *   1020 solve.h      full solves, and the workspace of all solves
- *   1130 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1224 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1322 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1458 batch.h      many independent solves by one call, distributed over threads
- *   1508 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1684 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1803 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *    448 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    567 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    709 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    828 factor.h     the numerical factorization P A P' = L D L'
+ *   1016 solve.h      full solves, and the workspace of all solves
+ *   1126 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1220 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1318 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1454 batch.h      many independent solves by one call, distributed over threads
+ *   1504 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1680 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1799 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   1916 base.h   2044 status.h   2105 options.h   2164 alloc.h   2288 hash.h   2391 sort.h
- *   2461 parallel.h
+ *   1912 base.h   2040 status.h   2101 options.h   2160 alloc.h   2284 hash.h   2387 sort.h
+ *   2457 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2499 panel.h   2531 step.h   2588 pivot_rule.h   2673 front.h   2750 pairs.h
- *   2968 inverse_front.h   3060 table.h   3081 simd.h   3175 simd_scalar.h   3294 simd_avx2.h
- *   3487 simd_avx512.h   3593 simd_neon.h   3773 dispatch.h
+ *   2495 panel.h   2527 step.h   2584 pivot_rule.h   2669 front.h   2746 pairs.h
+ *   2964 inverse_front.h   3056 table.h   3077 simd.h   3171 simd_scalar.h   3290 simd_avx2.h
+ *   3483 simd_avx512.h   3589 simd_neon.h   3769 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   3838 csc.h   3952 csc_build.h   4091 csc_triangle.h   4162 csc_products.h   4286 permute.h
- *   4355 sum.h   4440 output_file.h   4592 matrix_market.h
+ *   3834 csc.h   3948 csc_build.h   4087 csc_triangle.h   4158 csc_products.h   4282 permute.h
+ *   4351 sum.h   4436 output_file.h   4588 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5071 graph.h   5237 coarsen.h   5512 labels.h   5724 subgraph.h   5935 heap.h   5998 bisect.h
- *   6248 separator.h   6538 mindeg.h   6734 dissect.h   7084 levelset.h   7214 geometric.h
- *   7425 septree.h   7490 metis.h   7653 metis_refined.h   7777 nd.h   7984 compress.h
- *   8113 quotient.h   8524 order.h
+ *   5067 graph.h   5233 coarsen.h   5508 labels.h   5720 subgraph.h   5931 heap.h   5994 bisect.h
+ *   6244 separator.h   6534 mindeg.h   6730 dissect.h   7080 levelset.h   7210 geometric.h
+ *   7421 septree.h   7486 metis.h   7649 metis_refined.h   7773 nd.h   7980 compress.h
+ *   8109 quotient.h   8520 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   8746 symbolic_types.h   8789 etree.h   8869 counts.h   8939 supernodes.h   9200 structure.h
- *   9341 schedule.h   9556 symbolic.h   9935 reach.h
+ *   8742 symbolic_types.h   8785 etree.h   8865 counts.h   8935 supernodes.h   9196 structure.h
+ *   9337 schedule.h   9552 symbolic.h   9931 reach.h
  * (factor: the numbers of L and D)
- *  10246 factor_types.h  10555 pivot_search.h  10926 pivoted.h  10995 scatter.h  11168 uplooking.h
- *  11245 null_vectors.h  11537 multifrontal.h  11799 nullspace.h  12050 factor_setup.h
- *  12267 factor.h  12473 leftlooking.h  12659 factor_query.h  12795 combination.h
+ *  10242 factor_types.h  10551 pivot_search.h  10922 pivoted.h  10991 scatter.h  11164 uplooking.h
+ *  11241 null_vectors.h  11533 multifrontal.h  11795 nullspace.h  12046 factor_setup.h
+ *  12263 factor.h  12469 leftlooking.h  12655 factor_query.h  12791 combination.h
  * (solve: full and local solves)
- *  12856 region_types.h  12974 work.h  13081 query.h  13282 singular.h  13513 backward.h
- *  13548 sweep.h  13723 compile.h  13932 plan.h  14039 local.h  14197 refine.h
- *  14378 refine_local.h  14607 rcond.h  14740 defects.h
+ *  12852 region_types.h  12970 work.h  13077 query.h  13278 singular.h  13509 backward.h
+ *  13544 sweep.h  13719 compile.h  13928 plan.h  14035 local.h  14193 refine.h
+ *  14374 refine_local.h  14603 rcond.h  14736 defects.h
  * (inverse: entries of the inverse, regions)
- *  14797 traversal.h  15075 traversal_run.h  15256 row_sets.h  15287 unit_vectors.h
- *  15546 bilinear.h  15734 entries.h  16037 block.h  16295 reserve.h  16506 selected.h
- *  16717 selected_query.h  16825 region_choose.h  17077 region.h
+ *  14793 traversal.h  15071 traversal_run.h  15252 row_sets.h  15283 unit_vectors.h
+ *  15542 bilinear.h  15730 entries.h  16033 block.h  16291 reserve.h  16502 selected.h
+ *  16713 selected_query.h  16821 region_choose.h  17073 region.h
  * (batch: many solves, factors and diagonals by one call)
- *  17324 batch_solve.h  17552 batch_factor.h  17753 batch_diagonal.h
+ *  17320 batch_solve.h  17548 batch_factor.h  17749 batch_diagonal.h
  * (last: undefine every internal macro)
- *  17901 undef.h
+ *  17897 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  18010 multi_rhs.inl.h  18384 kernel_set.inl.h  18388 unit_triangle.inl.h  18429 two_rhs.inl.h
- *  18601 product.inl.h  18742 front.inl.h  18969 inverse_front.inl.h  19272 small_supernode.inl.h
- *  19440 single_rhs.inl.h
+ *  18006 multi_rhs.inl.h  18380 kernel_set.inl.h  18384 unit_triangle.inl.h  18425 two_rhs.inl.h
+ *  18597 product.inl.h  18738 front.inl.h  18965 inverse_front.inl.h  19268 small_supernode.inl.h
+ *  19436 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -356,11 +356,7 @@ typedef struct sl_allocator {
  *  | call                                       | fields that it reads                     |
  *  |--------------------------------------------|------------------------------------------|
  *  | every call with an sl_options argument     | size, allocator                          |
-<<<<<<< HEAD
- *  | sl_symbolic_create                         | ordering .. purpose                      |
-=======
- *  | sl_symbolic_create, _create_pivoted        | ordering .. block_size                   |
->>>>>>> eb6e1a4 (Pivoted analyses: docs, changelog, options of the new call)
+ *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination   | threads, isa .. signs, null_vector       |
  *  | sl_batch_factor                            | threads, isa .. signs, null_vector       |
@@ -8114,7 +8110,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
 
 /* A row with more than this many times sqrt(n) neighbors, and more than 16, is eliminated last:
  * its degree would be updated by every pivot. */
-#define SLI_QUOTIENT_DENSE_ROW 10.0
+#define SLI_QUOTIENT_DENSE_ROW 10
 
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
 
@@ -8140,7 +8136,7 @@ typedef struct sli_quotient {
   sl_int *sequence;    /* n: pivots in the order of elimination */
   sl_int live;         /* rows that are not dense */
   sl_int pivots, rows; /* pivots and rows eliminated */
-  double flops;        /* about what the factorization of the pivots so far takes */
+  double flops;        /* about 4 times the operations of the pivots so far; a whole number */
   sl_int least;        /* no variable has a smaller degree */
   sl_int widest;       /* largest degree of an element */
   sl_int base;         /* marks below it are old */
@@ -8190,7 +8186,7 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
 /* Makes every vertex of G a variable, except for dense rows, which are written to the end of perm.
  */
 static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
-  const double limit = SLI_QUOTIENT_DENSE_ROW * sqrt((double)G->n);
+  const sl_off limit = (sl_off)SLI_QUOTIENT_DENSE_ROW * SLI_QUOTIENT_DENSE_ROW * G->n;
   sl_int v;
   sl_off e;
   q->live = q->n;
@@ -8200,7 +8196,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
   q->base = 2;
   for (v = 0; v < q->n; v++) {
     const sl_off degree = G->begin[v + 1] - G->begin[v];
-    const int is_dense = degree > 16 && (double)degree > limit;
+    const int is_dense = degree > 16 && degree * degree > limit;
     q->weight[v] = !is_dense;
     q->elements[v] = is_dense ? SLI_QUOTIENT_MERGED : 0;
     q->mark[v] = 1;
@@ -8456,7 +8452,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   q->end -= q->end == q->begin[pivot] + count ? count - kept : 0;
   q->length[pivot] = kept;
   q->sequence[q->pivots++] = pivot;
-  height = left + 0.5 * q->weight[pivot];
+  height = 2.0 * left + q->weight[pivot];
   q->flops += height * height * q->weight[pivot];
 }
 
@@ -8516,7 +8512,7 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, double *flop
     sli_quotient_eliminate(&q, pivot);
   }
   sli_quotient_write(&q, perm);
-  *flops = q.flops;
+  *flops = 0.25 * q.flops;
   sli_free(a, b.base);
   return SL_OK;
 }

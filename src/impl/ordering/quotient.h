@@ -7,7 +7,7 @@
 
 /* A row with more than this many times sqrt(n) neighbors, and more than 16, is eliminated last:
  * its degree would be updated by every pivot. */
-#define SLI_QUOTIENT_DENSE_ROW 10.0
+#define SLI_QUOTIENT_DENSE_ROW 10
 
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
 
@@ -33,7 +33,7 @@ typedef struct sli_quotient {
     sl_int *sequence;    /* n: pivots in the order of elimination */
     sl_int live;         /* rows that are not dense */
     sl_int pivots, rows; /* pivots and rows eliminated */
-    double flops;        /* about what the factorization of the pivots so far takes */
+    double flops;        /* about 4 times the operations of the pivots so far; a whole number */
     sl_int least;        /* no variable has a smaller degree */
     sl_int widest;       /* largest degree of an element */
     sl_int base;         /* marks below it are old */
@@ -83,7 +83,7 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
 /* Makes every vertex of G a variable, except for dense rows, which are written to the end of perm.
  */
 static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
-    const double limit = SLI_QUOTIENT_DENSE_ROW * sqrt((double)G->n);
+    const sl_off limit = (sl_off)SLI_QUOTIENT_DENSE_ROW * SLI_QUOTIENT_DENSE_ROW * G->n;
     sl_int v;
     sl_off e;
     q->live = q->n;
@@ -93,7 +93,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
     q->base = 2;
     for (v = 0; v < q->n; v++) {
         const sl_off degree = G->begin[v + 1] - G->begin[v];
-        const int is_dense = degree > 16 && (double)degree > limit;
+        const int is_dense = degree > 16 && degree * degree > limit;
         q->weight[v] = !is_dense;
         q->elements[v] = is_dense ? SLI_QUOTIENT_MERGED : 0;
         q->mark[v] = 1;
@@ -349,7 +349,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     q->end -= q->end == q->begin[pivot] + count ? count - kept : 0;
     q->length[pivot] = kept;
     q->sequence[q->pivots++] = pivot;
-    height = left + 0.5 * q->weight[pivot];
+    height = 2.0 * left + q->weight[pivot];
     q->flops += height * height * q->weight[pivot];
 }
 
@@ -409,7 +409,7 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, double *flop
         sli_quotient_eliminate(&q, pivot);
     }
     sli_quotient_write(&q, perm);
-    *flops = q.flops;
+    *flops = 0.25 * q.flops;
     sli_free(a, b.base);
     return SL_OK;
 }
