@@ -1,63 +1,64 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b5907ab32d818129
+ * FNV-1a of the lines after this comment, without the license: f2ab0cb7c36cde8f
  *
  * Contents
  * (what a user reads)
- *     65 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    130 config.h     macros that a user may define before the include, the version, and the integer types
- *    202 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    327 options.h    options of all calls, threads, and the allocator
- *    448 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    567 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    709 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    828 factor.h     the numerical factorization P A P' = L D L'
- *   1016 solve.h      full solves, and the workspace of all solves
- *   1126 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1220 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1318 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1454 batch.h      many independent solves by one call, distributed over threads
- *   1504 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1680 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1799 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *     66 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    131 config.h     macros that a user may define before the include, the version, and the integer types
+ *    203 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    331 options.h    options of all calls, threads, and the allocator
+ *    459 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    583 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    725 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    844 factor.h     the numerical factorization P A P' = L D L'
+ *   1046 solve.h      full solves, and the workspace of all solves
+ *   1156 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1250 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1359 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1495 batch.h      many independent solves by one call, distributed over threads
+ *   1545 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1721 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1840 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   1912 base.h   2040 status.h   2101 options.h   2160 alloc.h   2284 hash.h   2387 sort.h
- *   2457 parallel.h
+ *   1953 base.h   2081 status.h   2144 options.h   2204 alloc.h   2328 hash.h   2431 sort.h
+ *   2501 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2495 panel.h   2527 step.h   2584 pivot_rule.h   2669 front.h   2746 pairs.h
- *   2964 inverse_front.h   3056 table.h   3077 simd.h   3171 simd_scalar.h   3290 simd_avx2.h
- *   3483 simd_avx512.h   3589 simd_neon.h   3769 dispatch.h
+ *   2539 panel.h   2571 step.h   2628 pivot_rule.h   2713 front.h   2790 pairs.h
+ *   3008 inverse_front.h   3100 table.h   3121 simd.h   3215 simd_scalar.h   3334 simd_avx2.h
+ *   3527 simd_avx512.h   3633 simd_neon.h   3813 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   3834 csc.h   3948 csc_build.h   4087 csc_triangle.h   4158 csc_products.h   4282 permute.h
- *   4351 sum.h   4436 output_file.h   4588 matrix_market.h
+ *   3878 csc.h   3992 csc_build.h   4131 csc_triangle.h   4202 csc_products.h   4326 permute.h
+ *   4395 sum.h   4480 output_file.h   4632 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5067 graph.h   5233 coarsen.h   5508 labels.h   5720 subgraph.h   5931 heap.h   5994 bisect.h
- *   6244 separator.h   6534 mindeg.h   6730 dissect.h   7080 levelset.h   7210 geometric.h
- *   7421 septree.h   7486 metis.h   7649 metis_refined.h   7773 nd.h   7980 compress.h
- *   8109 quotient.h   8520 order.h
+ *   5111 graph.h   5277 coarsen.h   5552 labels.h   5764 subgraph.h   5975 heap.h   6038 bisect.h
+ *   6288 separator.h   6578 mindeg.h   6774 dissect.h   7124 levelset.h   7254 geometric.h
+ *   7465 septree.h   7530 metis.h   7693 metis_refined.h   7817 nd.h   8024 compress.h
+ *   8153 quotient.h   8564 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   8742 symbolic_types.h   8785 etree.h   8865 counts.h   8935 supernodes.h   9196 structure.h
- *   9337 schedule.h   9552 symbolic.h   9931 reach.h
+ *   8786 symbolic_types.h   8829 etree.h   8909 counts.h   8979 supernodes.h   9240 structure.h
+ *   9381 schedule.h   9596 symbolic.h   9975 reach.h
  * (factor: the numbers of L and D)
- *  10242 factor_types.h  10551 pivot_search.h  10922 pivoted.h  10991 scatter.h  11164 uplooking.h
- *  11241 null_vectors.h  11533 multifrontal.h  11795 nullspace.h  12046 factor_setup.h
- *  12263 factor.h  12469 leftlooking.h  12655 factor_query.h  12791 combination.h
+ *  10286 factor_types.h  10624 pivot_search.h  10995 pivoted.h  11064 scatter.h  11237 uplooking.h
+ *  11314 null_vectors.h  11606 multifrontal.h  11868 nullspace.h  12119 growth.h
+ *  12207 factor_setup.h  12433 factor.h  12643 leftlooking.h  12829 factor_query.h
+ *  12965 combination.h
  * (solve: full and local solves)
- *  12852 region_types.h  12970 work.h  13077 query.h  13278 singular.h  13509 backward.h
- *  13544 sweep.h  13719 compile.h  13928 plan.h  14035 local.h  14193 refine.h
- *  14374 refine_local.h  14603 rcond.h  14736 defects.h
+ *  13026 region_types.h  13144 work.h  13251 query.h  13452 singular.h  13683 backward.h
+ *  13718 sweep.h  13893 compile.h  14102 plan.h  14209 local.h  14367 refine.h
+ *  14550 refine_local.h  14775 rcond.h  14945 defects.h
  * (inverse: entries of the inverse, regions)
- *  14793 traversal.h  15071 traversal_run.h  15252 row_sets.h  15283 unit_vectors.h
- *  15542 bilinear.h  15730 entries.h  16033 block.h  16291 reserve.h  16502 selected.h
- *  16713 selected_query.h  16821 region_choose.h  17073 region.h
+ *  15002 traversal.h  15280 traversal_run.h  15461 row_sets.h  15492 unit_vectors.h
+ *  15751 bilinear.h  15939 entries.h  16242 block.h  16500 reserve.h  16711 selected.h
+ *  16922 selected_query.h  17030 region_choose.h  17282 region.h
  * (batch: many solves, factors and diagonals by one call)
- *  17320 batch_solve.h  17548 batch_factor.h  17749 batch_diagonal.h
+ *  17529 batch_solve.h  17757 batch_factor.h  17958 batch_diagonal.h
  * (last: undefine every internal macro)
- *  17897 undef.h
+ *  18106 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  18006 multi_rhs.inl.h  18380 kernel_set.inl.h  18384 unit_triangle.inl.h  18425 two_rhs.inl.h
- *  18597 product.inl.h  18738 front.inl.h  18965 inverse_front.inl.h  19268 small_supernode.inl.h
- *  19436 single_rhs.inl.h
+ *  18217 multi_rhs.inl.h  18591 kernel_set.inl.h  18595 unit_triangle.inl.h  18636 two_rhs.inl.h
+ *  18808 product.inl.h  18949 front.inl.h  19176 inverse_front.inl.h  19479 small_supernode.inl.h
+ *  19647 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -229,7 +230,10 @@ typedef enum sl_status {
     /* a failed factor, or objects that do not belong together */
     SL_ERR_STATE,
     /* a singular system whose right-hand side has no solution */
-    SL_ERR_INCONSISTENT
+    SL_ERR_INCONSISTENT,
+    /* pivot growth beyond options.growth_limit (stats name a row), or a refinement that ended above
+     * options.error_limit (its solution is written) */
+    SL_ERR_INACCURATE
 } sl_status;
 
 /** A short description of a status; static storage. Any value is accepted. */
@@ -358,8 +362,8 @@ typedef struct sl_allocator {
  *  | every call with an sl_options argument     | size, allocator                          |
  *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
- *  | sl_factor_create and _create_combination   | threads, isa .. signs, null_vector       |
- *  | sl_batch_factor                            | threads, isa .. signs, null_vector       |
+ *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
+ *  |   sl_batch_factor                          | null_vector .. error_limit               |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_plan_create                             | region                                   |
@@ -434,8 +438,15 @@ typedef struct sl_options {
      * 1 */
     const double *null_vector;
 
+    /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
+     * 1 / epsilon = 4.5e15, beyond which L D L' may agree with A in no digit; negative: no limit */
+    double growth_limit;
+    /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
+     * backward error; 0: 1e-8; negative: never */
+    double error_limit;
+
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[6];
+    const void *reserved[4];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.
@@ -492,6 +503,11 @@ typedef struct sl_factor_info {
     sl_int regular;
     double pivot_min;   /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
     double pivot_max;   /* largest */
+    double entry_max;   /* largest |a| among the entries of A that were read */
+    /* pivot growth, max_k (|L| |D| |L'|)_kk / max |a|, the maximum over the connected components
+     * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
+     * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
+    double growth;
     double seconds_setup; /* processor seconds of schedule and memory in sl_factor_create */
     double seconds;       /* processor seconds of the numbers, summed over all threads */
     size_t bytes;
@@ -558,7 +574,7 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[30];
+    sl_off reserved[28];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -838,6 +854,17 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  component is therefore also null if it is below 16 (64 + n/8) epsilon times the heaviest pivot
  *  and constants are a null vector of the component, as defined below.
  *
+ *  Accuracy: without pivoting, a small pivot of an indefinite matrix makes L grow, and digits of A
+ *  are lost without any pivot being null, as in [1e-20 1; 1 1]. stats.factor.growth measures this.
+ *  - Definite matrices have a growth of at most 2, however badly they are scaled, and need no test.
+ *  - The backward error of sl_factor_solve and of local solves, as sl_csc_residual computes it, is
+ *    at most about epsilon * growth: use a solution as it is if this is small enough and
+ *    stats.factor.regularized is 0. It is a bound on normwise errors; rows that are tiny against
+ *    others of their component can be worse, which sl_factor_refine sees.
+ *  - Otherwise call sl_factor_refine, and trust X if it returns SL_OK. It repairs most systems
+ *    whose growth is below options.growth_limit.
+ *  - A growth beyond options.growth_limit is refused with SL_ERR_INACCURATE.
+ *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
@@ -880,14 +907,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector; may be NULL.
+ *                consistency_tolerance, regularization, signs, null_vector, growth_limit,
+ *                error_limit; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa, or
+ *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
+ *           limit, caused by the pivot error.value of error.row; SL_ERR_UNSUPPORTED: the isa, or
  *           SL_NULL_PIVOT_SKIP with a pivoted analysis;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
@@ -900,8 +929,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
  *           threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
- *           4.7.
- *  Example  tests/core/test_factor.c
+ *           4.7; growth: [Hi02] 11.1.
+ *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
                                                  const sl_csc *A, const sl_options *opt,
@@ -910,9 +939,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
 /** Factors a matrix of the same pattern with new values. Allocates nothing; same bits as
  *  sl_factor_create.
  *
- *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT and
- *                   SL_ERR_NOT_FINITE it has no numbers, and every solve refuses it until a
- *                   refactor succeeds.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
+ *                   SL_ERR_NOT_FINITE and SL_ERR_INACCURATE it has no numbers, and every solve
+ *                   refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
  *  Returns, Cost    as sl_factor_create, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
@@ -935,7 +964,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  A        [in]      the analyzed pattern, new values.
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
  *                     allowed.
- *  stats    [out]     factor; may be NULL.
+ *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
+ *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
  *           F has no numbers.
  *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
@@ -1227,16 +1257,23 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
  *  discarded. With a regularized factor, of A + E, this turns the solution of (A + E) x = b into
  *  that of A x = b. If null pivots were skipped, B has to be consistent.
  *
+ *  The call says whether the result is good: if the backward error that remains in some column is
+ *  above options.error_limit of the factor, 1e-8 by default, it returns SL_ERR_INACCURATE. X then
+ *  holds the best solutions that were found.
+ *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
  *  X      [in,out]  n x nrhs, column-major, leading dimension ldx elements: solutions from
- *                   sl_factor_solve, or any other start; must not overlap B. On error untouched.
+ *                   sl_factor_solve, or any other start; must not overlap B. On errors other than
+ *                   SL_ERR_INACCURATE untouched.
  *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
- *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures.
+ *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
+ *                   not return SL_ERR_INACCURATE.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     refine; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the analyzed
- *           pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor;
+ *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not
+ *           grow.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
@@ -1259,11 +1296,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
  *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
- *  steps  [in]   maximum number of corrections per column, 0 or more.
+ *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|; error.row with
  *                SL_ERR_ARGUMENT: a regularized row outside the reaches; may be NULL.
- *  Returns  as sl_plan_solve; SL_ERR_UNSUPPORTED: a plan in a region and a factor with regularized
- *           rows.
+ *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
+ *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
+ *           a region and a factor with regularized rows.
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
  *  Threads  any number at once on one P and one F, each with its own W.
@@ -1276,16 +1314,19 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
 
 /** Estimates the reciprocal condition number 1 / (||A|| ||A^-1||) in the one-norm.
  *
- *  Up to rounding, the true value is never larger than the estimate, and rarely smaller than a
- *  third of it. 0 if null pivots were skipped; 1 if n = 0. If regularization changed pivots, A^-1
- *  is (A + E)^-1.
+ *  epsilon / rcond estimates the relative error of a solve without refinement; if it is near 1 or
+ *  above, solutions are worthless. Up to rounding, the true value is never larger than the
+ *  estimate, and rarely smaller than a third of it. L D L' is judged, too: the solves of the
+ *  estimator are checked against A, and where their largest backward error w exceeds 64 epsilon,
+ *  because L has grown, the estimate is multiplied by epsilon / w. 0 if null pivots were skipped; 1
+ *  if n = 0. If regularization changed pivots, all this is about A + E.
  *
  *  A      [in]      the matrix that F is a factor of.
  *  rcond  [out]     the estimate.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the analyzed
  *           pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
- *  Cost     4 to 10 solves.
+ *  Cost     4 to 10 solves, each with a product with A.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
  *  Example  tests/core/test_condition.c
@@ -2069,6 +2110,8 @@ SL_API const char *sl_status_string(sl_status status) {
     return "failed factor, or objects that do not belong together";
   case SL_ERR_INCONSISTENT:
     return "inconsistent right-hand side of a singular system";
+  case SL_ERR_INACCURATE:
+    return "inaccurate: pivot growth or backward error above its limit";
   }
   return "unknown status";
 }
@@ -2126,7 +2169,8 @@ static int sli_options_set(const sl_options *opt) {
   const int factor = opt->isa != 0 || opt->method != 0 || opt->null_pivots != 0 ||
              opt->null_tolerance != 0.0 || opt->mass != NULL ||
              opt->consistency_tolerance != 0.0 || opt->regularization != 0.0 ||
-             opt->signs != NULL || opt->null_vector != NULL;
+             opt->signs != NULL || opt->null_vector != NULL ||
+             opt->growth_limit != 0.0 || opt->error_limit != 0.0;
   return (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) | (analysis ? SLI_READS_ANALYSIS : 0) |
        (factor ? SLI_READS_FACTOR : 0) | (opt->region != NULL ? SLI_READS_REGION : 0) |
        (opt->region_bytes != 0 ? SLI_READS_REGION_BYTES : 0);
@@ -10268,6 +10312,12 @@ typedef struct sli_null_row {
   sl_int entries; /* scratch: entries of the row */
   sl_int last;    /* the last pivot of the component of the row */
 } sli_null_row;
+/* What a supernode contributes to pivot growth (growth.h). */
+typedef struct sli_extent {
+  double entry;     /* the largest |a| in its columns */
+  double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
+  sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
+} sli_extent;
 
 struct sl_factor {
   sl_allocator allocator;
@@ -10287,6 +10337,9 @@ struct sl_factor {
   double *L;           /* the panels of all supernodes */
   double *D;           /* n pivots */
   double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
+  sli_extent *extents; /* n_supers */
+  double growth_limit; /* a larger growth is refused */
+  double error_limit;  /* a refinement that ends above it is reported */
   /* n: the pivots that regularization changed, ascending; NULL: no regularization */
   sl_int *regularized;
 
@@ -10397,22 +10450,26 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
   return low;
 }
 
-/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s. With
- * scatter_from, x is A's value array and scatter_from[m] the position of entry m; without, x[0] is
- * the value of entry `first`. */
+/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, and records the
+ * largest magnitude. With scatter_from, x is A's value array and scatter_from[m] the position of
+ * entry m; without, x[0] is the value of entry `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, sl_off first,
                            sl_off last, const double *x,
                            const sl_int *scatter_from,
                            sli_failure *failure) {
   const sl_off *to = F->S->scatter_to;
+  double largest = F->extents[s].entry;
   sl_off m;
   for (m = first; m < last; m++) {
     const double a = scatter_from != NULL ? x[scatter_from[m]] : x[m - first];
+    const double size = fabs(a);
     if (!sli_is_finite(a)) {
       return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
     }
     F->L[to[m]] += a;
+    largest = size > largest ? size : largest;
   }
+  F->extents[s].entry = largest;
   return SL_OK;
 }
 
@@ -10439,6 +10496,8 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   sl_off m = S->scatter_begin[s], last;
   double sums[SLI_SUM_ENTRIES];
   sl_status status = SL_OK;
+  F->extents[s].entry = F->extents[s].magnitude = 0.0;
+  F->extents[s].pivot = -1;
   if (from->A != NULL) {
     return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
   }
@@ -10460,39 +10519,53 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
   return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
 }
 
-/* Refuses a pivot that is not finite, or one that is null against the magnitudes it was computed
- * from and was not replaced. */
-SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
-                   sli_failure *failure) {
+/* Keeps the largest sum of magnitudes that a pivot k of supernode s was computed from. */
+SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, double magnitude) {
+  if (magnitude > F->extents[s].magnitude) {
+    F->extents[s].magnitude = magnitude;
+    F->extents[s].pivot = k;
+  }
+}
+
+/* Records the magnitudes that pivot k of supernode s was computed from. Refuses a pivot that is not
+ * finite, or one that is null against these magnitudes and was not replaced. */
+SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
+                   double magnitude, sli_failure *failure) {
+  sli_record_magnitude(F, s, k, magnitude);
   if (!sli_is_finite(pivot)) {
-    return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
+    return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1, pivot);
   }
   if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
-    return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
+    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
   if (F->null_pivots == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
     !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
-    return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
+    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
   return SL_OK;
 }
 
-/* Refuses a 2x2 pivot that is not finite or null; asked for both of its columns k. */
-SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int k, const double *magnitude,
+/* Records the magnitudes that column k of a 2x2 pivot of supernode s was computed from. At the
+ * first column, refuses a pivot that is not finite or null. */
+SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
                   sli_failure *failure) {
-  const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
+  double a, b, e;
+  sli_record_magnitude(F, s, k, magnitude[0]);
   if (F->S->pairs[k] == SLI_PAIR_SECOND) {
     return SL_OK;
   }
+  a = F->D[k];
+  b = F->D[k + 1];
+  e = F->E[k];
   if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
-    return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1,
+    return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1,
             !sli_is_finite(a)   ? a
             : !sli_is_finite(b) ? b
                       : e);
   }
   if (!F->rule.replaces &&
     sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], F->rule.null_tolerance)) {
-    return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, a);
+    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, a);
   }
   return SL_OK;
 }
@@ -11229,7 +11302,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     sli_row_solve_all(F, k, &pivot, &magnitude);
     pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
     F->D[k] = pivot;
-    status = sli_check_pivot(F, k, pivot, magnitude, failure);
+    status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
     if (q == S->steps[s].width - 1) {
       F->position[s] = 0;
       sli_row_link(F, s);
@@ -11626,8 +11699,8 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
   sl_int k;
   for (k = 0; k < f->width && status == SL_OK; k++) {
     status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
-           ? sli_check_pair(F, first + k, f->magnitude + k, failure)
-           : sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+           ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
+           : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
   }
   return status;
 }
@@ -12043,6 +12116,94 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, int has_g,
   return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
 
+/* src/impl/factor/growth.h: after a factorization: its pivot growth, and the pivot that causes it */
+
+/* The computed factors satisfy L D L' = P A P' + E, |E| <= c n epsilon |L| |D| |L'| [Hi02] 11.1.
+ * No entry of the semidefinite matrix |L| |D| |L'| exceeds its largest diagonal entry. Null pivots
+ * are judged by that diagonal: pivot k is computed from magnitudes of sum
+ * |a_kk| + sum_j |l_kj d_j l_kj|. So growth costs one comparison a pivot.
+ *
+ * If all pivots of a component have one sign, the sum is 2 |a_kk| - |d_k|: the growth is at most 2,
+ * however A is scaled. In the other components it says how many digits of A the factor has lost.
+ * Over 1e5 random systems of 24 families (tests/lib/random_systems.h) the backward error of a solve
+ * stayed below 1.5 epsilon times the growth.
+ *
+ * The limit. Three refinements brought every quasi-definite system with a growth below 1e14 to a
+ * backward error below 1e-10, 88 % of those from 1e14 to 1e15, and 60 % of those above; systems
+ * that stayed above 1e-8 among these had a growth above 2e15. So the factorization refuses only
+ * where L D L' may have no digit of A, and leaves the rest to refinement, which measures. */
+#define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
+
+/* The pivot j that contributes most to row k, max |l_kj d_j l_kj|; -1 if row k of L is empty. */
+static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
+  const sl_symbolic *S = F->S;
+  const sl_int own = S->super_of[k];
+  double most = 0.0;
+  sl_int s, j, cause = -1;
+  for (s = S->first_descendant[own]; s <= own; s++) {
+    const sli_step *step = &S->steps[s];
+    const sl_int *rows = S->rows + S->rows_begin[s];
+    const sl_int at = s == own ? -1 : sli_lower_bound(rows, step->below, k);
+    const sl_int r = s == own ? k - step->column : step->width + at;
+    if (s != own && (at == step->below || rows[at] != k)) {
+      continue;
+    }
+    for (j = 0; j < sli_min(r, step->width); j++) {
+      const double *l = &F->L[step->panel + sli_panel_at(step->width, r, j)];
+      const sl_int c = step->column + j;
+      double size = fabs(*l * F->D[c] * *l);
+      if (S->pairs != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
+        size += 2.0 * fabs(l[0] * F->E[c] * l[SLI_TILE]);
+      }
+      if (size > most) {
+        most = size;
+        cause = step->column + j;
+      }
+    }
+  }
+  return cause;
+}
+
+/* Refuses the tree of supernodes first .. last, whose magnitudes exceed bound. Row k of the first
+ * such magnitude is where the growth shows; it goes back to a pivot that is small. */
+static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double bound,
+                   sli_failure *failure) {
+  sl_int s = first, k, cause;
+  while (s < last && !(F->extents[s].magnitude > bound)) {
+    s++;
+  }
+  k = F->extents[s].pivot;
+  do {
+    cause = sli_growth_cause(F, k);
+    k = cause == -1 ? k : cause;
+  } while (cause != -1 && fabs(F->D[k]) > bound);
+  return sli_fail(failure, SL_ERR_INACCURATE, F->S->super_of[k], k, -1, F->D[k]);
+}
+
+/* Measures the growth of every tree, and refuses the first one beyond the limit. */
+static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_factor_info *info = &F->stats.factor;
+  double entry = 0.0, magnitude = 0.0, growth;
+  sl_int s, first = 0;
+  for (s = 0; s < S->n_supers; s++) {
+    entry = fmax(entry, F->extents[s].entry);
+    magnitude = fmax(magnitude, F->extents[s].magnitude);
+    if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
+      /* the sum may overflow, but no term of a finite pivot does */
+      growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+      info->growth = fmax(info->growth, growth);
+      info->entry_max = fmax(info->entry_max, entry);
+      if (growth > F->growth_limit && failure->status == SL_OK) {
+        (void)sli_growth_refuse(F, first, s, F->growth_limit * entry, failure);
+      }
+      entry = magnitude = 0.0;
+      first = s + 1;
+    }
+  }
+  return failure->status;
+}
+
 /* src/impl/factor/factor_setup.h: allocates a factor without numbers from the options, and releases it */
 
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
@@ -12055,6 +12216,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     F->E = SLI_TAKE(b, double, n);
     F->divisors = SLI_TAKE(b, double, n);
   }
+  F->extents = SLI_TAKE(b, sli_extent, supers);
   if (F->rule.regularization != 0.0) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.shifts = SLI_TAKE(b, double, n);
@@ -12136,6 +12298,7 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
       (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
       opt->null_tolerance == opt->null_tolerance &&
       opt->consistency_tolerance == opt->consistency_tolerance &&
+      opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
       opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
       (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE));
 }
@@ -12145,7 +12308,12 @@ static int sli_factor_options_are_valid(const sl_options *opt) {
   return sli_options_are_valid(opt, SLI_READS_FACTOR) && sli_factor_choices_are_valid(opt);
 }
 
-/* Sets the rules for null pivots. The arrays among the options are copied later, by
+/* A limit of the options: 0 is the default, and what is negative is no limit. */
+SLI_INLINE double sli_limit(double option, double limit) {
+  return option == 0.0 ? limit : option < 0.0 ? (double)INFINITY : option;
+}
+
+/* Sets the rules for null pivots and the limits. The arrays among the options are copied later, by
  * sli_factor_rules_fill. */
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
@@ -12156,6 +12324,8 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
   F->consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+  F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit, SLI_GROWTH_LIMIT);
+  F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
 /* Copies the arrays that the rules refer to, into pivot order. */
@@ -12307,7 +12477,7 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
 static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f) {
   sl_int n_done = F->S->n; /* pivots before the failure */
   if (f->status != SL_OK && f->pivot >= 0) {
-    n_done = f->pivot;
+    n_done = f->status == SL_ERR_INACCURATE ? n_done : f->pivot;
     sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
   } else if (f->status != SL_OK) {
     n_done = F->S->super_first[f->super];
@@ -12344,6 +12514,10 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g
   sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     (void)sli_nulls_find(F, from, has_g, failure);
+  }
+  F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
+  if (failure->status == SL_OK) {
+    (void)sli_growth_check(F, failure);
   }
   sli_factor_report(F, from->A, failure);
   F->stats.factor.seconds = sli_seconds() - started;
@@ -14306,11 +14480,16 @@ SLI_INLINE double sli_max_error(double a, double b) {
   return a != a || a > b ? a : b;
 }
 
-static void sli_refine_stats(sl_stats *stats, sl_int steps, double error) {
+/* Ends a refinement of at most `most` steps. Without any it was asked to measure only. */
+static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most, sl_int steps,
+                 double error) {
   if (stats != NULL) {
     stats->refine.steps = steps;
     stats->refine.backward_error = error;
   }
+  return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
+         ? SL_ERR_INACCURATE
+         : SL_OK;
 }
 
 SL_API sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs) {
@@ -14365,10 +14544,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     }
   }
   sli_free(&own.allocator, own.block);
-  if (status == SL_OK) {
-    sli_refine_stats(stats, f.steps, worst);
-  }
-  return status;
+  return status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
 }
 
 /* src/impl/solve/refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
@@ -14542,8 +14718,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
       worst = sli_max_error(f->error[c], worst);
     }
   }
-  sli_refine_stats(stats, f->steps, worst);
-  return SL_OK;
+  return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
 SL_API sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs) {
@@ -14574,10 +14749,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   }
   if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
     status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
-    if (status == SL_OK) {
-      sli_refine_stats(stats, 0, 0.0);
-    }
-    return status;
+    return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
   }
   status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, SLI_COLUMN_MAJOR, nrhs);
   if (status != SL_OK) {
@@ -14602,30 +14774,64 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
 
 /* src/impl/solve/rcond.h: sl_factor_rcond: reciprocal condition number by the Hager-Higham estimator */
 
-/* A vector v in pivot order, solved for in place, and its signs. */
+/* Backward errors up to this are due to rounding alone. Where L has grown they are larger, and L D
+ * L' is not A: epsilon / rcond then has to bound the effect of that error, too. */
+#define SLI_ROUNDING_ERROR (64.0 * DBL_EPSILON)
+
+/* A vector v in pivot order, solved for in place, its signs, and the largest backward error of the
+ * solves so far. */
 typedef struct sli_norm_estimate {
   const sl_factor *F;
+  const sl_csc *A;
+  double norm; /* of A */
+  double error;
   sli_reach all;
-  double *v, *signs, *scratch;
+  double *v, *signs, *residual, *scratch;
 } sli_norm_estimate;
 
 static void sli_norm_estimate_layout(sli_norm_estimate *p, sli_block *b) {
   p->v = SLI_TAKE(b, double, p->all.columns);
   p->signs = SLI_TAKE(b, double, p->all.columns);
+  p->residual = SLI_TAKE(b, double, p->all.columns);
   p->scratch = SLI_TAKE(b, double, sli_sweep_scratch(p->all.tallest, p->all.widest, 1));
 }
 
+/* residual := residual - P (A + E) P' v, where E is what regularization added. */
+static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
+  const sl_csc *A = p->A;
+  const sl_int *iperm = p->F->S->iperm;
+  const sl_triangle triangle = p->F->S->stats.symbolic.triangle;
+  sl_int j, k, m, q;
+  for (j = 0; j < A->n_cols; j++) {
+    k = iperm[j];
+    for (q = A->p[j]; q < A->p[j + 1]; q++) {
+      m = iperm[A->i[q]];
+      if (sli_is_read(triangle, A->i[q], j)) {
+        p->residual[m] -= A->x[q] * p->v[k];
+        p->residual[k] -= m != k ? A->x[q] * p->v[m] : 0.0;
+      }
+    }
+    p->residual[k] -= p->F->rule.shifts != NULL ? p->F->rule.shifts[k] * p->v[k] : 0.0;
+  }
+}
+
 /* v := (P A P')^-1 v. Returns the 1-norm of v. */
-static double sli_norm_estimate_solve(const sli_norm_estimate *p) {
+static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   const sl_factor *F = p->F;
-  double sum = 0.0;
+  const sl_int n = p->all.columns;
+  const double size = sli_largest(p->v, n);
+  double sum = 0.0, error;
   sl_int k;
+  memcpy(p->residual, p->v, (size_t)n * sizeof(double));
   F->kernels->forward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
                    p->scratch);
   sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
-  for (k = 0; k < p->all.columns; k++) {
+  for (k = 0; k < n; k++) {
     sum += fabs(p->v[k]);
   }
+  sli_norm_estimate_residual(p);
+  error = sli_backward_error(sli_largest(p->residual, n), p->norm, sli_largest(p->v, n), size);
+  p->error = error > p->error ? error : p->error;
   return sum;
 }
 
@@ -14654,7 +14860,7 @@ static sl_int sli_norm_estimate_largest(const sli_norm_estimate *p) {
  * of the unit ball; its gradient A^-1 sign(A^-1 x) selects the next vertex. A last vector with
  * alternating signs guards against matrices that fool this search. A is symmetric, so one kind of
  * solve serves for A^-1 and its transpose. n > 0. [Hi88] */
-static double sli_inverse_norm(const sli_norm_estimate *p) {
+static double sli_inverse_norm(sli_norm_estimate *p) {
   const sl_int n = p->all.columns;
   double best, sum;
   sl_int k, j = -1, turn;
@@ -14714,20 +14920,23 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     return SL_OK;
   }
   p.F = F;
+  p.A = A;
+  p.error = 0.0;
   p.all = sli_reach_all(F->S);
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   sli_norm_estimate_layout(&p, &b);
   status = sli_work_block(W, &b);
   if (status == SL_OK) {
-    double norm, inverse;
+    double inverse;
     sli_norm_estimate_layout(&p, &b);
-    norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
+    p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
     inverse = sli_inverse_norm(&p);
     /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
-    *rcond = norm > 0.0 && inverse > 0.0
-           ? 1.0 / fmax(norm, inverse) / fmin(norm, inverse)
+    *rcond = p.norm > 0.0 && inverse > 0.0
+           ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
            : 0.0;
+    *rcond *= p.error > SLI_ROUNDING_ERROR ? DBL_EPSILON / p.error : 1.0;
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -17938,6 +18147,8 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_CHUNK_COLUMNS
 #undef SLI_FRONT_RECIPROCALS
 #undef SLI_PIVOT_THRESHOLD
+#undef SLI_GROWTH_LIMIT
+#undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_ROW

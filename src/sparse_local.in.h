@@ -98,6 +98,7 @@ extern "C" {
 #include "impl/factor/null_vectors.h"
 #include "impl/factor/multifrontal.h"
 #include "impl/factor/nullspace.h"
+#include "impl/factor/growth.h"
 #include "impl/factor/factor_setup.h"
 #include "impl/factor/factor.h"
 #include "impl/factor/leftlooking.h"

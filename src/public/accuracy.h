@@ -13,16 +13,23 @@
  *  discarded. With a regularized factor, of A + E, this turns the solution of (A + E) x = b into
  *  that of A x = b. If null pivots were skipped, B has to be consistent.
  *
+ *  The call says whether the result is good: if the backward error that remains in some column is
+ *  above options.error_limit of the factor, 1e-8 by default, it returns SL_ERR_INACCURATE. X then
+ *  holds the best solutions that were found.
+ *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
  *  X      [in,out]  n x nrhs, column-major, leading dimension ldx elements: solutions from
- *                   sl_factor_solve, or any other start; must not overlap B. On error untouched.
+ *                   sl_factor_solve, or any other start; must not overlap B. On errors other than
+ *                   SL_ERR_INACCURATE untouched.
  *  B      [in]      n x nrhs, column-major, leading dimension ldb elements.
- *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures.
+ *  steps  [in]      maximum number of corrections per column, 0 or more; 0 only measures, and does
+ *                   not return SL_ERR_INACCURATE.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     refine; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the analyzed
- *           pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Returns  SL_OK; SL_ERR_INACCURATE: see above; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor;
+ *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not
+ *           grow.
  *  Cost     one product with A, and another product and a solve per step; W grows to
  *           O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
@@ -45,11 +52,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
  *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
- *  steps  [in]   maximum number of corrections per column, 0 or more.
+ *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
  *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|; error.row with
  *                SL_ERR_ARGUMENT: a regularized row outside the reaches; may be NULL.
- *  Returns  as sl_plan_solve; SL_ERR_UNSUPPORTED: a plan in a region and a factor with regularized
- *           rows.
+ *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
+ *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
+ *           a region and a factor with regularized rows.
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
  *  Threads  any number at once on one P and one F, each with its own W.
@@ -62,16 +70,19 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
 
 /** Estimates the reciprocal condition number 1 / (||A|| ||A^-1||) in the one-norm.
  *
- *  Up to rounding, the true value is never larger than the estimate, and rarely smaller than a
- *  third of it. 0 if null pivots were skipped; 1 if n = 0. If regularization changed pivots, A^-1
- *  is (A + E)^-1.
+ *  epsilon / rcond estimates the relative error of a solve without refinement; if it is near 1 or
+ *  above, solutions are worthless. Up to rounding, the true value is never larger than the
+ *  estimate, and rarely smaller than a third of it. L D L' is judged, too: the solves of the
+ *  estimator are checked against A, and where their largest backward error w exceeds 64 epsilon,
+ *  because L has grown, the estimate is multiplied by epsilon / w. 0 if null pivots were skipped; 1
+ *  if n = 0. If regularization changed pivots, all this is about A + E.
  *
  *  A      [in]      the matrix that F is a factor of.
  *  rcond  [out]     the estimate.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PATTERN: not the analyzed
  *           pattern; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
- *  Cost     4 to 10 solves.
+ *  Cost     4 to 10 solves, each with a product with A.
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Hi88]
  *  Example  tests/core/test_condition.c

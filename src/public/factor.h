@@ -16,6 +16,17 @@
  *  component is therefore also null if it is below 16 (64 + n/8) epsilon times the heaviest pivot
  *  and constants are a null vector of the component, as defined below.
  *
+ *  Accuracy: without pivoting, a small pivot of an indefinite matrix makes L grow, and digits of A
+ *  are lost without any pivot being null, as in [1e-20 1; 1 1]. stats.factor.growth measures this.
+ *  - Definite matrices have a growth of at most 2, however badly they are scaled, and need no test.
+ *  - The backward error of sl_factor_solve and of local solves, as sl_csc_residual computes it, is
+ *    at most about epsilon * growth: use a solution as it is if this is small enough and
+ *    stats.factor.regularized is 0. It is a bound on normwise errors; rows that are tiny against
+ *    others of their component can be worse, which sl_factor_refine sees.
+ *  - Otherwise call sl_factor_refine, and trust X if it returns SL_OK. It repairs most systems
+ *    whose growth is below options.growth_limit.
+ *  - A growth beyond options.growth_limit is refused with SL_ERR_INACCURATE.
+ *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
@@ -58,14 +69,16 @@
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector; may be NULL.
+ *                consistency_tolerance, regularization, signs, null_vector, growth_limit,
+ *                error_limit; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; SL_ERR_UNSUPPORTED: the isa, or
+ *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
+ *           limit, caused by the pivot error.value of error.row; SL_ERR_UNSUPPORTED: the isa, or
  *           SL_NULL_PIVOT_SKIP with a pivoted analysis;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
@@ -78,8 +91,8 @@
  *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
  *           threads.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
- *           4.7.
- *  Example  tests/core/test_factor.c
+ *           4.7; growth: [Hi02] 11.1.
+ *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
                                                  const sl_csc *A, const sl_options *opt,
@@ -88,9 +101,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
 /** Factors a matrix of the same pattern with new values. Allocates nothing; same bits as
  *  sl_factor_create.
  *
- *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT and
- *                   SL_ERR_NOT_FINITE it has no numbers, and every solve refuses it until a
- *                   refactor succeeds.
+ *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
+ *                   SL_ERR_NOT_FINITE and SL_ERR_INACCURATE it has no numbers, and every solve
+ *                   refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
  *  Returns, Cost    as sl_factor_create, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
@@ -113,7 +126,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  A        [in]      the analyzed pattern, new values.
  *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
  *                     allowed.
- *  stats    [out]     factor; may be NULL.
+ *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
+ *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
  *           F has no numbers.
  *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16

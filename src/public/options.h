@@ -36,8 +36,8 @@ typedef struct sl_allocator {
  *  | every call with an sl_options argument     | size, allocator                          |
  *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
- *  | sl_factor_create and _create_combination   | threads, isa .. signs, null_vector       |
- *  | sl_batch_factor                            | threads, isa .. signs, null_vector       |
+ *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
+ *  |   sl_batch_factor                          | null_vector .. error_limit               |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_plan_create                             | region                                   |
@@ -112,8 +112,15 @@ typedef struct sl_options {
      * 1 */
     const double *null_vector;
 
+    /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
+     * 1 / epsilon = 4.5e15, beyond which L D L' may agree with A in no digit; negative: no limit */
+    double growth_limit;
+    /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
+     * backward error; 0: 1e-8; negative: never */
+    double error_limit;
+
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[6];
+    const void *reserved[4];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.

@@ -49,6 +49,11 @@ typedef struct sl_factor_info {
     sl_int regular;
     double pivot_min;   /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
     double pivot_max;   /* largest */
+    double entry_max;   /* largest |a| among the entries of A that were read */
+    /* pivot growth, max_k (|L| |D| |L'|)_kk / max |a|, the maximum over the connected components
+     * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
+     * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
+    double growth;
     double seconds_setup; /* processor seconds of schedule and memory in sl_factor_create */
     double seconds;       /* processor seconds of the numbers, summed over all threads */
     size_t bytes;
@@ -115,7 +120,7 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[30];
+    sl_off reserved[28];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

@@ -32,7 +32,10 @@ typedef enum sl_status {
     /* a failed factor, or objects that do not belong together */
     SL_ERR_STATE,
     /* a singular system whose right-hand side has no solution */
-    SL_ERR_INCONSISTENT
+    SL_ERR_INCONSISTENT,
+    /* pivot growth beyond options.growth_limit (stats name a row), or a refinement that ended above
+     * options.error_limit (its solution is written) */
+    SL_ERR_INACCURATE
 } sl_status;
 
 /** A short description of a status; static storage. Any value is accepted. */

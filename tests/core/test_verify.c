@@ -27,6 +27,8 @@ static const option_t options[] = {
     {"consistency_tolerance", READS_FACTOR},
     {"regularization", READS_FACTOR},
     {"signs", READS_FACTOR},
+    {"growth_limit", READS_FACTOR},
+    {"error_limit", READS_FACTOR},
     {"region", READS_REGION},
     {"region_bytes", READS_REGION_BYTES},
 };
@@ -98,6 +100,12 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.signs = signs;
         break;
     case 16:
+        opt.growth_limit = 1e12;
+        break;
+    case 17:
+        opt.error_limit = 1e-6;
+        break;
+    case 18:
         opt.region = f->region;
         break;
     default:

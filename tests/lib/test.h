@@ -141,6 +141,7 @@ static inline sl_options options_for_analysis(const sl_options *from) {
         opt.method = SL_METHOD_AUTO;
         opt.null_pivots = SL_NULL_PIVOT_REFUSE;
         opt.null_tolerance = opt.consistency_tolerance = opt.regularization = 0;
+        opt.growth_limit = opt.error_limit = 0;
         opt.mass = NULL;
         opt.signs = NULL;
     }

@@ -35,6 +35,8 @@ SL_API const char *sl_status_string(sl_status status) {
         return "failed factor, or objects that do not belong together";
     case SL_ERR_INCONSISTENT:
         return "inconsistent right-hand side of a singular system";
+    case SL_ERR_INACCURATE:
+        return "inaccurate: pivot growth or backward error above its limit";
     }
     return "unknown status";
 }

@@ -53,7 +53,7 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
 static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     sl_int n_done = F->S->n; /* pivots before the failure */
     if (f->status != SL_OK && f->pivot >= 0) {
-        n_done = f->pivot;
+        n_done = f->status == SL_ERR_INACCURATE ? n_done : f->pivot;
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
     } else if (f->status != SL_OK) {
         n_done = F->S->super_first[f->super];
@@ -90,6 +90,10 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g
     sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
         (void)sli_nulls_find(F, from, has_g, failure);
+    }
+    F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
+    if (failure->status == SL_OK) {
+        (void)sli_growth_check(F, failure);
     }
     sli_factor_report(F, from->A, failure);
     F->stats.factor.seconds = sli_seconds() - started;

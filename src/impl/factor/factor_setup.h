@@ -6,6 +6,7 @@
 #include "../base/options.h"
 #include "../kernels/dispatch.h"
 #include "factor_types.h"
+#include "growth.h"
 #include "nullspace.h"
 
 static void sli_factor_layout(sl_factor *F, sli_block *b) {
@@ -18,6 +19,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->E = SLI_TAKE(b, double, n);
         F->divisors = SLI_TAKE(b, double, n);
     }
+    F->extents = SLI_TAKE(b, sli_extent, supers);
     if (F->rule.regularization != 0.0) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.shifts = SLI_TAKE(b, double, n);
@@ -99,6 +101,7 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
             (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
             opt->null_tolerance == opt->null_tolerance &&
             opt->consistency_tolerance == opt->consistency_tolerance &&
+            opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
             opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
             (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE));
 }
@@ -108,7 +111,12 @@ static int sli_factor_options_are_valid(const sl_options *opt) {
     return sli_options_are_valid(opt, SLI_READS_FACTOR) && sli_factor_choices_are_valid(opt);
 }
 
-/* Sets the rules for null pivots. The arrays among the options are copied later, by
+/* A limit of the options: 0 is the default, and what is negative is no limit. */
+SLI_INLINE double sli_limit(double option, double limit) {
+    return option == 0.0 ? limit : option < 0.0 ? (double)INFINITY : option;
+}
+
+/* Sets the rules for null pivots and the limits. The arrays among the options are copied later, by
  * sli_factor_rules_fill. */
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
@@ -119,6 +127,8 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
     F->consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+    F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit, SLI_GROWTH_LIMIT);
+    F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
 /* Copies the arrays that the rules refer to, into pivot order. */

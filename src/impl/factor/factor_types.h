@@ -34,6 +34,12 @@ typedef struct sli_null_row {
     sl_int entries; /* scratch: entries of the row */
     sl_int last;    /* the last pivot of the component of the row */
 } sli_null_row;
+/* What a supernode contributes to pivot growth (growth.h). */
+typedef struct sli_extent {
+    double entry;     /* the largest |a| in its columns */
+    double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
+    sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
+} sli_extent;
 
 struct sl_factor {
     sl_allocator allocator;
@@ -53,6 +59,9 @@ struct sl_factor {
     double *L;           /* the panels of all supernodes */
     double *D;           /* n pivots */
     double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
+    sli_extent *extents; /* n_supers */
+    double growth_limit; /* a larger growth is refused */
+    double error_limit;  /* a refinement that ends above it is reported */
     /* n: the pivots that regularization changed, ascending; NULL: no regularization */
     sl_int *regularized;
 
@@ -163,22 +172,26 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s. With
- * scatter_from, x is A's value array and scatter_from[m] the position of entry m; without, x[0] is
- * the value of entry `first`. */
+/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, and records the
+ * largest magnitude. With scatter_from, x is A's value array and scatter_from[m] the position of
+ * entry m; without, x[0] is the value of entry `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, sl_off first,
                                                    sl_off last, const double *x,
                                                    const sl_int *scatter_from,
                                                    sli_failure *failure) {
     const sl_off *to = F->S->scatter_to;
+    double largest = F->extents[s].entry;
     sl_off m;
     for (m = first; m < last; m++) {
         const double a = scatter_from != NULL ? x[scatter_from[m]] : x[m - first];
+        const double size = fabs(a);
         if (!sli_is_finite(a)) {
             return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
         F->L[to[m]] += a;
+        largest = size > largest ? size : largest;
     }
+    F->extents[s].entry = largest;
     return SL_OK;
 }
 
@@ -205,6 +218,8 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     sl_off m = S->scatter_begin[s], last;
     double sums[SLI_SUM_ENTRIES];
     sl_status status = SL_OK;
+    F->extents[s].entry = F->extents[s].magnitude = 0.0;
+    F->extents[s].pivot = -1;
     if (from->A != NULL) {
         return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
     }
@@ -226,39 +241,53 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
     return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
 }
 
-/* Refuses a pivot that is not finite, or one that is null against the magnitudes it was computed
- * from and was not replaced. */
-SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int k, double pivot, double magnitude,
-                                     sli_failure *failure) {
+/* Keeps the largest sum of magnitudes that a pivot k of supernode s was computed from. */
+SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, double magnitude) {
+    if (magnitude > F->extents[s].magnitude) {
+        F->extents[s].magnitude = magnitude;
+        F->extents[s].pivot = k;
+    }
+}
+
+/* Records the magnitudes that pivot k of supernode s was computed from. Refuses a pivot that is not
+ * finite, or one that is null against these magnitudes and was not replaced. */
+SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
+                                     double magnitude, sli_failure *failure) {
+    sli_record_magnitude(F, s, k, magnitude);
     if (!sli_is_finite(pivot)) {
-        return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1, pivot);
+        return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1, pivot);
     }
     if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
-        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
+        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
     }
     if (F->null_pivots == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
         !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
-        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, pivot);
+        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
     }
     return SL_OK;
 }
 
-/* Refuses a 2x2 pivot that is not finite or null; asked for both of its columns k. */
-SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int k, const double *magnitude,
+/* Records the magnitudes that column k of a 2x2 pivot of supernode s was computed from. At the
+ * first column, refuses a pivot that is not finite or null. */
+SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
                                     sli_failure *failure) {
-    const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
+    double a, b, e;
+    sli_record_magnitude(F, s, k, magnitude[0]);
     if (F->S->pairs[k] == SLI_PAIR_SECOND) {
         return SL_OK;
     }
+    a = F->D[k];
+    b = F->D[k + 1];
+    e = F->E[k];
     if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
-        return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[k], k, -1,
+        return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1,
                         !sli_is_finite(a)   ? a
                         : !sli_is_finite(b) ? b
                                             : e);
     }
     if (!F->rule.replaces &&
         sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], F->rule.null_tolerance)) {
-        return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, a);
+        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, a);
     }
     return SL_OK;
 }

@@ -99,8 +99,8 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
     sl_int k;
     for (k = 0; k < f->width && status == SL_OK; k++) {
         status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
-                     ? sli_check_pair(F, first + k, f->magnitude + k, failure)
-                     : sli_check_pivot(F, first + k, f->D[k], f->magnitude[k], failure);
+                     ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
+                     : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
     }
     return status;
 }

@@ -71,7 +71,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         sli_row_solve_all(F, k, &pivot, &magnitude);
         pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
         F->D[k] = pivot;
-        status = sli_check_pivot(F, k, pivot, magnitude, failure);
+        status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
             F->position[s] = 0;
             sli_row_link(F, s);

@@ -8,30 +8,64 @@
 #include "backward.h"
 #include "work.h"
 
-/* A vector v in pivot order, solved for in place, and its signs. */
+/* Backward errors up to this are due to rounding alone. Where L has grown they are larger, and L D
+ * L' is not A: epsilon / rcond then has to bound the effect of that error, too. */
+#define SLI_ROUNDING_ERROR (64.0 * DBL_EPSILON)
+
+/* A vector v in pivot order, solved for in place, its signs, and the largest backward error of the
+ * solves so far. */
 typedef struct sli_norm_estimate {
     const sl_factor *F;
+    const sl_csc *A;
+    double norm; /* of A */
+    double error;
     sli_reach all;
-    double *v, *signs, *scratch;
+    double *v, *signs, *residual, *scratch;
 } sli_norm_estimate;
 
 static void sli_norm_estimate_layout(sli_norm_estimate *p, sli_block *b) {
     p->v = SLI_TAKE(b, double, p->all.columns);
     p->signs = SLI_TAKE(b, double, p->all.columns);
+    p->residual = SLI_TAKE(b, double, p->all.columns);
     p->scratch = SLI_TAKE(b, double, sli_sweep_scratch(p->all.tallest, p->all.widest, 1));
 }
 
+/* residual := residual - P (A + E) P' v, where E is what regularization added. */
+static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
+    const sl_csc *A = p->A;
+    const sl_int *iperm = p->F->S->iperm;
+    const sl_triangle triangle = p->F->S->stats.symbolic.triangle;
+    sl_int j, k, m, q;
+    for (j = 0; j < A->n_cols; j++) {
+        k = iperm[j];
+        for (q = A->p[j]; q < A->p[j + 1]; q++) {
+            m = iperm[A->i[q]];
+            if (sli_is_read(triangle, A->i[q], j)) {
+                p->residual[m] -= A->x[q] * p->v[k];
+                p->residual[k] -= m != k ? A->x[q] * p->v[m] : 0.0;
+            }
+        }
+        p->residual[k] -= p->F->rule.shifts != NULL ? p->F->rule.shifts[k] * p->v[k] : 0.0;
+    }
+}
+
 /* v := (P A P')^-1 v. Returns the 1-norm of v. */
-static double sli_norm_estimate_solve(const sli_norm_estimate *p) {
+static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     const sl_factor *F = p->F;
-    double sum = 0.0;
+    const sl_int n = p->all.columns;
+    const double size = sli_largest(p->v, n);
+    double sum = 0.0, error;
     sl_int k;
+    memcpy(p->residual, p->v, (size_t)n * sizeof(double));
     F->kernels->forward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
                                      p->scratch);
     sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
-    for (k = 0; k < p->all.columns; k++) {
+    for (k = 0; k < n; k++) {
         sum += fabs(p->v[k]);
     }
+    sli_norm_estimate_residual(p);
+    error = sli_backward_error(sli_largest(p->residual, n), p->norm, sli_largest(p->v, n), size);
+    p->error = error > p->error ? error : p->error;
     return sum;
 }
 
@@ -60,7 +94,7 @@ static sl_int sli_norm_estimate_largest(const sli_norm_estimate *p) {
  * of the unit ball; its gradient A^-1 sign(A^-1 x) selects the next vertex. A last vector with
  * alternating signs guards against matrices that fool this search. A is symmetric, so one kind of
  * solve serves for A^-1 and its transpose. n > 0. [Hi88] */
-static double sli_inverse_norm(const sli_norm_estimate *p) {
+static double sli_inverse_norm(sli_norm_estimate *p) {
     const sl_int n = p->all.columns;
     double best, sum;
     sl_int k, j = -1, turn;
@@ -120,20 +154,23 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
         return SL_OK;
     }
     p.F = F;
+    p.A = A;
+    p.error = 0.0;
     p.all = sli_reach_all(F->S);
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_norm_estimate_layout(&p, &b);
     status = sli_work_block(W, &b);
     if (status == SL_OK) {
-        double norm, inverse;
+        double inverse;
         sli_norm_estimate_layout(&p, &b);
-        norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
+        p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
         inverse = sli_inverse_norm(&p);
         /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
-        *rcond = norm > 0.0 && inverse > 0.0
-                     ? 1.0 / fmax(norm, inverse) / fmin(norm, inverse)
+        *rcond = p.norm > 0.0 && inverse > 0.0
+                     ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
                      : 0.0;
+        *rcond *= p.error > SLI_ROUNDING_ERROR ? DBL_EPSILON / p.error : 1.0;
     }
     sli_free(&own.allocator, own.block);
     return status;

@@ -121,11 +121,16 @@ SLI_INLINE double sli_max_error(double a, double b) {
     return a != a || a > b ? a : b;
 }
 
-static void sli_refine_stats(sl_stats *stats, sl_int steps, double error) {
+/* Ends a refinement of at most `most` steps. Without any it was asked to measure only. */
+static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most, sl_int steps,
+                                 double error) {
     if (stats != NULL) {
         stats->refine.steps = steps;
         stats->refine.backward_error = error;
     }
+    return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
+               ? SL_ERR_INACCURATE
+               : SL_OK;
 }
 
 SL_API sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs) {
@@ -180,10 +185,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
         }
     }
     sli_free(&own.allocator, own.block);
-    if (status == SL_OK) {
-        sli_refine_stats(stats, f.steps, worst);
-    }
-    return status;
+    return status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
 }
 
 #endif

@@ -173,8 +173,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
             worst = sli_max_error(f->error[c], worst);
         }
     }
-    sli_refine_stats(stats, f->steps, worst);
-    return SL_OK;
+    return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
 SL_API sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs) {
@@ -205,10 +204,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     }
     if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
         status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
-        if (status == SL_OK) {
-            sli_refine_stats(stats, 0, 0.0);
-        }
-        return status;
+        return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
     }
     status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, SLI_COLUMN_MAJOR, nrhs);
     if (status != SL_OK) {

@@ -1,0 +1,93 @@
+/* growth.h: after a factorization: its pivot growth, and the pivot that causes it */
+#ifndef SLI_FACTOR_GROWTH_H
+#define SLI_FACTOR_GROWTH_H
+
+#include "factor_types.h"
+
+/* The computed factors satisfy L D L' = P A P' + E, |E| <= c n epsilon |L| |D| |L'| [Hi02] 11.1.
+ * No entry of the semidefinite matrix |L| |D| |L'| exceeds its largest diagonal entry. Null pivots
+ * are judged by that diagonal: pivot k is computed from magnitudes of sum
+ * |a_kk| + sum_j |l_kj d_j l_kj|. So growth costs one comparison a pivot.
+ *
+ * If all pivots of a component have one sign, the sum is 2 |a_kk| - |d_k|: the growth is at most 2,
+ * however A is scaled. In the other components it says how many digits of A the factor has lost.
+ * Over 1e5 random systems of 24 families (tests/lib/random_systems.h) the backward error of a solve
+ * stayed below 1.5 epsilon times the growth.
+ *
+ * The limit. Three refinements brought every quasi-definite system with a growth below 1e14 to a
+ * backward error below 1e-10, 88 % of those from 1e14 to 1e15, and 60 % of those above; systems
+ * that stayed above 1e-8 among these had a growth above 2e15. So the factorization refuses only
+ * where L D L' may have no digit of A, and leaves the rest to refinement, which measures. */
+#define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
+
+/* The pivot j that contributes most to row k, max |l_kj d_j l_kj|; -1 if row k of L is empty. */
+static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
+    const sl_symbolic *S = F->S;
+    const sl_int own = S->super_of[k];
+    double most = 0.0;
+    sl_int s, j, cause = -1;
+    for (s = S->first_descendant[own]; s <= own; s++) {
+        const sli_step *step = &S->steps[s];
+        const sl_int *rows = S->rows + S->rows_begin[s];
+        const sl_int at = s == own ? -1 : sli_lower_bound(rows, step->below, k);
+        const sl_int r = s == own ? k - step->column : step->width + at;
+        if (s != own && (at == step->below || rows[at] != k)) {
+            continue;
+        }
+        for (j = 0; j < sli_min(r, step->width); j++) {
+            const double *l = &F->L[step->panel + sli_panel_at(step->width, r, j)];
+            const sl_int c = step->column + j;
+            double size = fabs(*l * F->D[c] * *l);
+            if (S->pairs != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
+                size += 2.0 * fabs(l[0] * F->E[c] * l[SLI_TILE]);
+            }
+            if (size > most) {
+                most = size;
+                cause = step->column + j;
+            }
+        }
+    }
+    return cause;
+}
+
+/* Refuses the tree of supernodes first .. last, whose magnitudes exceed bound. Row k of the first
+ * such magnitude is where the growth shows; it goes back to a pivot that is small. */
+static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double bound,
+                                   sli_failure *failure) {
+    sl_int s = first, k, cause;
+    while (s < last && !(F->extents[s].magnitude > bound)) {
+        s++;
+    }
+    k = F->extents[s].pivot;
+    do {
+        cause = sli_growth_cause(F, k);
+        k = cause == -1 ? k : cause;
+    } while (cause != -1 && fabs(F->D[k]) > bound);
+    return sli_fail(failure, SL_ERR_INACCURATE, F->S->super_of[k], k, -1, F->D[k]);
+}
+
+/* Measures the growth of every tree, and refuses the first one beyond the limit. */
+static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    sl_factor_info *info = &F->stats.factor;
+    double entry = 0.0, magnitude = 0.0, growth;
+    sl_int s, first = 0;
+    for (s = 0; s < S->n_supers; s++) {
+        entry = fmax(entry, F->extents[s].entry);
+        magnitude = fmax(magnitude, F->extents[s].magnitude);
+        if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
+            /* the sum may overflow, but no term of a finite pivot does */
+            growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+            info->growth = fmax(info->growth, growth);
+            info->entry_max = fmax(info->entry_max, entry);
+            if (growth > F->growth_limit && failure->status == SL_OK) {
+                (void)sli_growth_refuse(F, first, s, F->growth_limit * entry, failure);
+            }
+            entry = magnitude = 0.0;
+            first = s + 1;
+        }
+    }
+    return failure->status;
+}
+
+#endif
