@@ -63,7 +63,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	figures format tidy clean always test-figures build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis
+	figures format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -226,6 +226,10 @@ test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
 	@echo '$(words $(TOOL_TESTS)) programs of $(shell cat $(TOOL_TESTS) | grep -c 'cmocka_unit_test') tests of tools'
 	@for f in tests/fuzz/corpus/*; do echo "corpus $${f##*/}: $$(ls $$f | wc -l) inputs, $$(cat $$f/* | wc -c) bytes"; done
 
+# What else the page reports is read from the logs of the targets that have run in this checkout.
+test-page: ## writes the figures between the marks in tests/README.md
+	@tools/build/test_page.sh
+
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
 	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
 
@@ -271,7 +275,8 @@ cov: deps deps-cov sparse_local.h ## line and branch coverage of the header by t
 	@if [ -d build/cov ]; then find build/cov -name '*.gcda' -delete; fi
 	@$(MAKE) --no-print-directory run-tests B=build/cov OPT='-O0 -g --coverage'; status=$$?; \
 	gcovr --root . --filter 'sparse_local\.h' --gcov-ignore-parse-errors --exclude-unreachable-branches --html-details build/cov/index.html \
-	--print-summary build/cov 2>build/cov/gcovr.log || { cat build/cov/gcovr.log; exit 1; }; exit $$status
+	--print-summary build/cov 2>build/cov/gcovr.log >build/cov/summary.txt || { cat build/cov/gcovr.log; exit 1; }; \
+	cat build/cov/summary.txt; exit $$status
 
 fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/fuzz/corpus
 	@$(MAKE) --no-print-directory run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
@@ -289,7 +294,7 @@ $(B)/run/%: $(B)/obj/tests/fuzz/fuzz_%.o $(LIBRARY) $(IMPL)
 run-fuzz: $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/run/%)
 	@for program in $^; do name=$${program##*/}; words=tests/fuzz/$$name.dict; \
 	mkdir -p $(B)/found/$$name tests/fuzz/corpus/$$name; \
-	$$program -max_total_time=$(FUZZ_SECONDS) -seed=$(FUZZ_SEED) -max_len=2048 -entropic=0 -print_final_stats=1 \
+	ASAN_OPTIONS=malloc_context_size=4:quarantine_size_mb=8 $$program -max_total_time=$(FUZZ_SECONDS) -seed=$(FUZZ_SEED) -max_len=2048 -entropic=0 -print_final_stats=1 \
 	$$([ ! -e $$words ] || echo -dict=$$words) -artifact_prefix=$(B)/found/crash-$$name- \
 	$(B)/found/$$name tests/fuzz/corpus/$$name >$(B)/$$name.log 2>&1 || { tail -n 60 $(B)/$$name.log; exit 1; }; \
 	awk -v name=$$name '/number_of_executed_units/ { runs = $$2 } /average_exec_per_sec/ { rate = $$2 } \

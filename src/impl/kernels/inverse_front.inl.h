@@ -236,7 +236,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
     const double *N = scratch, *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW,
                  *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t;
+    sl_int c, t, k;
     for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
@@ -253,6 +253,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
                 (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
             SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
+            for (k = 0; k < SLI_TILE * columns && first == h; k++) { /* padding is read */
+                double *z = row + tile_size * (ptrdiff_t)c + k;
+                *z = k % SLI_TILE < rows ? *z : 0.0;
+            }
             if (c < t) {
                 SLV_NAME(mirror)
                 (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
