@@ -1,5 +1,5 @@
-/* fuzz_solve.c: takes a small matrix (often malformed), options and sets from any bytes and makes
- * every call with them; local solves must equal full solves */
+/* fuzz_solve.c: takes a small matrix (often malformed), options and sets from any bytes and calls
+ * with them; local solves must equal full solves */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +12,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* Sizes are small so that runs are short: two tiles of 8 rows, two blocks of 8 right-hand sides. */
 enum { MOST = 16, ENTRIES = 128, RHS = 9 };
+
+/* What a run does, chosen by the last byte of the input. A run of all parts would take five times
+ * as long, and find no more: most combinations of inputs and parts are independent. */
+enum {
+    FACTOR_ONLY, /* solves with the first factor, a refactored one, a changed one, or all */
+    REFACTORED,
+    CHANGED,
+    ALL_STAGES,
+    STAGES = 3, /* the bits of the above */
+    IN_REGION = 4,
+    QUERIES = 8,
+    CONVERSIONS = 16,
+    SHOTS = 32
+};
 
 typedef struct input_t {
     const uint8_t *at, *end;
@@ -40,6 +54,7 @@ typedef struct case_t {
     sl_int signs[MOST];
     double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS], mass[MOST];
     sl_int nb, nx, nrhs;
+    int parts;
     sl_options for_analysis, for_factor;
 } case_t;
 
@@ -222,43 +237,57 @@ static void solve_in_region(case_t *c, const sl_symbolic *S, const sl_factor *F,
     }
 }
 
-static void solve_all(case_t *c, const sl_symbolic *S, sl_factor *F) {
+static void convert(const sl_factor *F) {
     double log_abs_det, sign;
     sl_matrix *L = NULL;
-    sl_plan *P = NULL;
-    sl_work *W = NULL;
     PROMISE(sl_factor_logdet(F, &log_abs_det, &sign) == SL_OK);
     PROMISE(sl_factor_lower(&L, F, NULL) == SL_OK);
     const sl_csc view = sl_matrix_view(L);
     PROMISE(sl_csc_check(&view, NULL) == SL_OK);
+    sl_matrix_free(L);
+}
+
+static void solve_parts(case_t *c, const sl_symbolic *S, sl_factor *F) {
+    sl_plan *P = NULL;
+    sl_work *W = NULL;
     PROMISE(sl_work_create(&W, NULL) == SL_OK);
     const sl_status planned = sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, NULL, NULL);
     PROMISE((P != NULL) == (planned == SL_OK));
     PROMISE(planned == SL_OK || planned == SL_ERR_ARGUMENT);
-    const sl_status shot =
-        sl_local_solve(F, c->bset, c->nb, c->xset, c->nx, c->X, MOST, c->B, MOST, c->nrhs, W, NULL);
-    PROMISE(planned == shot || (planned == SL_OK && shot == SL_ERR_INCONSISTENT));
+    if (P == NULL || c->parts & SHOTS) {
+        const sl_status shot = sl_local_solve(F, c->bset, c->nb, c->xset, c->nx, c->X, MOST, c->B,
+                                              MOST, c->nrhs, W, NULL);
+        PROMISE(planned == shot || (planned == SL_OK && shot == SL_ERR_INCONSISTENT));
+    }
     if (P) {
         const sl_status full = solve_full(c, F);
-        PROMISE(full == shot || c->nx == 0); /* with an empty x-set nothing is checked */
-        if (full == SL_OK) {
+        if (full == SL_OK && c->parts & SHOTS) {
             compare(c);
         }
         memset(c->X, 0, sizeof c->X);
-        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == shot);
+        const sl_status local = sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W);
+        PROMISE(full == local || c->nx == 0); /* with an empty x-set nothing is checked */
         if (full == SL_OK) {
             compare(c);
         }
-        const sl_status refined =
-            sl_plan_solve_refined(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
-        PROMISE(refined == shot || (shot == SL_OK && (refined == SL_ERR_ARGUMENT ||
-                                                      refined == SL_ERR_INACCURATE)));
-        solve_in_region(c, S, F, shot, full, W);
+        if (c->parts & QUERIES) {
+            const sl_status refined =
+                sl_plan_solve_refined(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
+            PROMISE(refined == local || (local == SL_OK && (refined == SL_ERR_ARGUMENT ||
+                                                            refined == SL_ERR_INACCURATE)));
+        }
+        if (c->parts & IN_REGION) {
+            solve_in_region(c, S, F, local, full, W);
+        }
     }
-    query_all(c, F, W);
+    if (c->parts & QUERIES) {
+        query_all(c, F, W);
+    }
+    if (c->parts & CONVERSIONS) {
+        convert(F);
+    }
     sl_work_free(W);
     sl_plan_free(P);
-    sl_matrix_free(L);
 }
 
 /* Changes the first half of the columns and refactors only their reach. */
@@ -272,7 +301,25 @@ static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *
         c->x[q] = take_value(in);
     }
     if (sl_factor_refactor_changed(F, &c->A, columns, half, NULL) == SL_OK) {
-        solve_all(c, S, F);
+        solve_parts(c, S, F);
+    }
+}
+
+/* New values on the same pattern, which may have no factor. */
+static void refactor(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in) {
+    const int stage = c->parts & STAGES;
+    for (sl_int q = 0; q < c->p[c->A.n_cols]; q++) {
+        c->x[q] = take_value(in);
+    }
+    if (sl_factor_refactor(F, &c->A, NULL) != SL_OK) {
+        PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STATE);
+        return;
+    }
+    if (stage == REFACTORED || stage == ALL_STAGES) {
+        solve_parts(c, S, F);
+    }
+    if (stage == CHANGED || stage == ALL_STAGES) {
+        change_half(c, S, F, in);
     }
 }
 
@@ -288,6 +335,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     in.end = data + size;
     memset(c, 0, sizeof *c); /* a run depends on its input alone */
+    c->parts = data[size - 1];
     take_matrix(c, &in);
     take_options(c, &in);
     const sl_status good = sl_csc_check(&c->A, NULL);
@@ -296,18 +344,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     PROMISE((S != NULL) == (status == SL_OK));
     if (S) {
         PROMISE(good == SL_OK && c->A.n_rows == c->A.n_cols);
-        sl_factor_create(&F, S, &c->A, &c->for_factor, NULL) == SL_OK ? solve_all(c, S, F)
-                                                                      : PROMISE(F == NULL);
-        if (F) { /* New values on the same pattern, which may have no factor. */
-            for (sl_int q = 0; q < c->p[c->A.n_cols]; q++) {
-                c->x[q] = take_value(&in);
-            }
-            if (sl_factor_refactor(F, &c->A, NULL) == SL_OK) {
-                solve_all(c, S, F);
-                change_half(c, S, F, &in);
-            } else {
-                PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STATE);
-            }
+        const int stage = c->parts & STAGES;
+        const sl_status made = sl_factor_create(&F, S, &c->A, &c->for_factor, NULL);
+        PROMISE((F != NULL) == (made == SL_OK));
+        if (F && (stage == FACTOR_ONLY || stage == ALL_STAGES)) {
+            solve_parts(c, S, F);
+        }
+        if (F && stage != FACTOR_ONLY) {
+            refactor(c, S, F, &in);
         }
     }
     sl_matrix_free(T);
