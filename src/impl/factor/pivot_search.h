@@ -2,6 +2,7 @@
 #ifndef SLI_FACTOR_PIVOT_SEARCH_H
 #define SLI_FACTOR_PIVOT_SEARCH_H
 
+#include "../analysis/structure.h"
 #include "factor_types.h"
 
 /* Pivots are selected by threshold partial pivoting [DR83]: no entry of L exceeds
