@@ -252,11 +252,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
                 SLV_NAME(block)
                 (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
             }
-            SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
-            for (k = 0; k < SLI_TILE * columns && first == h; k++) { /* padding is read */
-                double *z = row + tile_size * (ptrdiff_t)c + k;
-                *z = k % SLI_TILE < rows ? *z : 0.0;
-            }
+            /* after the last row of a root the lanes are 0, for the groups before this one */
+            SLV_NAME(merge)
+            (row + tile_size * (ptrdiff_t)c, x, f->below == 0 ? SLI_TILE : rows, 0, columns);
             if (c < t) {
                 SLV_NAME(mirror)
                 (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
