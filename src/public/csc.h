@@ -134,9 +134,11 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
  *  the system may lose both files.
  *
- *  Windows and others without POSIX: the old file is removed just before the renaming. If the
- *  renaming fails, or a kill comes between the two, the complete file has its temporary name. Two
+ *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
  *  processes must not write one path at the same time.
+ *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
+ *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
+ *  its temporary name.
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
  *                 one triangle.

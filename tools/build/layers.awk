@@ -207,6 +207,8 @@ function check_name(name) {
 # Checks the name that a line declares: the name before the first parenthesis (a function), the tag
 # after struct, enum or union, or the name before = [ or ; (a table or a type).
 function check_declaration(line,    rest, name) {
+    if (line ~ /__declspec\(dllimport\)/) # a function of Windows: its name is given
+        return
     gsub(/"[^"]*"/, "", line)
     gsub(/\/\*.*\*\//, "", line)
     gsub(/__attribute__ *\(\([^)]*\)*/, "", line)

@@ -23,17 +23,39 @@
 #define SLI_METIS 1
 #endif
 
-/* AVX kernels need target attributes per function and correctly aligned spills of vectors. MSVC has
- * no such attribute; MinGW misaligns the spills. */
-#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__) && !defined(_WIN32) && \
-    !defined(SL_NO_SIMD)
-#define SLI_X86 1
-#include <cpuid.h>
-#include <immintrin.h>
+/* gcc and clang, which in the dialect of MSVC does not say __GNUC__: attributes and builtins. */
+#if defined(__GNUC__) || defined(__clang__)
+#define SLI_GNU 1
 #endif
-#if defined(__aarch64__) && defined(__ARM_NEON) && !defined(SL_NO_SIMD)
+
+/* AVX kernels need correctly aligned spills of vectors, which gcc for Windows does not have (its
+ * bug 54412), and attributes of functions that name the instruction set. MSVC compiles intrinsics
+ * without the attribute; its version 19.38 is said to miscompile such code. */
+#if defined(SL_NO_SIMD)
+#elif defined(__clang__) || (defined(__GNUC__) && !defined(_WIN32))
+#if defined(__x86_64__) || defined(__i386__)
+#define SLI_X86 1
+#include <immintrin.h>
+#if defined(_MSC_VER) /* there immintrin.h includes only what the command line enables */
+#include <smmintrin.h>
+#include <avxintrin.h>
+#include <avx2intrin.h>
+#include <avx512fintrin.h>
+#include <fmaintrin.h>
+#endif
+#elif defined(__aarch64__) && defined(__ARM_NEON)
 #define SLI_ARM 1
 #include <arm_neon.h>
+#endif
+#elif defined(_MSC_VER)
+#if defined(_M_X64) && !defined(_M_ARM64EC) && _MSC_VER >= 1920 && _MSC_VER != 1938
+#define SLI_X86 1
+#include <immintrin.h>
+#include <intrin.h>
+#elif defined(_M_ARM64)
+#define SLI_ARM 1
+#include <arm_neon.h>
+#endif
 #endif
 
 /* Functions of Linux under names of this library, because -std=c99 hides their declarations. */
@@ -49,7 +71,21 @@ extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("
 #include <sys/stat.h>
 #endif
 
-#if defined(__GNUC__)
+/* Functions of Windows, as <windows.h> declares them; that header defines too many macros. */
+#if defined(_WIN32)
+#define SLI_WINDOWS 1
+#if defined(__cplusplus)
+extern "C" {
+#endif
+__declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
+                                                unsigned long flags);
+__declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
+#if defined(__cplusplus)
+}
+#endif
+#endif
+
+#if defined(SLI_GNU)
 #define SLI_INLINE __attribute__((unused)) static inline
 /* for functions whose calls pass a constant that must be folded into the body */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
@@ -64,12 +100,38 @@ extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("
 #define SLI_UNROLL _Pragma("GCC unroll 8")
 #else
 #define SLI_INLINE static inline
-#define SLI_ALWAYS_INLINE static inline
 #define SLI_NOINLINE
 #define SLI_TARGET(list)
+#if defined(_MSC_VER)
+#define SLI_ALWAYS_INLINE static __forceinline
+#define SLI_ALIGNED(variable) __declspec(align(64)) variable
+#else
+#define SLI_ALWAYS_INLINE static inline
 #define SLI_ALIGNED(variable) variable
+#endif
+#if defined(_MSC_VER) && defined(SLI_X86)
+#define SLI_PREFETCH(p, bytes) _mm_prefetch((const char *)(p) + (bytes), _MM_HINT_T0)
+#else
 #define SLI_PREFETCH(p, bytes) ((void)0)
+#endif
 #define SLI_UNROLL
+#endif
+/* c - a b in one rounding, in a function compiled for that instruction */
+#if defined(SLI_GNU)
+#define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
+#elif defined(SLI_X86)
+#define SLI_FNMA1(a, b, c) \
+    _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#else
+#define SLI_FNMA1(a, b, c) fma(-(a), b, c)
+#endif
+/* Keeps a vector in its register: without this, a value used several times is loaded each time. */
+#if defined(SLI_GNU) && defined(SLI_X86)
+#define SLI_PIN(a) __asm__("" : "+x"(a))
+#define SLI_PIN_ANY(a) __asm__("" : "+v"(a)) /* also in registers 16 to 31 */
+#else
+#define SLI_PIN(a) ((void)0)
+#define SLI_PIN_ANY(a) ((void)0)
 #endif
 
 /* A precondition. SL_VERIFY builds check it. */
@@ -105,10 +167,13 @@ SLI_INLINE int sli_is_finite(double a) {
     return a - a == 0.0;
 }
 
-#if defined(SLI_POSIX)
+#if defined(SLI_POSIX) || defined(SLI_WINDOWS)
 /* Whether path is a symbolic link. Not noticed where the headers hide lstat. */
 SLI_INLINE int sli_is_link(const char *path) {
-#if defined(__linux__) && defined(__GNUC__)
+#if defined(SLI_WINDOWS)
+    const unsigned long attributes = GetFileAttributesA(path); /* all ones: there is no such file */
+    return attributes != 0xffffffffu && (attributes & 0x400u) != 0;
+#elif defined(__linux__) && defined(__GNUC__)
     char to[1];
     return sli_readlink(path, to, sizeof to) >= 0;
 #elif defined(S_IFLNK) && defined(S_ISLNK)
@@ -121,7 +186,8 @@ SLI_INLINE int sli_is_link(const char *path) {
 }
 #endif
 
-/* Seconds of processor time since an arbitrary moment. C99 has no other clock. */
+/* Seconds of processor time since an arbitrary moment. C99 has no other clock; on Windows it counts
+ * all time. */
 SLI_INLINE double sli_seconds(void) {
 #if defined(SL_NO_CLOCK)
     return 0.0;

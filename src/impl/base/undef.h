@@ -1,5 +1,10 @@
 /* undef.h: undefines every internal macro */
 #undef SLI_METIS
+#undef SLI_GNU
+#undef SLI_WINDOWS
+#undef SLI_FNMA1
+#undef SLI_PIN
+#undef SLI_PIN_ANY
 #undef SLI_X86
 #undef SLI_ARM
 #undef SLI_AVX512

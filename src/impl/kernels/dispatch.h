@@ -8,11 +8,25 @@
 #include "simd_scalar.h"
 
 #if defined(SLI_X86)
+/* What CPUID says of a leaf: eax, ebx, ecx, edx. Not by <cpuid.h>, which conflicts with <intrin.h>.
+ */
+SLI_INLINE void sli_cpuid(unsigned leaf, unsigned *r) {
+#if defined(SLI_GNU)
+    __asm__ volatile("cpuid" : "=a"(r[0]), "=b"(r[1]), "=c"(r[2]), "=d"(r[3]) : "a"(leaf), "c"(0));
+#else
+    __cpuidex((int *)r, (int)leaf, 0);
+#endif
+}
+
 /* XCR0: the register states that the operating system saves. */
 SLI_INLINE unsigned sli_xcr0(void) {
+#if defined(SLI_GNU)
     unsigned low, high;
     __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
     return low;
+#else
+    return (unsigned)_xgetbv(0);
+#endif
 }
 #endif
 
@@ -20,17 +34,20 @@ SLI_INLINE unsigned sli_xcr0(void) {
  * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
-    unsigned a, b, c, d, xcr0;
+    unsigned first[4], leaf[4], xcr0;
     const unsigned osxsave_avx_fma = (1u << 27) | (1u << 28) | (1u << 12);
-    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & osxsave_avx_fma) != osxsave_avx_fma) {
+    sli_cpuid(0, first); /* first[0]: the last leaf */
+    sli_cpuid(1, leaf);
+    if (first[0] < 7 || (leaf[2] & osxsave_avx_fma) != osxsave_avx_fma) {
         return SL_ISA_SCALAR;
     }
     xcr0 = sli_xcr0(); /* 0x6: SSE and AVX state; 0xe0: AVX-512 state */
-    if ((xcr0 & 0x6u) != 0x6u || !__get_cpuid_count(7, 0, &a, &b, &c, &d) || !(b & (1u << 5))) {
-        return SL_ISA_SCALAR; /* bit 5: AVX2 */
+    sli_cpuid(7, leaf);
+    if ((xcr0 & 0x6u) != 0x6u || !(leaf[1] & (1u << 5))) { /* bit 5: AVX2 */
+        return SL_ISA_SCALAR;
     }
 #if defined(SLI_AVX512)
-    if ((xcr0 & 0xe6u) == 0xe6u && (b & (1u << 16))) { /* bit 16: AVX512F */
+    if ((xcr0 & 0xe6u) == 0xe6u && (leaf[1] & (1u << 16))) { /* bit 16: AVX512F */
         return SL_ISA_AVX512;
     }
 #endif

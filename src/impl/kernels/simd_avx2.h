@@ -10,7 +10,7 @@
 #define SLV_NAME(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX2
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
-#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 
 /* All bits set in lanes k .. 3, k = -3 .. 8. */
 SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
@@ -118,7 +118,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_LOAD_PINNED(a, p) \
     a##_0 = _mm256_load_pd(p); \
     a##_1 = _mm256_load_pd((p) + 4); \
-    __asm__("" : "+x"(a##_0), "+x"(a##_1)); /* used 4 times: loads it only once */
+    SLI_PIN(a##_0); /* used 4 times */ \
+    SLI_PIN(a##_1);
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
 #define SLV_MULTIPLY(a, b, c) \
     a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);

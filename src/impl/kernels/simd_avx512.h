@@ -14,7 +14,7 @@
 #define SLV_NAME_4(f) sli_##f##4_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) __m512d a;
 #define SLV_ZERO(a) a = _mm512_setzero_pd();
 #define SLV_LOAD(a, p) a = _mm512_load_pd(p);
@@ -69,7 +69,7 @@
 #define SLV_EACH_COLUMN SLI_EACH8
 #define SLV_LOAD_PINNED(a, p) \
     a = _mm512_load_pd(p); \
-    __asm__("" : "+v"(a)); /* used 8 times: loads it only once */
+    SLI_PIN_ANY(a); /* used 8 times */
 #define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);

@@ -10,7 +10,7 @@
 #define SLV_NAME(f) sli_##f##_neon
 #define SLV_ISA SL_ISA_NEON
 #define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
 #define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
 #define SLV_LOAD(a, p) \

@@ -49,13 +49,19 @@ static int sli_take_attributes(const char *name, const char *old_name) {
 #else
 /* The same with the means of C: what has no length, such as a device, is written in place. */
 static int sli_is_replaceable(const char *path, int *exists) {
-    FILE *probe = fopen(path, "r+b");
+    FILE *probe;
     long length = 0;
     *exists = 0; /* no attributes to keep */
+#if defined(SLI_WINDOWS)
+    if (sli_is_link(path)) {
+        return 0;
+    }
+#endif
+    probe = fopen(path, "r+b");
     if (probe != NULL) {
         length = fseek(probe, 0, SEEK_END) == 0 ? ftell(probe) : 0;
         fclose(probe);
-        return length > 0;
+        return length != 0; /* -1: longer than a long can say */
     }
     probe = fopen(path, "rb"); /* can be read and not written: not to be replaced */
     if (probe != NULL) {
@@ -132,21 +138,33 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
     return o->file != NULL ? SL_OK : SL_ERR_IO;
 }
 
+/* Gives the temporary file the name of the old one, which it replaces in one step. Returns whether
+ * that succeeded; *is_only_copy: it did not, and the old file is gone. */
+static int sli_replace(const sli_output *o, int *is_only_copy) {
+    *is_only_copy = 0;
+#if defined(SLI_WINDOWS)
+    if (MoveFileExA(o->temporary, o->path, 1) != 0) { /* 1: replaces an existing file */
+        return 1;
+    }
+#endif
+    if (rename(o->temporary, o->path) == 0) {
+        return 1;
+    }
+#if !defined(SLI_POSIX) /* rename may refuse an existing name */
+    *is_only_copy = remove(o->path) == 0;
+    if (*is_only_copy && rename(o->temporary, o->path) == 0) {
+        return 1;
+    }
+#endif
+    return 0;
+}
+
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
 static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
-    int ok = fclose(o->file) == 0 && complete;
+    int ok = fclose(o->file) == 0 && complete, is_only_copy = 0;
     if (o->temporary != NULL) {
-        int is_lost = !ok;
-        if (ok && rename(o->temporary, o->path) != 0) {
-#if defined(SLI_POSIX)
-            ok = 0;
-            is_lost = 1;
-#else
-            /* rename may refuse an existing name; the temporary file is then the only copy */
-            ok = remove(o->path) == 0 && rename(o->temporary, o->path) == 0;
-#endif
-        }
-        if (is_lost) {
+        ok = ok && sli_replace(o, &is_only_copy);
+        if (!ok && !is_only_copy) {
             remove(o->temporary);
         }
         sli_free(a, o->temporary);

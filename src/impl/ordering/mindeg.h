@@ -23,7 +23,7 @@ typedef struct sli_mindeg {
 /* The number of bits set: one instruction where the function that inlines this is compiled for it,
  * see sli_mindeg_run_popcnt. */
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
-#if defined(__GNUC__)
+#if defined(SLI_GNU)
     return (uint32_t)__builtin_popcountll(w);
 #else
     w -= w >> 1 & 0x5555555555555555u;
@@ -34,7 +34,7 @@ SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
 }
 
 SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
-#if defined(__GNUC__)
+#if defined(SLI_GNU)
     return (sl_int)__builtin_ctzll(w);
 #else
     return (sl_int)sli_popcount((w & (0 - w)) - 1);
@@ -129,7 +129,7 @@ static void sli_mindeg_run(sli_mindeg *m, sl_int *order) {
     sli_mindeg_run_body(m, order);
 }
 
-#if defined(SLI_X86)
+#if defined(SLI_X86) && defined(SLI_GNU)
 SLI_TARGET("popcnt") static void sli_mindeg_run_popcnt(sli_mindeg *m, sl_int *order) {
     sli_mindeg_run_body(m, order);
 }
@@ -185,7 +185,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
     if (!sli_mindeg_fill(m, g, vertices, count, local)) {
         return;
     }
-#if defined(SLI_X86)
+#if defined(SLI_X86) && defined(SLI_GNU)
     if (m->has_popcnt) {
         sli_mindeg_run_popcnt(m, order);
     } else
