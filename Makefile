@@ -63,7 +63,8 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
-	figures format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis
+	figures format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
+	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -154,6 +155,13 @@ deps-aarch64: ## a cross compiler, an emulator and arm64 libraries
 	@tools/build/deps.sh aarch64-linux-gnu-gcc=gcc-aarch64-linux-gnu qemu-aarch64=qemu-user \
 	/usr/aarch64-linux-gnu/include/stdio.h=libc6-dev-arm64-cross $(ARM)/libmetis.so.5=libmetis5:arm64 \
 	$(ARM)/libcmocka.so.0=libcmocka0:arm64 $(ARM)/libz.so.1=zlib1g:arm64
+
+deps-mingw: ## compilers for Windows, and Wine, which runs Windows programs
+	@tools/build/deps.sh x86_64-w64-mingw32-gcc=gcc-mingw-w64-x86-64-win32 /usr/lib/wine/wine64=wine64
+
+deps-wasm: ## a C library for WebAssembly, and node, which runs it
+	@tools/build/deps.sh node=nodejs wasm-ld=lld /usr/lib/wasm32-wasi/libc.a=wasi-libc \
+	'/usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a=libclang-rt-dev-wasm32'
 
 deps-cov: ## gcovr
 	@tools/build/deps.sh gcovr=gcovr
@@ -270,6 +278,45 @@ test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled i
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
 	@tools/build/deps.sh valgrind=valgrind
 	@$(MAKE) --no-print-directory run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
+
+# ---- platforms that have no cmocka: tests/lib/cmocka has the part of it that the tests use ----
+
+# The C tests whose only system is the C library and perhaps threads.
+PORTABLE_TESTS := $(shell grep -L 'temporary_files\.h\|tools/\|real_data\.h\|unistd\.h' $(CORE_TESTS))
+WITHOUT_CMOCKA = METIS= TEST_LIBS= REPLAYS= SL_DATA=
+
+MSAN_TESTS ?= $(CORE_TESTS)
+# zlib is not instrumented: it only reads and writes the files of tests that the sanitizer does not see.
+test-msan: deps deps-clang sparse_local.h ## the header's tests under clang's memory sanitizer: no uninitialized value is used
+	@tools/build/platform.sh msan 'x86-64, memory sanitizer' clang native \
+	$(MAKE) --no-print-directory run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='-lz -lm' INCLUDES=-Itests/lib/cmocka \
+	OPT='-O1 -g -fno-omit-frame-pointer -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all' \
+	TEST_PROGRAMS='$(MSAN_TESTS:tests/%.c=build/msan/tests/%)'
+
+# Programs get names without .exe, as the rules expect them; LIBRARY is the tools, which need POSIX. The isfinite of MinGW
+# names a conversion to float that it does not do.
+MINGW = x86_64-w64-mingw32-gcc
+WINE = env -u TMPDIR WINEDEBUG=-all WINEPREFIX=$(CURDIR)/build/wine /usr/lib/wine/wine64
+WINDOWS = $(WITHOUT_CMOCKA) INCLUDES=-Itests/lib/cmocka CFLAGS=-Wno-float-conversion LIBRARY= LINK='$(MINGW) -static' LIBS='-lpthread && mv $$@.exe $$@' RUN='$(WINE)'
+
+test-mingw: deps-mingw sparse_local.h ## the portable tests for Windows, by gcc (plain C kernels), under Wine
+	@mkdir -p build && $(WINE) wineboot -i >/dev/null 2>&1
+	@tools/build/platform.sh mingw 'Windows x86-64' $(MINGW) Wine \
+	$(MAKE) --no-print-directory run-tests B=build/mingw CC=$(MINGW) $(WINDOWS) \
+	TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/mingw/tests/%)'
+
+test-mingw-clang: deps-mingw deps-clang sparse_local.h ## the same by clang, with the AVX2 and AVX-512 kernels
+	@mkdir -p build && $(WINE) wineboot -i >/dev/null 2>&1
+	@tools/build/platform.sh mingw-clang 'Windows x86-64, AVX2 and AVX-512' clang Wine \
+	$(MAKE) --no-print-directory run-tests B=build/mingw_clang CC='clang --target=x86_64-w64-mingw32' $(WINDOWS) \
+	TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/mingw_clang/tests/%)'
+
+# 8 MB of stack, as on Linux; WebAssembly has 64 kB by default.
+test-wasm: deps-wasm deps-clang sparse_local.h ## the portable tests for WebAssembly with SIMD128, under node
+	@tools/build/platform.sh wasm 'wasm32 (WASI), SIMD128' clang node \
+	$(MAKE) --no-print-directory run-tests B=build/wasm CC='clang --target=wasm32-wasi --sysroot=/usr' $(WITHOUT_CMOCKA) \
+	OPT='-O2 -msimd128' LINK='$$(CC) -Wl,-z,stack-size=8388608' LIBRARY= LIBS= RUN='node --no-warnings tests/lib/wasi/run.mjs' \
+	INCLUDES='-Itests/lib/cmocka -Itests/lib/wasi' TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/wasm/tests/%)'
 
 cov: deps deps-cov sparse_local.h ## line and branch coverage of the header by the tests; build/cov/index.html
 	@if [ -d build/cov ]; then find build/cov -name '*.gcda' -delete; fi

@@ -124,7 +124,14 @@ CALL(changed, sl_factor_refactor_changed(a->F, a->A, a->xset, a->nx, &a->stats))
 CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
 CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
-CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, "/dev/null"))
+#if defined(_WIN32)
+#define NOWHERE "NUL"
+#elif defined(__wasi__)
+#define NOWHERE "build/nowhere.mtx" /* there are no devices */
+#else
+#define NOWHERE "/dev/null"
+#endif
+CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_solve, sl_plan_solve(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_refined, sl_plan_solve_refined(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps,

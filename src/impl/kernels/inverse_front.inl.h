@@ -236,7 +236,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
     const double *N = scratch, *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW,
                  *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
     SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    sl_int c, t, k;
+    sl_int c, t;
     for (t = t0; t < t1; t++) {
         const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
         double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
