@@ -35,6 +35,7 @@ C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(METIS) $(INCLUDES) $(CFLAGS)
 CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(METIS) $(INCLUDES) $(CXXFLAGS)
 IMPL_COMPILE = $(CC) $(C_FLAGS)
 LINK = $(CC) $(OPT)
+DEPEND = -MMD -MP
 # The header needs no library by default; our own builds compile the orderings by METIS too.
 METIS = -DSL_METIS
 LIBS = -lmetis -lz -lm
@@ -62,7 +63,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
-	deps-aarch64 deps-cov deps-png test test-clang test-cxx test-aarch64 sanitize valgrind cov fuzz bench bench-peers readme-table \
+	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
 	figures format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
 	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm
 
@@ -150,12 +151,6 @@ deps-locales: ## locales with a decimal comma, for the tests of Matrix Market fi
 deps-tcc: ## tcc, a C compiler that is neither gcc nor clang
 	@tools/build/deps.sh tcc=tcc
 
-ARM = /usr/lib/aarch64-linux-gnu
-deps-aarch64: ## a cross compiler, an emulator and arm64 libraries
-	@tools/build/deps.sh aarch64-linux-gnu-gcc=gcc-aarch64-linux-gnu qemu-aarch64=qemu-user \
-	/usr/aarch64-linux-gnu/include/stdio.h=libc6-dev-arm64-cross $(ARM)/libmetis.so.5=libmetis5:arm64 \
-	$(ARM)/libcmocka.so.0=libcmocka0:arm64 $(ARM)/libz.so.1=zlib1g:arm64
-
 deps-mingw: ## compilers for Windows, and Wine, which runs Windows programs
 	@tools/build/deps.sh x86_64-w64-mingw32-gcc=gcc-mingw-w64-x86-64-win32 /usr/lib/wine/wine64=wine64
 
@@ -178,12 +173,12 @@ always:
 $(B)/obj/%.o: %.c $(B)/flags | build/deps.ok sparse_local.h
 	@mkdir -p $(@D)
 	$(call say,CC  )
-	$(Q)$(CC) $(C_FLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(C_FLAGS) $(DEPEND) -c -o $@ $<
 
 $(B)/obj/%.o: %.cpp $(B)/flags | build/deps.ok sparse_local.h
 	@mkdir -p $(@D)
 	$(call say,CXX )
-	$(Q)$(CXX) $(CXX_FLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(CXX) $(CXX_FLAGS) $(DEPEND) -c -o $@ $<
 
 $(B)/obj/sparse_local.c:
 	@mkdir -p $(@D)
@@ -253,13 +248,79 @@ test-no-simd: deps sparse_local.h ## tests of the kernels, built with -DSL_NO_SI
 	@$(MAKE) --no-print-directory run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
 	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
 
-test-aarch64: deps deps-aarch64 sparse_local.h ## the header's tests for ARM with NEON, emulated and so without DATA
-	@mkdir -p build/aarch64/include
-	@for h in metis cmocka cmocka_pbc cmocka_version zlib zconf; do \
-	if [ -e /usr/include/$$h.h ]; then cp -p /usr/include/$$h.h build/aarch64/include; fi; done
-	@$(MAKE) --no-print-directory run-tests B=build/aarch64 TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/aarch64/tests/%)' SL_DATA= CC=aarch64-linux-gnu-gcc AR=aarch64-linux-gnu-ar \
-	INCLUDES=-isystem\ build/aarch64/include RUN='qemu-aarch64' \
-	TEST_LIBS=$(ARM)/libcmocka.so.0 LIBS='$(ARM)/libmetis.so.5 $(ARM)/libz.so.1 -lm'
+# ---- platforms: the tests on other processors, C libraries and compilers ----
+
+# Of each platform: compiler, emulator, flags, packages, tests. Programs are linked statically with cmocka and zlib (METIS too
+# if metis_NAME) that cross_libs.sh compiles, so that they need no library of the platform. The bodies are compiled as
+# gnu99, the dialect of a plain `cc -O2`: only there gcc keeps excess precision and contracts a * b + c.
+PLATFORMS = i386 i386-x87 armhf aarch64 s390x ppc64le riscv64 musl
+cross_i386 = i686-linux-gnu-
+flags_i386 = -msse2 -mfpmath=sse
+deps_i386 = i686-linux-gnu-gcc=gcc-i686-linux-gnu /usr/i686-linux-gnu/lib/libc.a=libc6-dev-i386-cross
+metis_i386 = metis
+cross_i386-x87 = $(cross_i386)
+flags_i386-x87 = -mfpmath=387
+deps_i386-x87 = $(deps_i386)
+cross_armhf = arm-linux-gnueabihf-
+run_armhf = qemu-arm
+deps_armhf = arm-linux-gnueabihf-gcc=gcc-arm-linux-gnueabihf /usr/arm-linux-gnueabihf/lib/libc.a=libc6-dev-armhf-cross
+cross_aarch64 = aarch64-linux-gnu-
+run_aarch64 = qemu-aarch64
+deps_aarch64 = aarch64-linux-gnu-gcc=gcc-aarch64-linux-gnu /usr/aarch64-linux-gnu/lib/libc.a=libc6-dev-arm64-cross
+metis_aarch64 = metis
+cross_s390x = s390x-linux-gnu-
+run_s390x = qemu-s390x
+deps_s390x = s390x-linux-gnu-gcc=gcc-s390x-linux-gnu /usr/s390x-linux-gnu/lib/libc.a=libc6-dev-s390x-cross
+cross_ppc64le = powerpc64le-linux-gnu-
+run_ppc64le = qemu-ppc64le
+deps_ppc64le = powerpc64le-linux-gnu-gcc=gcc-powerpc64le-linux-gnu /usr/powerpc64le-linux-gnu/lib/libc.a=libc6-dev-ppc64el-cross
+cross_riscv64 = riscv64-linux-gnu-
+run_riscv64 = qemu-riscv64
+deps_riscv64 = riscv64-linux-gnu-gcc=gcc-riscv64-linux-gnu /usr/riscv64-linux-gnu/lib/libc.a=libc6-dev-riscv64-cross
+cross_musl = musl-
+deps_musl = musl-gcc=musl-tools
+
+# All core tests run on i386 and aarch64, where kernels of their own run. Elsewhere a few: the orders, and what depends on the
+# size and order of bytes; and all replays of the fuzzers.
+PLATFORM_TESTS = $(patsubst %,tests/core/test_%.c,order_hashes factor identity csc_write matrix_market refine) \
+	tests/tools/test_mesh_ply.c
+full_i386 = $(CORE_TESTS) tests/tools/test_mesh_ply.c
+full_aarch64 = $(CORE_TESTS)
+# musl-gcc has no archiver of its own
+platform_ar = $(if $(filter musl,$(1)),ar,$(cross_$(1))ar)
+
+.PHONY: $(PLATFORMS:%=deps-%) $(PLATFORMS:%=test-%)
+$(PLATFORMS:%=deps-%): deps-%: build/deps.ok
+	@tools/build/deps.sh $(deps_$*) $(if $(run_$*),$(run_$*)=qemu-user)
+	@CC=$(cross_$*)gcc AR=$(call platform_ar,$*) tools/build/cross_libs.sh build/$* $(metis_$*)
+
+$(PLATFORMS:%=test-%): test-%: deps-% sparse_local.h
+	@tools/build/platform.sh $* '$(cross_$*)gcc $(flags_$*)' '$(or $(run_$*),natively)' \
+	$(MAKE) --no-print-directory run-tests B=build/$* CC=$(cross_$*)gcc AR=$(call platform_ar,$*) RUN='$(run_$*)' SL_DATA= \
+	INCLUDES='-isystem build/$*/include' OPT='-O1 $(flags_$*)' LINK='$(cross_$*)gcc -static' \
+	IMPL_COMPILE='$$(CC) $$(C_FLAGS) -std=gnu99 -O2' METIS=$(if $(metis_$*),-DSL_METIS) \
+	TEST_PROGRAMS='$(patsubst tests/%.c,build/$*/tests/%,$(or $(full_$*),$(PLATFORM_TESTS)))' \
+	TEST_LIBS=build/$*/libcmocka.a LIBS='$(if $(metis_$*),build/$*/libmetis.a) build/$*/libz.a -lm'
+
+test-tcc: deps deps-tcc sparse_local.h
+	@tools/build/platform.sh tcc tcc natively $(MAKE) --no-print-directory run-tests B=build/tcc CC=tcc WARN= DEPEND= SL_DATA= METIS= \
+	TEST_PROGRAMS='$(PLATFORM_TESTS:tests/%.c=build/tcc/tests/%)' LIBS='-lz -lm'
+
+test-i386: ## the header's tests on 32-bit x86 with SSE2
+test-i386-x87: ## some of the tests on 32-bit x86 with the x87 unit and its excess precision
+test-armhf: ## some of the tests on 32-bit ARM, emulated; plain C kernels
+test-aarch64: ## the header's tests on 64-bit ARM with NEON, emulated
+test-s390x: ## some of the tests on IBM Z, big endian, emulated
+test-ppc64le: ## some of the tests on POWER, emulated
+test-riscv64: ## some of the tests on RISC-V, emulated
+test-musl: ## some of the tests with the C library musl
+test-tcc: ## some of the tests, compiled by tcc
+
+platforms: $(PLATFORMS:%=test-%) test-tcc ## the tests on all of these platforms, one after the other with -j1
+
+platform-table: ## prints the results of the platform targets as a Markdown table, as in the README
+	@printf '| platform | compiler | run | passed | failed | skipped |\n|---|---|---|---|---|---|\n'
+	@cat build/platforms/*.txt
 
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
 	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \

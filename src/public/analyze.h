@@ -35,11 +35,11 @@
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
  *  Threads  any number of calls at once, with the same result for the same pattern however it is
- *           stored, on every processor and with every compiler, except with METIS: METIS seeds and draws from rand() of the C library and
- *           prints a line if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and
- *           SIGTERM of the whole process; during SL_ORDERING_METIS_REFINED it raises SIGABRT if it
- *           runs out of memory. Concurrent calls with METIS are safe only if rand() is, and may
- *           then order differently from run to run.
+ *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
+ *           draws from rand() of the C library and prints a line if it runs out of memory. During
+ *           SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process; during
+ *           SL_ORDERING_METIS_REFINED it raises SIGABRT if it runs out of memory. Concurrent calls
+ *           with METIS are safe only if rand() is, and may then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [Liu90] elimination
  *           tree; [GNP94] counts; [AG89] relaxed supernodes.
