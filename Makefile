@@ -71,9 +71,9 @@ all: check-header layers style parts test programs ## the checks, the tests, and
 
 help: ## this list
 	@echo 'Targets'
-	@awk -F ':.*## ' '/^[a-z-]+[a-z0-9-]*:.*## / { printf "  %-16s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+[a-z0-9-]*:.*## / { printf "  %-16s %s\n", $$1, $$2 }' Makefile tools/packaging/packaging.mk
 	@echo 'Variables (make test CC=clang)'
-	@sed -n 's/^## /  /p' Makefile
+	@sed -n 's/^## /  /p' Makefile tools/packaging/packaging.mk
 
 # ---- the header ----
 
@@ -441,6 +441,10 @@ FIGURES = build/figures$(if $(MESH),/$(firstword $(subst ., ,$(notdir $(MESH))))
 figures: deps deps-png sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
 	@$(MAKE) --no-print-directory build/timed/bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
 	@tools/build/figures.sh $(B)/sparse-local build/timed/bench '$(FIGURES)' '$(MESH)'
+
+# ---- other languages and build systems ----
+
+include tools/packaging/packaging.mk
 
 # ---- the rest ----
 

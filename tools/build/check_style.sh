@@ -11,8 +11,8 @@ max_columns=100
 # that is worth keeping.
 phrases='stands|tells|comes to|goes on|such as are|aside|wishes|of it,|that is none|so long as that'
 
-sources=$(find src tests tools bench -type f \( -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' \
-    -o -name '*.awk' \) | LC_ALL=C sort)
+sources=$(find src tests tools bench -type f \( -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.sh' \
+    -o -name '*.awk' -o -name '*.py' \) | LC_ALL=C sort)
 export LC_ALL=C
 
 # shellcheck disable=SC2086 # file names have no blanks

@@ -1,0 +1,491 @@
+/* sparse_local.hpp: C++11 classes over sparse_local.h, each of which owns one object of the library
+ *
+ *     #include "sparse_local.hpp"                     next to sparse_local.h or on the include path
+ *
+ *     sl::Symbolic S(A);                              A is an sl_csc; once per pattern
+ *     sl::Factor F(S, A);                             once per matrix
+ *     std::vector<double> x;
+ *     F.solve(x, b);                                  a full solve
+ *     sl::Plan P(S, {17}, {4, 2});                    b in row 17, x wanted in rows 4 and 2
+ *     P.solve(x, F, {1.0});                           any number of times
+ *
+ * One source file of the program also defines SPARSE_LOCAL_IMPLEMENTATION and includes
+ * sparse_local.h, or the program is linked with the compiled library. sparse_local.h has the
+ * contracts of all calls; this file adds ownership, defaults and sizes.
+ *
+ * Errors      A failed call throws sl::Error. If SL_NO_EXCEPTIONS is defined, or the compiler has
+ *             exceptions switched off, there are no constructors that can fail: create() takes
+ *             their place, and the Status that every call returns has to be read. Files compiled
+ *             in either way may be linked together.
+ * Objects     can be moved and not copied. One that was made without arguments, or was moved from,
+ *             is empty: calls refuse it with SL_ERR_ARGUMENT. After a failed create() the object is
+ *             as it was. What borrows what is as in sparse_local.h: S outlives F and P, and F
+ *             outlives its regions.
+ * Vectors     x has as many columns as right-hand sides, column-major; it is resized. A vector b
+ *             whose size does not fit is refused with SL_ERR_ARGUMENT.
+ * Threads     as in sparse_local.h: const calls may run at once, each with a Work of its own or
+ *             with none.
+ */
+#ifndef SPARSE_LOCAL_HPP
+#define SPARSE_LOCAL_HPP
+
+#include "sparse_local.h"
+
+#include <cstddef>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#if !defined(SL_NO_EXCEPTIONS) && !defined(__cpp_exceptions) && !defined(__EXCEPTIONS) && \
+    !defined(_CPPUNWIND)
+#define SL_NO_EXCEPTIONS
+#endif
+
+#ifdef SL_NO_EXCEPTIONS
+#define SL_RESULT SL_WARN_UNUSED inline Status
+#else
+#define SL_RESULT inline Status
+#endif
+
+namespace sl {
+
+/** Result of a call: its sl_status, and where the error is. */
+class Status {
+public:
+    Status(sl_status code = SL_OK) : code_(code) {
+        where_.row = where_.column = -1;
+        where_.line = -1;
+        where_.value = 0;
+    }
+    Status(sl_status code, const sl_stats &stats) : code_(code), where_(stats.error) {
+    }
+
+    bool ok() const {
+        return code_ == SL_OK;
+    }
+    sl_status code() const {
+        return code_;
+    }
+    /** The caller's row, or -1. */
+    sl_int row() const {
+        return where_.row;
+    }
+    sl_int column() const {
+        return where_.column;
+    }
+    /** The pivot or entry that was refused; 0 if none. */
+    double value() const {
+        return where_.value;
+    }
+    /** The text of the status with the row and column, if it has them. */
+    std::string message() const {
+        std::string text = sl_status_string(code_);
+        if (where_.row >= 0) text += ", row " + std::to_string(where_.row);
+        if (where_.column >= 0) text += ", column " + std::to_string(where_.column);
+        if (where_.line >= 0) text += ", line " + std::to_string(where_.line);
+        return text;
+    }
+
+private:
+    sl_status code_;
+    sl_error where_;
+};
+
+/** What a failed call throws. */
+class Error : public std::runtime_error {
+public:
+    explicit Error(const Status &status) : std::runtime_error(status.message()), status_(status) {
+    }
+    const Status &status() const {
+        return status_;
+    }
+
+private:
+    Status status_;
+};
+
+/* Files with and without exceptions differ in what follows, and so do its names for the linker. */
+#ifdef SL_NO_EXCEPTIONS
+inline namespace returning {
+inline Status finish(const Status &status) {
+    return status;
+}
+#else
+inline namespace throwing {
+inline Status finish(const Status &status) {
+    if (!status.ok()) throw Error(status);
+    return status;
+}
+#endif
+
+/** Options with their defaults; the fields are those of sl_options. */
+struct Options : sl_options {
+    Options() {
+        sl_options_init(this, sizeof(sl_options));
+    }
+};
+
+/** View of a set of rows; does not own them. Rows::all() is every row, in ascending order. */
+class Rows {
+public:
+    Rows() : Rows(nullptr, 0) {
+    }
+    Rows(const std::vector<sl_int> &rows) : Rows(rows.data(), rows.size()) {
+    }
+    /* valid until the end of the statement, as an argument of a call is */
+    Rows(std::initializer_list<sl_int> rows) : Rows(rows.begin(), rows.size()) {
+    }
+    /* A count that does not fit becomes -1, which every call refuses. */
+    Rows(const sl_int *rows, std::size_t count)
+        : rows_(count ? rows : none()), count_(count > INT32_MAX ? -1 : sl_int(count)) {
+    }
+    static Rows all() {
+        Rows every;
+        every.rows_ = nullptr;
+        return every;
+    }
+
+    const sl_int *data() const {
+        return rows_;
+    }
+    sl_int count() const {
+        return count_;
+    }
+    /** The number of rows of the set in a matrix of n rows. */
+    sl_int count(sl_int n) const {
+        return rows_ ? count_ : n;
+    }
+
+private:
+    /* An empty set is a pointer that is not NULL. */
+    static const sl_int *none() {
+        static const sl_int nothing = 0;
+        return &nothing;
+    }
+    const sl_int *rows_;
+    sl_int count_;
+};
+
+/** Owner of one object of the library. */
+template <class T, void (*release)(T *)> class Handle {
+public:
+    Handle() noexcept : object_(nullptr) {
+    }
+    Handle(Handle &&other) noexcept : object_(other.object_) {
+        other.object_ = nullptr;
+    }
+    Handle &operator=(Handle &&other) noexcept {
+        T *taken = other.object_;
+        other.object_ = nullptr;
+        reset(taken);
+        return *this;
+    }
+    Handle(const Handle &) = delete;
+    Handle &operator=(const Handle &) = delete;
+    ~Handle() {
+        release(object_);
+    }
+
+    /** The object for calls of sparse_local.h; NULL if empty. */
+    T *get() const noexcept {
+        return object_;
+    }
+    explicit operator bool() const noexcept {
+        return object_ != nullptr;
+    }
+    /** Releases the object and owns another, which may be NULL. */
+    void reset(T *object = nullptr) noexcept {
+        if (object != object_) release(object_);
+        object_ = object;
+    }
+
+protected:
+    /* Keeps what a create call made, if it succeeded. */
+    Status keep(T *made, const Status &status) {
+        if (status.ok()) reset(made);
+        return finish(status);
+    }
+
+private:
+    T *object_;
+};
+
+/** Workspace of one thread. */
+class Work : public Handle<sl_work, sl_work_free> {
+public:
+    SL_RESULT create(const sl_options *options = nullptr) {
+        sl_work *made = nullptr;
+        sl_status status = sl_work_create(&made, options);
+        return keep(made, status);
+    }
+    std::size_t bytes() const {
+        return get() ? sl_work_bytes(get()) : 0;
+    }
+};
+
+inline sl_work *work_of(Work *work) {
+    return work ? work->get() : nullptr;
+}
+
+/* The library refuses a NULL, which an empty vector may have as its data. */
+inline double *data_of(std::vector<double> &v) {
+    static double nothing = 0;
+    return v.empty() ? &nothing : v.data();
+}
+
+inline const double *data_of(const std::vector<double> &v) {
+    static const double nothing = 0;
+    return v.empty() ? &nothing : v.data();
+}
+
+/** A sparse matrix that the library owns. */
+class Matrix : public Handle<sl_matrix, sl_matrix_free> {
+public:
+    SL_RESULT from_triplets(sl_int n_rows, sl_int n_cols, const std::vector<sl_int> &i,
+                            const std::vector<sl_int> &j, const std::vector<double> &x,
+                            const sl_options *options = nullptr) {
+        sl_matrix *made = nullptr;
+        sl_stats stats;
+        if (i.size() != j.size() || i.size() != x.size()) return finish(SL_ERR_ARGUMENT);
+        sl_status status = sl_matrix_from_triplets(&made, n_rows, n_cols, sl_off(i.size()),
+                                                   Rows(i).data(), Rows(j).data(),
+                                                   data_of(x), options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    SL_RESULT read(const std::string &path, const sl_options *options = nullptr) {
+        sl_matrix *made = nullptr;
+        sl_stats stats;
+        sl_status status = sl_matrix_read(&made, path.c_str(), options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    /** The arrays, valid as long as the object; 0 x 0 if empty. */
+    sl_csc view() const {
+        return sl_matrix_view(get());
+    }
+};
+
+/** The analysis of a pattern. */
+class Symbolic : public Handle<sl_symbolic, sl_symbolic_free> {
+public:
+    Symbolic() = default;
+#ifndef SL_NO_EXCEPTIONS
+    explicit Symbolic(const sl_csc &A, const sl_options *options = nullptr) {
+        create(A, options);
+    }
+#endif
+    SL_RESULT create(const sl_csc &A, const sl_options *options = nullptr) {
+        sl_symbolic *made = nullptr;
+        sl_stats stats;
+        sl_status status = sl_symbolic_create(&made, &A, options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    /** Rows of the matrix; 0 if empty. */
+    sl_int n() const {
+        return get() ? view().n : 0;
+    }
+    sl_symbolic_arrays view() const {
+        return sl_symbolic_view(get());
+    }
+    sl_symbolic_info info() const {
+        sl_stats stats = sl_stats();
+        if (get()) sl_symbolic_stats(get(), &stats);
+        return stats.symbolic;
+    }
+};
+
+/** L and D of one matrix. */
+class Factor : public Handle<sl_factor, sl_factor_free> {
+public:
+    Factor() = default;
+#ifndef SL_NO_EXCEPTIONS
+    Factor(const Symbolic &S, const sl_csc &A, const sl_options *options = nullptr) {
+        create(S, A, options);
+    }
+#endif
+    SL_RESULT create(const Symbolic &S, const sl_csc &A, const sl_options *options = nullptr) {
+        sl_factor *made = nullptr;
+        sl_stats stats;
+        sl_status status = sl_factor_create(&made, S.get(), &A, options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    /** New values. After SL_ERR_PIVOT or SL_ERR_NOT_FINITE solves are refused. */
+    SL_RESULT refactor(const sl_csc &A) {
+        sl_stats stats;
+        sl_status status = sl_factor_refactor(get(), &A, &stats);
+        return finish(Status(status, stats));
+    }
+    SL_RESULT refactor_changed(const sl_csc &A, const Rows &columns) {
+        sl_stats stats;
+        sl_status status =
+            sl_factor_refactor_changed(get(), &A, columns.data(), columns.count(), &stats);
+        return finish(Status(status, stats));
+    }
+
+    SL_RESULT solve(double *X, std::size_t ldx, const double *B, std::size_t ldb, sl_int nrhs,
+                    Work *work = nullptr) const {
+        return finish(sl_factor_solve(get(), X, ldx, B, ldb, nrhs, work_of(work)));
+    }
+    /** x = A^-1 b for b of n * nrhs numbers; x may be b. */
+    SL_RESULT solve(std::vector<double> &x, const std::vector<double> &b, sl_int nrhs = 1,
+                    Work *work = nullptr) const {
+        std::size_t rows = std::size_t(n());
+        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        x.resize(b.size());
+        return solve(data_of(x), rows, data_of(b), rows, nrhs, work);
+    }
+    /** A local solve without a plan: b on bset, x wanted on xset; x may be b. */
+    SL_RESULT solve_local(std::vector<double> &x, const Rows &bset, const std::vector<double> &b,
+                          const Rows &xset, sl_int nrhs = 1, Work *work = nullptr) const {
+        std::size_t nb = std::size_t(bset.count(n())), nx = std::size_t(xset.count(n()));
+        std::vector<double> result;
+        sl_stats stats;
+        if (nrhs < 0 || bset.count() < 0 || xset.count() < 0 || b.size() != nb * std::size_t(nrhs))
+            return finish(SL_ERR_ARGUMENT);
+        result.resize(nx * std::size_t(nrhs));
+        sl_status status = sl_local_solve(get(), bset.data(), bset.count(), xset.data(),
+                                          xset.count(), data_of(result), nx, data_of(b), nb, nrhs,
+                                          work_of(work), &stats);
+        if (status == SL_OK) x.swap(result);
+        return finish(Status(status, stats));
+    }
+
+    /** Diagonal entries of the inverse, in the order of rows. */
+    SL_RESULT inverse_diagonal(std::vector<double> &out, const Rows &rows,
+                               Work *work = nullptr) const {
+        sl_stats stats;
+        if (rows.count() < 0) return finish(SL_ERR_ARGUMENT);
+        std::vector<double> result(std::size_t(rows.count(n())));
+        sl_status status = sl_inverse_diagonal(get(), data_of(result), rows.data(), rows.count(),
+                                               work_of(work), &stats);
+        if (status == SL_OK) out.swap(result);
+        return finish(Status(status, stats));
+    }
+    SL_RESULT logdet(double &log_abs_det, double &sign) const {
+        return finish(sl_factor_logdet(get(), &log_abs_det, &sign));
+    }
+    /** An estimate of 1 / (||A|| ||A^-1||). */
+    SL_RESULT rcond(double &out, const sl_csc &A, Work *work = nullptr) const {
+        return finish(sl_factor_rcond(get(), &A, &out, work_of(work)));
+    }
+
+    /** Rows of the matrix; 0 if empty. */
+    sl_int n() const {
+        return get() ? sl_symbolic_view(view().symbolic).n : 0;
+    }
+    sl_factor_arrays view() const {
+        return sl_factor_view(get());
+    }
+    sl_factor_info info() const {
+        sl_stats stats = sl_stats();
+        if (get()) sl_factor_stats(get(), &stats);
+        return stats.factor;
+    }
+};
+
+/** The selected inverse. */
+class Selected : public Handle<sl_selected, sl_selected_free> {
+public:
+    SL_RESULT create(const Factor &F, const Rows &set, const sl_options *options = nullptr) {
+        sl_selected *made = nullptr;
+        sl_stats stats;
+        sl_status status =
+            sl_selected_create(&made, F.get(), set.data(), set.count(), options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    SL_RESULT refactor(const Factor &F, Work *work = nullptr) {
+        return finish(sl_selected_refactor(get(), F.get(), work_of(work)));
+    }
+};
+
+/** A part of the matrix in which the cost of local solves does not depend on the whole. */
+class Region : public Handle<sl_region, sl_region_free> {
+public:
+    Region() = default;
+#ifndef SL_NO_EXCEPTIONS
+    Region(const Factor &F, const Rows &set, const sl_options *options = nullptr) {
+        create(F, set, options);
+    }
+#endif
+    SL_RESULT create(const Factor &F, const Rows &set, const sl_options *options = nullptr,
+                     const Selected *Z = nullptr) {
+        sl_region *made = nullptr;
+        sl_stats stats;
+        sl_status status = sl_region_create(&made, F.get(), set.data(), set.count(),
+                                            Z ? Z->get() : nullptr, options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    SL_RESULT refactor(const Factor &F, const Selected *Z = nullptr, Work *work = nullptr) {
+        return finish(
+            sl_region_refactor(get(), F.get(), Z ? Z->get() : nullptr, work_of(work)));
+    }
+    sl_region_info info() const {
+        sl_stats stats = sl_stats();
+        if (get()) sl_region_stats(get(), &stats);
+        return stats.region;
+    }
+};
+
+/** A prepared local solve. */
+class Plan : public Handle<sl_plan, sl_plan_free> {
+public:
+    Plan() : nb_(0), nx_(0) {
+    }
+#ifndef SL_NO_EXCEPTIONS
+    Plan(const Symbolic &S, const Rows &bset, const Rows &xset, const Region *region = nullptr)
+        : Plan() {
+        create(S, bset, xset, region);
+    }
+#endif
+    /** region, if not NULL, must outlive the plan. */
+    SL_RESULT create(const Symbolic &S, const Rows &bset, const Rows &xset,
+                     const Region *region = nullptr, const sl_options *options = nullptr) {
+        sl_plan *made = nullptr;
+        sl_stats stats;
+        Options with_region;
+        if (options) static_cast<sl_options &>(with_region) = *options;
+        if (region) with_region.region = region->get();
+        sl_status status = sl_plan_create(&made, S.get(), bset.data(), bset.count(), xset.data(),
+                                          xset.count(), &with_region, &stats);
+        if (status == SL_OK) {
+            nb_ = bset.count(S.n());
+            nx_ = xset.count(S.n());
+        }
+        return keep(made, Status(status, stats));
+    }
+    SL_RESULT solve(const Factor &F, double *X, std::size_t ldx, const double *B, std::size_t ldb,
+                    sl_int nrhs, Work *work = nullptr) const {
+        return finish(sl_plan_solve(get(), F.get(), X, ldx, B, ldb, nrhs, work_of(work)));
+    }
+    /** x on the x-set for b of nb * nrhs numbers on the b-set; x may be b. */
+    SL_RESULT solve(std::vector<double> &x, const Factor &F, const std::vector<double> &b,
+                    sl_int nrhs = 1, Work *work = nullptr) const {
+        std::size_t nb = std::size_t(nb_), nx = std::size_t(nx_);
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        std::vector<double> result(nx * std::size_t(nrhs));
+        sl_status status = sl_plan_solve(get(), F.get(), data_of(result), nx,
+                                         data_of(b), nb, nrhs, work_of(work));
+        if (status == SL_OK) x.swap(result);
+        return finish(status);
+    }
+    /** Rows of the b-set and of the x-set. */
+    sl_int nb() const {
+        return nb_;
+    }
+    sl_int nx() const {
+        return nx_;
+    }
+    sl_plan_info info() const {
+        sl_stats stats = sl_stats();
+        if (get()) sl_plan_stats(get(), &stats);
+        return stats.plan;
+    }
+
+private:
+    sl_int nb_, nx_;
+};
+
+} // inline namespace
+} // namespace sl
+
+#endif
