@@ -3,8 +3,11 @@
 ## ADAPTER_CXX, ADAPTER_STD  compilers and C++ standards of test-adapters: 'g++ clang++', '11 14 17 20'
 ADAPTER_CXX ?= $(CXX)
 ADAPTER_STD ?= 11 17
+## SHARED_FLAGS, SHARED_LIBS  more for the compiled library: -DSL_METIS and -lmetis, -fopenmp
+SHARED_FLAGS ?=
+SHARED_LIBS ?=
 
-.PHONY: deps-eigen test-adapters
+.PHONY: deps-eigen test-adapters shared test-shared
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -33,3 +36,38 @@ ADAPTER_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 test-adapters: deps deps-eigen sparse_local.h ## the C++ and Eigen adapters, for each of ADAPTER_CXX and ADAPTER_STD
 	@$(MAKE) --no-print-directory $(ADAPTER_PROGRAMS)
 	@tests/lib/run.sh build/adapters/log $(ADAPTER_PROGRAMS)
+
+# ---- the compiled library ----
+
+VERSION := $(shell sed -n 's/^\#define SL_VERSION_M[A-Z]* //p; s/^\#define SL_VERSION_PATCH //p' src/public/config.h | paste -sd.)
+# Before 1.0 a minor version may change the API, and so the soname has it.
+SOVERSION := $(shell echo $(VERSION) | sed 's/^\(0\.[0-9]*\)\..*/\1/; s/^\([1-9][0-9]*\)\..*/\1/')
+SO = build/lib/libsparse_local.so
+SHARED_SOURCE = tools/packaging/sparse_local.c
+
+shared: $(SO) build/lib/libsparse_local.a ## build/lib/libsparse_local.so and .a, which export sl_ only
+
+build/lib/flags: always
+	@mkdir -p $(@D)
+	@echo '$(CC) $(OPT) $(SHARED_FLAGS) $(CFLAGS) | $(SHARED_LIBS) $(LDFLAGS)' | cmp -s - $@ || \
+	echo '$(CC) $(OPT) $(SHARED_FLAGS) $(CFLAGS) | $(SHARED_LIBS) $(LDFLAGS)' >$@
+
+build/lib/sparse_local.o: $(SHARED_SOURCE) sparse_local.h build/lib/flags
+	$(call say,CC  )
+	$(Q)$(CC) -std=c99 $(OPT) -fPIC -fvisibility=hidden -I. $(SHARED_FLAGS) $(CFLAGS) -c -o $@ $<
+
+build/lib/libsparse_local.a: build/lib/sparse_local.o
+	@rm -f $@
+	$(call say,AR  )
+	$(Q)$(AR) rcs $@ $<
+
+$(SO): build/lib/sparse_local.o tools/packaging/libsparse_local.map
+	$(call say,LINK)
+	$(Q)$(CC) $(OPT) -shared -Wl,-soname,libsparse_local.so.$(SOVERSION) \
+	-Wl,--version-script=tools/packaging/libsparse_local.map -Wl,--no-undefined \
+	-o $@.$(VERSION) $< $(SHARED_FLAGS) $(SHARED_LIBS) $(LDFLAGS) -lm
+	@ln -sf libsparse_local.so.$(VERSION) $@.$(SOVERSION)
+	@ln -sf libsparse_local.so.$(VERSION) $@
+
+test-shared: shared ## does the shared library export what the header declares, and nothing else?
+	@CC='$(CC)' VERSION=$(VERSION) SOVERSION=$(SOVERSION) tests/adapters/check_shared.sh

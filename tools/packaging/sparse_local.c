@@ -1,0 +1,10 @@
+/* sparse_local.c: the bodies of sparse_local.h, for the compiled library */
+#ifndef SL_API
+#if defined(_WIN32) && defined(SL_SHARED)
+#define SL_API __declspec(dllexport)
+#elif defined(__GNUC__)
+#define SL_API __attribute__((visibility("default")))
+#endif
+#endif
+#define SPARSE_LOCAL_IMPLEMENTATION
+#include "sparse_local.h"
