@@ -423,12 +423,7 @@ public:
     /** x on xset for b on bset: bset.size() x nrhs numbers B, xset.size() x nrhs of the result. */
     template <class Rhs>
     Dense solve(const RowSet &bset, const Eigen::MatrixBase<Rhs> &B, const RowSet &xset) const {
-        const Dense b = B.template cast<double>();
-        return local(bset.size(n_) == b.rows(), xset.size(n_), b, [&](Dense &x, sl_work *work) {
-            return sl_local_solve(factor_.get(), bset.data(), bset.count(), xset.data(),
-                                  xset.count(), data(x), stride(x), data(b), stride(b),
-                                  columns(b), work, nullptr);
-        });
+        return solve_sets(bset, B.template cast<double>(), xset);
     }
     /** The same on a plan, whose sets are the rows of B and of the result. */
     template <class Rhs>
@@ -577,8 +572,9 @@ public:
         sl_status status = SL_OK;
         for (Eigen::Index c = 0; c < B.cols(); c += 8) {
             const Eigen::Index width = std::min<Eigen::Index>(8, B.cols() - c);
-            const Dense x = solve_columns(B, c, width);
-            if (status == SL_OK) status = this->status();
+            sl_status of_block = SL_OK;
+            const Dense x = solve_columns(B, c, width, &of_block);
+            if (status == SL_OK) status = of_block;
             for (Eigen::Index r = 0; r < width; r++) append(X, x.col(r), c + r);
         }
         X.finalize();
@@ -702,14 +698,27 @@ private:
 
     /* A local call whose result has nx rows, and as many columns as b. */
     template <class Call>
-    Dense local(bool fits, Eigen::Index nx, const Dense &b, const Call &call) const {
+    Dense local(bool fits, Eigen::Index nx, const Dense &b, const Call &call,
+                sl_status *result = nullptr) const {
         Dense x(nx, b.cols());
         internal::LentWork work(work_);
         sl_status status = ready_;
         if (status == SL_OK) status = fits ? call(x, work.get()) : SL_ERR_ARGUMENT;
         set_status(status);
         if (status != SL_OK) x.setConstant(nan<double>());
+        if (result) *result = status;
         return x;
+    }
+    Dense solve_sets(const RowSet &bset, const Dense &b, const RowSet &xset,
+                     sl_status *result = nullptr) const {
+        return local(
+            bset.size(n_) == b.rows(), xset.size(n_), b,
+            [&](Dense &x, sl_work *work) {
+                return sl_local_solve(factor_.get(), bset.data(), bset.count(), xset.data(),
+                                      xset.count(), data(x), stride(x), data(b), stride(b),
+                                      columns(b), work, nullptr);
+            },
+            result);
     }
 
     std::pair<double, double> logdet() const {
@@ -767,8 +776,9 @@ private:
         return status;
     }
 
-    /* Columns c .. c + width - 1 of A^-1 B; sets the status. */
-    Dense solve_columns(const Columns &B, Eigen::Index c, Eigen::Index width) const {
+    /* Columns c .. c + width - 1 of A^-1 B. */
+    Dense solve_columns(const Columns &B, Eigen::Index c, Eigen::Index width,
+                        sl_status *status) const {
         std::vector<sl_int> rows;
         for (Eigen::Index r = 0; r < width; r++) {
             for (typename Columns::InnerIterator entry(B, c + r); entry; ++entry) {
@@ -785,7 +795,7 @@ private:
                 b(k, r) += entry.value();
             }
         }
-        return solve(RowSet(rows), b, RowSet::all());
+        return solve_sets(RowSet(rows), b, RowSet::all(), status);
     }
     template <class Result, class Column>
     static void append(Result &X, const Column &x, Eigen::Index c) {
