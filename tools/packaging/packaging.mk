@@ -1,16 +1,25 @@
 # packaging.mk: what others build on: C++ adapters, compiled libraries, installation (a part of the Makefile)
 
+## PREFIX   where `make install` puts things; DESTDIR, if any, comes before it
+PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
 ## ADAPTER_CXX, ADAPTER_STD  compilers and C++ standards of test-adapters: 'g++ clang++', '11 14 17 20'
 ADAPTER_CXX ?= $(CXX)
 ADAPTER_STD ?= 11 17
+## INSTALL_PARTS  what check-install checks, as in check_install.sh; nothing: all
+INSTALL_PARTS ?=
 ## SHARED_FLAGS, SHARED_LIBS  more for the compiled library: -DSL_METIS and -lmetis, -fopenmp
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen test-adapters shared test-shared
+.PHONY: deps-eigen deps-packaging test-adapters shared test-shared install uninstall check-install
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
+
+deps-packaging: ## cmake, meson, pkg-config, mandoc: the checks of the installation
+	@tools/build/deps.sh cmake=cmake meson=meson ninja=ninja-build pkg-config=pkg-config mandoc=mandoc
 
 # ---- C++ ----
 
@@ -71,3 +80,17 @@ $(SO): build/lib/sparse_local.o tools/packaging/libsparse_local.map
 
 test-shared: shared ## does the shared library export what the header declares, and nothing else?
 	@CC='$(CC)' VERSION=$(VERSION) SOVERSION=$(SOVERSION) tests/adapters/check_shared.sh
+
+# ---- installation ----
+
+# The program is installed if `make programs` built it.
+install: shared ## header, adapters, libraries, pkg-config and CMake files, man page to DESTDIR/PREFIX
+	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
+	DESTDIR='$(DESTDIR)' PRIVATE_LIBS='$(SHARED_LIBS)' PROGRAM='$(B)/sparse-local' tools/packaging/install.sh install
+
+uninstall: ## removes what install put there
+	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
+	DESTDIR='$(DESTDIR)' tools/packaging/install.sh uninstall
+
+check-install: deps-packaging deps-cxx sparse_local.h ## strangers' projects by pkg-config, CMake and meson, outside the tree
+	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
