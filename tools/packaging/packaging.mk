@@ -7,13 +7,15 @@ INCLUDEDIR ?= $(PREFIX)/include
 ## ADAPTER_CXX, ADAPTER_STD  compilers and C++ standards of test-adapters: 'g++ clang++', '11 14 17 20'
 ADAPTER_CXX ?= $(CXX)
 ADAPTER_STD ?= 11 17
+## PYTHON   Python of test-python, with NumPy, SciPy and pytest
+PYTHON ?= $(shell python3 -c 'import numpy, pytest, scipy' 2>/dev/null && echo python3 || echo /usr/bin/python3)
 ## INSTALL_PARTS  what check-install checks, as in check_install.sh; nothing: all
 INSTALL_PARTS ?=
 ## SHARED_FLAGS, SHARED_LIBS  more for the compiled library: -DSL_METIS and -lmetis, -fopenmp
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters shared test-shared install uninstall check-install
+.PHONY: deps-eigen deps-packaging test-adapters shared test-shared install uninstall check-install deps-python test-python bench-python
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -94,3 +96,28 @@ uninstall: ## removes what install put there
 
 check-install: deps-packaging deps-cxx sparse_local.h ## strangers' projects by pkg-config, CMake and meson, outside the tree
 	@CC='$(CC)' CXX='$(CXX)' VERSION=$(VERSION) tests/adapters/check_install.sh $(INSTALL_PARTS)
+
+# ---- Python ----
+
+DIST = /usr/lib/python3/dist-packages
+deps-python: ## NumPy, SciPy, pytest, pip and setuptools
+	@$(PYTHON) -c 'import numpy, pytest, scipy, setuptools, wheel' 2>/dev/null || tools/build/deps.sh \
+	$(DIST)/numpy=python3-numpy $(DIST)/scipy=python3-scipy $(DIST)/pytest=python3-pytest \
+	$(DIST)/pip=python3-pip $(DIST)/setuptools=python3-setuptools $(DIST)/wheel=python3-wheel
+
+# Built from a copy, as from a source distribution: pip leaves files beside pyproject.toml.
+build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/*) $(SHARED_SOURCE) sparse_local.h
+	@rm -rf build/python && mkdir -p build/python
+	@cp -r tools/python build/python/source && rm -rf build/python/source/build build/python/source/*.egg-info
+	@mkdir -p build/python/source/csrc && cp sparse_local.h $(SHARED_SOURCE) build/python/source/csrc
+	$(call say,PIP )
+	$(Q)$(PYTHON) -m pip install --quiet --root-user-action=ignore --no-index --no-deps --no-build-isolation --disable-pip-version-check \
+	--target build/python/site build/python/source
+	@touch $@
+
+test-python: deps-python sparse_local.h ## the package of tools/python, installed by pip, against SciPy
+	@$(MAKE) --no-print-directory build/python/installed
+	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider source/tests
+
+bench-python: test-python ## times the package against scipy.sparse.linalg.splu
+	@PYTHONPATH=build/python/site $(PYTHON) -B tools/python/bench.py

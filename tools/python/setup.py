@@ -1,0 +1,68 @@
+"""setup.py: compiles sparse_local.h to the shared library inside the package.
+
+CC and CFLAGS are read from the environment; CFLAGS defaults to -O2.
+"""
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
+from setuptools.dist import Distribution
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCES = {"sparse_local.h": "../..", "sparse_local.c": "../packaging"}
+LIBRARY = "libsparse_local.dylib" if sys.platform == "darwin" else "libsparse_local.so"
+
+
+def source(name):
+    """The path of a C file: in the repository, or beside setup.py in a source distribution."""
+    inside = os.path.join(HERE, "csrc", name)
+    return inside if os.path.exists(inside) else os.path.join(HERE, SOURCES[name], name)
+
+
+class Build(build_py):
+    def run(self):
+        super().run()
+        target = os.path.join(self.build_lib, "sparse_local", LIBRARY)
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        command = shlex.split(os.environ.get("CC", "cc"))
+        command += shlex.split(os.environ.get("CFLAGS", "-O2"))
+        command += ["-std=c99", "-fPIC", "-fvisibility=hidden", "-shared"]
+        command += ["-I", os.path.dirname(source("sparse_local.h"))]
+        command += [source("sparse_local.c"), "-o", target, "-lm"]
+        print(" ".join(command))
+        subprocess.check_call(command)
+
+
+class SourceDistribution(sdist):
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        os.makedirs(os.path.join(base_dir, "csrc"), exist_ok=True)
+        for name in SOURCES:
+            shutil.copy(source(name), os.path.join(base_dir, "csrc", name))
+
+
+class WithLibrary(Distribution):
+    def has_ext_modules(self):
+        return True
+
+
+commands = {"build_py": Build, "sdist": SourceDistribution}
+try:
+    from wheel.bdist_wheel import bdist_wheel
+
+    class Wheel(bdist_wheel):
+        """The library is called by ctypes: a wheel serves every Python of its platform."""
+
+        def get_tag(self):
+            return ("py3", "none", super().get_tag()[2])
+
+    commands["bdist_wheel"] = Wheel
+except ImportError:
+    pass
+
+setup(cmdclass=commands, distclass=WithLibrary)

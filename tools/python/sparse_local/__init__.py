@@ -1,0 +1,21 @@
+"""Factors a sparse symmetric matrix once and then solves locally.
+
+    import sparse_local
+    F = sparse_local.Factor(A)            # A: scipy.sparse, one triangle or both
+    x = F.solve(b)                        # the full solution
+    x = F.local([17], [1.0], [4, 2])      # b only in row 17, x wanted only in rows 4 and 2
+    P = F.plan([17], [4, 2])              # the same, prepared
+    x = P.solve([1.0])
+    d = F.diagonal([4, 2])                # diagonal entries of the inverse
+
+sparse_local.h contains the method and the contracts of all calls.
+"""
+from ._errors import (ArgumentError, Error, InconsistentError, NotFiniteError, OutOfMemoryError,
+                      PatternError, PivotError, StateError, TooLargeError, UnsupportedError)
+from ._factor import Factor, Plan, Region
+from ._library import library_path, version
+
+__version__ = version()
+__all__ = ["Factor", "Plan", "Region", "Error", "ArgumentError", "PatternError", "PivotError",
+           "NotFiniteError", "InconsistentError", "StateError", "TooLargeError",
+           "UnsupportedError", "OutOfMemoryError", "library_path", "version"]

@@ -1,0 +1,294 @@
+"""Factor, Plan and Region: factorization, full and local solves, entries of the inverse."""
+import ctypes
+import threading
+
+import numpy as np
+
+from . import _arrays as arrays
+from ._errors import ArgumentError
+from ._library import Handle, Stats, check, lib, new_options
+
+_ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4}
+_NULL_PIVOTS = {"refuse": 0, "skip": 1}
+
+
+class Factor:
+    """P A P' = L D L' of a sparse symmetric matrix.
+
+    A         n x n; scipy.sparse, one triangle or both. CSC and CSR with 32-bit indices and float64
+              values are not copied. A matrix that stores both triangles has to be symmetric, which
+              is checked.
+    triangle  'lower' or 'upper': reads this triangle only, and ignores the other.
+    ordering  'nd' (nested dissection), 'natural', 'given' (perm), 'metis' and 'metis-refined' if
+              the library was compiled with METIS.
+    perm      n row numbers: perm[k] is pivot k; implies 'given'.
+    coordinates     n x 2 or n x 3 positions of the rows in space, which improve 'nd'.
+    block_size      rows of one node, such as 3 for x, y and z.
+    null_pivots     'refuse' (PivotError), or 'skip': singular semidefinite matrices, Laplacians.
+    null_tolerance  see sparse_local.h; 0 is its default, negative: only an exact 0 is null.
+    mass            n weights m: solutions of a singular A have sum m x = 0 in each component.
+    null_vector     n numbers, if the null vector is not constant.
+    regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
+
+    Threads   any number of threads may call all methods but refactor at once. Calls release the
+              global interpreter lock.
+    """
+
+    def __init__(self, A, *, triangle=None, ordering="nd", perm=None, coordinates=None,
+                 block_size=0, null_pivots="refuse", null_tolerance=0.0, mass=None,
+                 null_vector=None, consistency_tolerance=0.0, regularization=0.0, signs=None):
+        matrix = arrays.Matrix(A)
+        options = new_options()
+        self._triangle = triangle
+        options.triangle = matrix.triangle(triangle)
+        if perm is not None:
+            ordering = "given"
+        options.ordering = _choice(_ORDERINGS, ordering, "ordering")
+        options.null_pivots = _choice(_NULL_PIVOTS, null_pivots, "null_pivots")
+        options.null_tolerance = null_tolerance
+        options.consistency_tolerance = consistency_tolerance
+        options.regularization = regularization
+        options.block_size = block_size
+        kept = []  # until the calls below have read them
+
+        def set_array(name, values, count, dtype):
+            if values is not None:
+                kept.append(arrays.option_array(values, count, dtype, name))
+                setattr(options, name, arrays.address(kept[-1]))
+
+        n = matrix.n
+        if options.ordering == _ORDERINGS["given"] and perm is None:
+            raise ArgumentError("ordering 'given' needs perm")
+        set_array("perm", perm, n, np.int32)
+        set_array("mass", mass, n, np.float64)
+        set_array("null_vector", null_vector, n, np.float64)
+        set_array("signs", signs, n, np.int32)
+        if coordinates is not None:
+            shape = np.shape(coordinates)
+            if len(shape) != 2:
+                raise ArgumentError("coordinates have two dimensions")
+            options.dimensions = shape[1]
+            set_array("coordinates", coordinates, n // max(block_size, 1) * shape[1], np.float64)
+
+        stats = Stats()
+        symbolic = ctypes.c_void_p()
+        check(lib.sl_symbolic_create(ctypes.byref(symbolic), matrix.reference(),
+                                     ctypes.byref(options), ctypes.byref(stats)), stats)
+        self._symbolic = Handle("symbolic", symbolic.value)
+        if triangle is None:
+            matrix.check_symmetric()
+        factor = ctypes.c_void_p()
+        check(lib.sl_factor_create(ctypes.byref(factor), self._symbolic.pointer,
+                                   matrix.reference(), ctypes.byref(options),
+                                   ctypes.byref(stats)), stats)
+        self._factor = Handle("factor", factor.value, self._symbolic)
+        self.n = n
+        self._works = threading.local()
+
+    @property
+    def shape(self):
+        return (self.n, self.n)
+
+    def _work(self):
+        """The workspace of this thread, which grows and is used again."""
+        work = getattr(self._works, "work", None)
+        if work is None:
+            pointer = ctypes.c_void_p()
+            check(lib.sl_work_create(ctypes.byref(pointer), None))
+            work = self._works.work = Handle("work", pointer.value)
+        return work.pointer
+
+    def refactor(self, A):
+        """Factors a matrix of the same pattern, stored alike, with new values.
+
+        PatternError: another pattern; the factor is as it was. After PivotError and NotFiniteError
+        solves are refused (StateError) until a refactor succeeds. No other thread may use the
+        factor meanwhile.
+        """
+        matrix = arrays.Matrix(A)
+        stats = Stats()
+        if self._triangle is None:
+            matrix.check_symmetric()
+        check(lib.sl_factor_refactor(self._factor.pointer, matrix.reference(),
+                                     ctypes.byref(stats)), stats)
+        return self
+
+    def solve(self, B):
+        """X with A X = B; B has the shape (n,) or (n, count), and so has X.
+
+        InconsistentError: A is singular and B has no solution (null_pivots='skip' without mass).
+        """
+        dense = arrays.Dense(B, self.n, self.n)
+        call = lib.sl_factor_solve_interleaved if dense.is_interleaved else lib.sl_factor_solve
+        check(call(self._factor.pointer, *dense.arguments(), self._work()))
+        return dense.X
+
+    def refine(self, A, X, B, steps=2):
+        """Improves X, a solution of A X = B, by at most steps corrections; returns a new X and the
+        backward error that remains."""
+        matrix = arrays.Matrix(A)
+        start = arrays.Dense(X, self.n, self.n)
+        right = arrays.Dense(B, self.n, self.n)
+        if start.B.shape != right.B.shape:
+            raise ArgumentError("X and B have the same shape")
+        out = np.array(start.B, order="F")
+        B = np.asarray(right.B, order="F")
+        stats = Stats()
+        lead = max(self.n, 1)
+        check(lib.sl_factor_refine(self._factor.pointer, matrix.reference(), arrays.address(out),
+                                   lead, arrays.address(B), lead, right.count, steps, self._work(),
+                                   ctypes.byref(stats)), stats)
+        return out, stats.refine.backward_error
+
+    def local(self, bset, B, xset):
+        """The rows xset of the solution for a B that is 0 outside the rows bset.
+
+        B has the shape (len(bset),) or (len(bset), count), the result (len(xset),) or
+        (len(xset), count). None is the set of all rows. Rows given twice in bset add up.
+        """
+        keep_b, b_rows, nb = arrays.rows(bset)
+        keep_x, x_rows, nx = arrays.rows(xset)
+        dense = arrays.Dense(np.asfortranarray(B), self.n if bset is None else nb,
+                             self.n if xset is None else nx)
+        stats = Stats()
+        check(lib.sl_local_solve(self._factor.pointer, b_rows, nb, x_rows, nx,
+                                 *dense.arguments(), self._work(), ctypes.byref(stats)), stats)
+        return dense.X
+
+    def plan(self, bset, xset, region=None):
+        """Prepares local solves with these sets; valid after every refactor."""
+        return Plan(self, bset, xset, region)
+
+    def region(self, rows):
+        """A part of the matrix in which local solves do not depend on the rest; see Region."""
+        return Region(self, rows)
+
+    def diagonal(self, rows=None):
+        """Diagonal entries of the inverse: (A^-1)[r, r] for r in rows; None: all."""
+        keep, address, count = arrays.rows(rows)
+        out = np.empty(self.n if rows is None else count)
+        stats = Stats()
+        check(lib.sl_inverse_diagonal(self._factor.pointer, arrays.address(out), address, count,
+                                      self._work(), ctypes.byref(stats)), stats)
+        return out
+
+    def block(self, rows, columns):
+        """The dense block (A^-1)[rows, columns] of the inverse."""
+        keep_r, r_rows, n_rows = arrays.rows(rows)
+        keep_c, c_rows, n_columns = (keep_r, r_rows, n_rows) if columns is rows else arrays.rows(
+            columns)
+        if r_rows is None or c_rows is None:
+            raise ArgumentError("a block needs two sets of rows")
+        out = np.empty((n_rows, n_columns), order="F")
+        stats = Stats()
+        check(lib.sl_inverse_block(self._factor.pointer, arrays.address(out), max(n_rows, 1),
+                                   r_rows, n_rows, c_rows, n_columns, self._work(),
+                                   ctypes.byref(stats)), stats)
+        return out
+
+    def logdet(self):
+        """(sign, log |det A|), as numpy.linalg.slogdet."""
+        log, sign = ctypes.c_double(), ctypes.c_double()
+        check(lib.sl_factor_logdet(self._factor.pointer, ctypes.byref(log), ctypes.byref(sign)))
+        return sign.value, log.value
+
+    def rcond(self, A):
+        """An estimate of 1 / (||A|| ||A^-1||) in the one-norm; A is the factored matrix."""
+        matrix = arrays.Matrix(A)
+        out = ctypes.c_double()
+        check(lib.sl_factor_rcond(self._factor.pointer, matrix.reference(), ctypes.byref(out),
+                                  self._work()))
+        return out.value
+
+    @property
+    def perm(self):
+        """perm[k] is the row of A that is pivot k; a copy."""
+        view = lib.sl_symbolic_view(self._symbolic.pointer)
+        if not self.n:
+            return np.zeros(0, dtype=np.int32)
+        return np.ctypeslib.as_array(ctypes.cast(view.perm, ctypes.POINTER(ctypes.c_int32)),
+                                     (self.n,)).copy()
+
+    @property
+    def stats(self):
+        """Counts, times and sizes of the analysis and the factorization, by their C names."""
+        stats = Stats()
+        lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
+        lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
+        return {"symbolic": _as_dict(stats.symbolic), "factor": _as_dict(stats.factor)}
+
+    def __repr__(self):
+        info = self.stats
+        return "<sparse_local.Factor of %d rows, %d entries in L>" % (self.n,
+                                                                     info["symbolic"]["nnz_l"])
+
+
+class Region:
+    """Rows inside which local solves cost the same whatever the size of the matrix.
+
+    After factor.refactor call update(); until then plans in the region raise StateError. Use it by
+    factor.plan(bset, xset, region=R), with both sets inside the region.
+    """
+
+    def __init__(self, factor, rows):
+        keep, address, count = arrays.rows(rows)
+        pointer, stats = ctypes.c_void_p(), Stats()
+        check(lib.sl_region_create(ctypes.byref(pointer), factor._factor.pointer, address, count,
+                                   None, None, ctypes.byref(stats)), stats)
+        self._factor = factor
+        self._region = Handle("region", pointer.value, factor._factor, factor._symbolic)
+
+    def update(self):
+        """Computes the region again from the present numbers of the factor."""
+        check(lib.sl_region_refactor(self._region.pointer, self._factor._factor.pointer, None,
+                                     self._factor._work()))
+
+    @property
+    def stats(self):
+        """Rows, boundary and bytes, by their C names."""
+        stats = Stats()
+        lib.sl_region_stats(self._region.pointer, ctypes.byref(stats))
+        return _as_dict(stats.region)
+
+
+class Plan:
+    """A prepared local solve: b on bset, x wanted on xset. Made by Factor.plan."""
+
+    def __init__(self, factor, bset, xset, region=None):
+        keep_b, b_rows, nb = arrays.rows(bset)
+        keep_x, x_rows, nx = arrays.rows(xset)
+        options = new_options()
+        if region is not None:
+            options.region = region._region.pointer
+        pointer, stats = ctypes.c_void_p(), Stats()
+        check(lib.sl_plan_create(ctypes.byref(pointer), factor._symbolic.pointer, b_rows, nb,
+                                 x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats)
+        self._factor = factor
+        self._plan = Handle("plan", pointer.value, factor._symbolic, region)
+        self.nb = factor.n if bset is None else nb
+        self.nx = factor.n if xset is None else nx
+
+    def solve(self, B):
+        """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
+        dense = arrays.Dense(B, self.nb, self.nx)
+        call = lib.sl_plan_solve_interleaved if dense.is_interleaved else lib.sl_plan_solve
+        factor = self._factor
+        check(call(self._plan.pointer, factor._factor.pointer, *dense.arguments(), factor._work()))
+        return dense.X
+
+    @property
+    def stats(self):
+        """Columns and entries of L that a solve visits, by their C names."""
+        stats = Stats()
+        lib.sl_plan_stats(self._plan.pointer, ctypes.byref(stats))
+        return _as_dict(stats.plan)
+
+
+def _choice(names, name, what):
+    if name not in names:
+        raise ArgumentError("%s is one of %s, not %r" % (what, ", ".join(names), name))
+    return names[name]
+
+
+def _as_dict(struct):
+    return {name: getattr(struct, name) for name, *_ in struct._fields_}

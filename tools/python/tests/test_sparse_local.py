@@ -1,0 +1,328 @@
+"""The package against scipy.sparse.linalg.splu, with malformed input, and from several threads."""
+import gc
+import subprocess
+import sys
+import threading
+import time
+import weakref
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+import sparse_local as sl
+
+
+def grid(side, shift=0.1):
+    """The Laplacian of a grid of side x side vertices, plus shift; both triangles, CSC."""
+    path = sp.diags([np.full(side - 1, -1.0)] * 2, [-1, 1], shape=(side, side))
+    edges = sp.kron(sp.identity(side), path) + sp.kron(path, sp.identity(side))
+    degree = -np.asarray(edges.sum(axis=1)).ravel()
+    return (edges + sp.diags(degree + shift)).tocsc()
+
+
+def right_hand_sides(n, count=None):
+    return np.random.default_rng(1).standard_normal(n if count is None else (n, count))
+
+
+@pytest.fixture
+def A():
+    return grid(20)
+
+
+@pytest.fixture
+def F(A):
+    return sl.Factor(A)
+
+
+# ---- full solves ----
+
+@pytest.mark.parametrize("form", ["csc", "csr", "coo", "lower", "upper", "csr-lower"])
+def test_forms_of_a_matrix(A, form):
+    B = {"csc": A, "csr": A.tocsr(), "coo": A.tocoo(), "lower": sp.tril(A, format="csc"),
+         "upper": sp.triu(A, format="csc"), "csr-lower": sp.tril(A, format="csr")}[form]
+    b = right_hand_sides(400)
+    assert np.allclose(sl.Factor(B).solve(b), splu(A).solve(b), rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("turn", ["tocsc", "tocsr"])
+def test_one_triangle_of_two(A, turn):
+    damaged = A.tolil()
+    damaged[0, 399] = 7.0
+    damaged[3, 2] = 50.0
+    b = right_hand_sides(400)
+    upper = sp.triu(damaged)
+    wanted = splu((upper + upper.T - sp.diags(upper.diagonal())).tocsc()).solve(b)
+    assert np.allclose(sl.Factor(getattr(damaged, turn)(), triangle="upper").solve(b), wanted)
+
+
+@pytest.mark.parametrize("count", [1, 2, 8, 13])
+@pytest.mark.parametrize("order", ["C", "F", "strided"])
+def test_layouts_of_right_hand_sides(A, F, count, order):
+    B = right_hand_sides(400, count)
+    if order == "strided":
+        wide = np.zeros((800, 3 * count))
+        wide[::2, ::3] = B
+        given = wide[::2, ::3]
+    else:
+        given = np.array(B, order=order)
+    X = F.solve(given)
+    assert X.shape == B.shape
+    assert np.allclose(X, splu(A).solve(B), rtol=1e-12, atol=1e-12)
+    assert np.array_equal(np.asarray(given), B)
+
+
+def test_numbers_of_other_types(F):
+    b = np.arange(400)
+    assert np.array_equal(F.solve(b), F.solve(b.astype(float)))
+    assert np.array_equal(F.solve(list(b)), F.solve(b))
+    with pytest.raises(TypeError):
+        F.solve(1j * b)
+    with pytest.raises(TypeError):
+        F.solve(np.array(["a"] * 400))
+
+
+def test_arrays_are_used_in_place(A):
+    from sparse_local._arrays import Matrix
+    for B in (A, A.tocsr()):
+        matrix = Matrix(B)
+        assert np.shares_memory(matrix.x, B.data)
+        assert np.shares_memory(matrix.i, B.indices)
+        assert np.shares_memory(matrix.p, B.indptr)
+
+
+def test_long_indices_and_unsorted_rows(A):
+    b = right_hand_sides(400)
+    wanted = sl.Factor(A).solve(b)
+    long = A.copy()
+    long.indices, long.indptr = long.indices.astype(np.int64), long.indptr.astype(np.int64)
+    assert np.array_equal(sl.Factor(long).solve(b), wanted)
+    turned = A.copy()
+    for j in range(400):
+        part = slice(A.indptr[j], A.indptr[j + 1])
+        turned.indices[part] = A.indices[part][::-1]
+        turned.data[part] = A.data[part][::-1]
+    assert np.allclose(sl.Factor(turned).solve(b), wanted, rtol=1e-13)
+
+
+def test_refactor(A, F):
+    b = right_hand_sides(400)
+    x = F.solve(b)
+    assert np.allclose(F.refactor(2 * A).solve(b), x / 2, rtol=1e-13)
+    with pytest.raises(sl.PatternError):
+        F.refactor(grid(19))
+    assert np.allclose(F.solve(b), x / 2, rtol=1e-13)
+    damaged = A.copy()
+    damaged.data[A.indptr[7]:A.indptr[8]] = np.nan
+    damaged = sp.tril(damaged, format="csc") + sp.tril(damaged, -1, format="csc").T
+    with pytest.raises(sl.NotFiniteError):
+        sl.Factor(damaged, triangle="lower")
+
+
+def test_options(A):
+    b = right_hand_sides(400)
+    x = sl.Factor(A).solve(b)
+    natural = sl.Factor(A, ordering="natural")
+    given = sl.Factor(A, perm=np.random.default_rng(0).permutation(400))
+    spaced = sl.Factor(A, coordinates=np.indices((20, 20)).reshape(2, -1).T)
+    for F in (natural, given, spaced):
+        assert np.allclose(F.solve(b), x, rtol=1e-11)
+        assert sorted(F.perm) == list(range(400))
+    assert F.stats["factor"]["positive"] == 400 and "400 rows" in repr(F)
+    for wrong in ({"ordering": "best"}, {"ordering": "given"}, {"null_pivots": "x"},
+                  {"triangle": "both"}, {"perm": [0, 1]}, {"perm": np.zeros(400, dtype=int)},
+                  {"coordinates": np.zeros((400, 5))}, {"mass": np.ones(3)}):
+        with pytest.raises(sl.ArgumentError):
+            sl.Factor(A, **wrong)
+
+
+# ---- local solves, the inverse ----
+
+def test_local_solves_have_the_bits_of_full_ones(A, F):
+    b = np.zeros(400)
+    b[[17, 300]] = [2.0, -1.0]
+    full = F.solve(b)
+    assert np.array_equal(F.local([17, 300], [2.0, -1.0], [5, 399, 5]), full[[5, 399, 5]])
+    assert np.array_equal(F.local(np.array([17, 300]), [2.0, -1.0], None), full)
+    assert np.array_equal(F.local(None, b, [5]), full[[5]])
+    plan = F.plan([17, 300], [5, 399])
+    assert np.array_equal(plan.solve([2.0, -1.0]), full[[5, 399]])
+    assert plan.stats["x_columns"] > 0 and (plan.nb, plan.nx) == (2, 2)
+    B = right_hand_sides(2, 5)
+    assert np.array_equal(plan.solve(B), F.local([17, 300], B, [5, 399]))
+    assert np.array_equal(plan.solve(np.asfortranarray(B)), plan.solve(B))
+    assert F.local([], [], [3]).tolist() == [0.0] and F.local([3], [1.0], []).size == 0
+
+
+def test_regions(A, F):
+    rows = [205, 206, 225, 226]
+    R = F.region(rows)
+    plan = F.plan(rows, rows, region=R)
+    b = right_hand_sides(4)
+    assert plan.stats["in_region"] == 1 and R.stats["rows"] >= 4
+    assert np.allclose(plan.solve(b), F.local(rows, b, rows), rtol=1e-12)
+    F.refactor(2 * A)
+    with pytest.raises(sl.StateError):
+        plan.solve(b)
+    R.update()
+    assert np.allclose(plan.solve(b), F.local(rows, b, rows), rtol=1e-12)
+
+
+def test_inverse_and_determinant(A, F):
+    inverse = np.linalg.inv(A.toarray())
+    assert np.allclose(F.diagonal(), inverse.diagonal())
+    assert np.allclose(F.diagonal([7, 3]), inverse.diagonal()[[7, 3]])
+    assert np.allclose(F.block([1, 2], [300, 4, 5]), inverse[np.ix_([1, 2], [300, 4, 5])])
+    sign, log = F.logdet()
+    assert np.allclose((sign, log), np.linalg.slogdet(A.toarray()))
+    exact = 1 / (np.linalg.norm(inverse, 1) * np.linalg.norm(A.toarray(), 1))
+    assert exact * 0.999 <= F.rcond(A) <= 3 * exact
+    b = right_hand_sides(400, 3)
+    X, error = F.refine(A, 0.9 * F.solve(b), b)
+    assert error < 1e-14 and np.allclose(A @ X, b)
+
+
+# ---- errors ----
+
+def test_singular_and_indefinite():
+    A = grid(6, 0.0)
+    with pytest.raises(sl.PivotError) as caught:
+        sl.Factor(A)
+    assert 0 <= caught.value.row < 36 and "row" in str(caught.value)
+    F = sl.Factor(A, null_pivots="skip")
+    with pytest.raises(sl.InconsistentError):
+        F.solve(np.ones(36))
+    b = right_hand_sides(36)
+    b -= b.mean()
+    assert np.allclose(A @ F.solve(b), b)
+    x = sl.Factor(A, null_pivots="skip", mass=np.ones(36)).solve(np.arange(36.0))
+    assert abs(x.sum()) < 1e-12
+    indefinite = grid(4).tolil()
+    indefinite[6, 6] = -50
+    F = sl.Factor(indefinite)
+    assert F.stats["factor"]["negative"] == 1 and F.logdet()[0] == -1
+
+
+def test_malformed_matrices(A):
+    with pytest.raises(sl.ArgumentError):
+        sl.Factor(A[:, :10])
+    with pytest.raises(TypeError):
+        sl.Factor(np.eye(3))
+    with pytest.raises(TypeError):
+        sl.Factor(A.astype(complex))
+    for damage in ("indices", "indptr", "short"):
+        B = A.copy()
+        if damage == "indices":
+            B.indices[5] = 400
+        elif damage == "indptr":
+            B.indptr[5] = B.indptr[4] - 1
+        else:
+            B.data = B.data[:-1]
+        with pytest.raises(sl.PatternError):
+            sl.Factor(B)
+    B = A.copy()
+    B.data[3] = np.inf
+    with pytest.raises(sl.NotFiniteError) as caught:
+        sl.Factor(B)
+    assert (caught.value.row, caught.value.column) == (0, 1)
+
+
+def test_a_matrix_that_is_not_symmetric_is_noticed(A, F):
+    B = A.tolil()
+    B[3, 2] += 1e-3
+    with pytest.raises(sl.PatternError, match="triangles differ"):
+        sl.Factor(B.tocsc())
+    with pytest.raises(sl.PatternError):
+        F.refactor(B.tocsc())
+    B[0, 399] = 1
+    with pytest.raises(sl.PatternError):
+        sl.Factor(B.tocsc())
+
+
+def test_wrong_right_hand_sides_and_sets(F):
+    for shape in ((399,), (401, 2), (2, 400), (400, 1, 1), ()):
+        with pytest.raises(sl.ArgumentError):
+            F.solve(np.zeros(shape))
+    with pytest.raises(sl.ArgumentError):
+        F.local([400], [1.0], [0])
+    with pytest.raises(sl.ArgumentError):
+        F.local([-1], [1.0], [0])
+    with pytest.raises(sl.ArgumentError):
+        F.local([1, 2], [1.0], [0])
+    with pytest.raises(sl.TooLargeError):
+        F.local([2**40], [1.0], [0])
+    with pytest.raises(TypeError):
+        F.local([1.5], [1.0], [0])
+    with pytest.raises(TypeError):
+        F.local(np.ones(400, dtype=bool), np.ones(400), [0])
+    with pytest.raises(sl.ArgumentError):
+        F.diagonal([[1, 2]])
+    with pytest.raises(sl.ArgumentError):
+        F.plan([0], [400])
+    assert isinstance(sl.ArgumentError("x"), ValueError)
+
+
+def test_no_rows():
+    F = sl.Factor(sp.csc_matrix((0, 0)))
+    assert F.solve(np.zeros(0)).size == 0 and F.diagonal().size == 0
+    assert F.solve(np.zeros((0, 3))).shape == (0, 3) and F.perm.size == 0
+
+
+# ---- life times, threads ----
+
+def test_objects_keep_what_they_borrow(A):
+    plan = sl.Factor(A).plan([1], [2])
+    gc.collect()
+    assert np.isfinite(plan.solve([1.0]))
+    F = sl.Factor(A)
+    gone = weakref.ref(F._factor)
+    del F
+    gc.collect()
+    assert gone() is None
+
+
+def test_threads_share_a_factor(F):
+    b = right_hand_sides(400)
+    x, plan = F.solve(b), F.plan([3], [390])
+    y, wrong = plan.solve([1.0]), []
+
+    def work():
+        for _ in range(200):
+            if not (np.array_equal(F.solve(b), x) and np.array_equal(plan.solve([1.0]), y)):
+                wrong.append(1)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_the_lock_of_the_interpreter_is_released(A):
+    """While one thread is in a long call, another one runs Python code."""
+    big = sl.Factor(grid(100))
+    B = np.ones((10000, 400))
+    began, ended = threading.Event(), threading.Event()
+
+    def work():
+        began.set()
+        big.solve(B)
+        ended.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    began.wait()
+    ticks = 0
+    while not ended.is_set():
+        ticks += 1
+        time.sleep(0.0005)
+    thread.join()
+    assert ticks > 3
+
+
+def test_library_can_be_chosen():
+    code = "import sparse_local; print(sparse_local.library_path(), sparse_local.version())"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert out.stdout.split() == [sl.library_path(), sl.__version__]
