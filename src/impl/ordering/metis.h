@@ -37,24 +37,17 @@ static int sli_metis_options_are_valid(const sl_int *options) {
     return 1;
 }
 
-/* Builds the component's graph in METIS's format: numbered by component, each edge once. */
+/* Builds the component's graph in METIS's format, numbered by component. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
-                            const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
+                            const sl_int *local, idx_t *xadj, idx_t *adjncy) {
     sl_int k;
     idx_t edges = 0;
-    for (k = 0; k < count; k++) {
-        mark[k] = -1;
-    }
     for (k = 0; k < count; k++) {
         const sl_int v = vertices[k];
         sl_off e;
         xadj[k] = edges;
         for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-            const sl_int u = local[G->to[e]];
-            if (mark[u] != k) {
-                mark[u] = k;
-                adjncy[edges++] = u;
-            }
+            adjncy[edges++] = local[G->to[e]];
         }
     }
     xadj[count] = edges;
@@ -88,7 +81,7 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
     if (status != SL_OK) {
         return status;
     }
-    sli_metis_graph(G, vertices, count, local, xadj, adjncy, iperm);
+    sli_metis_graph(G, vertices, count, local, xadj, adjncy);
     METIS_SetDefaultOptions(options);
     for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
         options[k] = metis_options[k];
@@ -111,7 +104,7 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
 }
 
 /* Finds nested separators of a graph. n_leaves: of the separator tree, a power of two. order := the
- * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 sizes: those of
+ * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 weights: those of
  * the leaf subgraphs, then those of the separators level by level, the root's last. */
 static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_int *order,
                                       sl_int *sizes, const sl_allocator *a) {
@@ -138,6 +131,7 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
     if (status != SL_OK) {
         return status;
     }
+    memset(size, 0, 2 * (size_t)n_leaves * sizeof(idx_t)); /* METIS skips empty subgraphs */
     for (k = 0; k <= g->n; k++) {
         xadj[k] = (idx_t)g->begin[k];
     }

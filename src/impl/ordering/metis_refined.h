@@ -58,7 +58,7 @@ static void sli_metis_refined_dissolve(sli_dissection *d, sl_int node, sl_int *v
 /* Finds labels by METIS. */
 static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
-    sl_int n_leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
+    sl_int n_leaves = 1, v, node, k, *sizes = d->begin, *size = d->nodes;
     sl_status status;
     while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8) {
         n_leaves *= 2;
@@ -70,18 +70,20 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     }
     sli_dissect_start(d);
     sli_metis_refined_tree(d, n_leaves);
-    /* METIS lists the sizes of the leaves, then those of the separators of each level, the root's
+    /* METIS lists the weights of the leaves, then those of the separators of each level, the root's
      * last. */
     for (k = n_leaves, v = 0; k > 0; v += k, k /= 2) {
         for (node = 0; node < k; node++) {
             size[k - 1 + node] = sizes[v + node];
         }
     }
-    for (node = sli_label_tree_first(&d->tree); node != -1;
-         node = sli_label_tree_next(&d->tree, node)) {
-        for (k = 0; k < size[node]; k++) {
-            d->label[d->order[at++]] = node;
+    node = sli_label_tree_first(&d->tree);
+    for (k = 0; k < g->n; k++) {
+        while (size[node] <= 0 && node != d->tree.root) { /* all of its vertices have their label */
+            node = sli_label_tree_next(&d->tree, node);
         }
+        d->label[d->order[k]] = node;
+        size[node] -= sli_level_weight(g, d->order[k]);
     }
     memset(d->tree.weight, 0, (size_t)d->tree.count * sizeof(sl_int));
     sli_label_tree_number(&d->tree, g->n, d->label);
