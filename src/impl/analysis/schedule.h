@@ -127,7 +127,7 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
 /* Finds the tasks: largest subtrees of at most `limit` flops, in ascending order of flops. */
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
                            double limit) {
-    const double scale = limit > 0.0 ? 1e9 / limit : 0.0;
+    const double scale = 1e9 / limit; /* a front has at least one flop */
     sl_int s;
     p->n_tasks = p->n_tops = 0;
     for (s = 0; s < f->count; s++) {

@@ -19,7 +19,7 @@ typedef struct sli_hash {
 #define SLI_HASH_4 0x589965cc75374cc3u
 
 SLI_INLINE int sli_hash_equals(sli_hash g, sli_hash h) {
-    return g.a == h.a && g.b == h.b;
+    return ((g.a ^ h.a) | (g.b ^ h.b)) == 0;
 }
 
 /* The two halves of the 128-bit product, added without carry. */

@@ -20,7 +20,7 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
                          void *data) {
     sl_int k;
-    if (count > 1 && t->run != NULL) {
+    if (t->run != NULL && count > 1) {
         t->run(t->context, count, body, data);
         return;
     }

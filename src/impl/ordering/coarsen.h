@@ -47,7 +47,9 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
     const sl_off first = g->begin[v], degree = g->begin[v + 1] - first;
     const sl_int own = sli_level_weight(g, v);
     sl_int best = -1, best_edge = 0, best_weight = 1;
-    sl_off k, e = degree > 0 ? first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree) : 0;
+    sl_off k, e;
+    SLI_ASSERT(degree > 0); /* the graph is connected */
+    e = first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree);
     for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
         const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
         if (mate[u] == -1 && weight <= heaviest - own &&
@@ -65,27 +67,27 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
  * of pairs. */
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
     const sl_int window = 512;
-    sl_int first, k, v, pairs = 0;
+    sl_off first;
+    sl_int k, v, pairs = 0;
     for (v = 0; v < g->n; v++) {
         mate[v] = -1;
     }
     for (first = 0; first < g->n; first += window) {
         const uint32_t turn = sli_hash32((uint32_t)first);
         for (k = 0; k < window; k++) {
+            const sl_off at =
+                first + (sl_off)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
             sl_int u;
-            v = first + (sl_int)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
-            if (v >= g->n || mate[v] != -1) {
+            if (at >= g->n || mate[at] != -1) {
                 continue;
             }
+            v = (sl_int)at;
             u = sli_match_best(g, v, heaviest, mate);
             if (u != -1) {
                 mate[v] = u;
                 mate[u] = v;
                 pairs++;
             }
-        }
-        if (first > INT32_MAX - window) {
-            break;
         }
     }
     return pairs;

@@ -19,8 +19,10 @@ typedef struct sli_flow {
 } sli_flow;
 
 #define SLI_FLOW_NONE (-1)
-#define SLI_FLOW_END (-2)  /* the path begins or ends here */
-#define SLI_FLOW_ROUNDS 60 /* no band seen needed more than 20 */
+#define SLI_FLOW_END (-2)     /* the path begins or ends here */
+#if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 1 */
+#define SLI_FLOW_ROUNDS 60    /* no band seen needed more than 20 */
+#endif
 
 /* Chooses the terminals: vertices with neighbors outside the band. If the whole of
  * a side lies in the band, its layer farthest from the border replaces them. */
@@ -88,7 +90,7 @@ static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
         state = f->path[length - 1];
         v = state / 2;
         if (state % 2 == 1) {
-            if (f->terminal[v] == 2 && f->after[v] != SLI_FLOW_END) {
+            if (f->terminal[v] == 2) { /* no path ends here yet: its entrance would lead back */
                 break;
             }
             next_state = sli_flow_next_state(f, v, round);
@@ -207,10 +209,9 @@ static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
     for (head = 0; head < tail; head++) {
         v = f->path[head] / 2;
         if (f->path[head] % 2 == 0) {
-            next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1
-                         : f->before[v] >= 0           ? 2 * f->before[v] + 1
-                                                       : -1;
-            if (next_state != -1 && f->seen[next_state] != mark) {
+            /* not an entrance where a path begins: all of those are marked */
+            next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1 : 2 * f->before[v] + 1;
+            if (f->seen[next_state] != mark) {
                 f->seen[next_state] = mark;
                 f->path[tail++] = next_state;
             }
