@@ -172,7 +172,20 @@ static void missing_arrays_and_products_in_place_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, X, 2, X, 2, 1));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_SYMMETRIC, X, 2, X, 2, 1));
     assert_true(Y[0] == 5 && Y[1] == 5 && X[0] == 1 && X[1] == 1 && eta == 7);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, (sl_reading)7, Y, 2, X, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&A, SL_AS_STORED, Y, 2, NULL, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, Y, 2, &eta, X, 2, NULL, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, Y, 2, &eta, NULL, 2, B, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&A, NULL, 2, &eta, X, 2, B, 2, 1));
+    const sl_csc tall = {2, 1, p, i, x};
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&tall, Y, 2, &eta, X, 2, B, 2, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&tall, SL_AS_SYMMETRIC, Y, 2, X, 2, 1));
+    assert_true(Y[0] == 5 && Y[1] == 5 && eta == 7);
     const sl_int empty[3] = {0, 0, 0};
+    const sl_csc no_columns = {2, 0, empty, NULL, NULL};
+    SL_CHECK(sl_csc_multiply(&no_columns, SL_AS_STORED, Y, 2, NULL, 0, 1));
+    assert_true(Y[0] == 0 && Y[1] == 0);
+    Y[0] = Y[1] = 5;
     const sl_csc E = {2, 2, empty, NULL, NULL}; /* without entries the arrays may be missing */
     SL_CHECK(sl_csc_multiply(&E, SL_AS_STORED, Y, 2, X, 2, 1));
     assert_true(Y[0] == 0 && Y[1] == 0);

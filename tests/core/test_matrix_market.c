@@ -479,6 +479,75 @@ static void memory_grows_with_the_entries(void **state) {
     unlink(path);
 }
 
+/* Files with more entries than memory is first allocated for; memory may end at any allocation. */
+static void more_entries_than_expected_are_read(void **state) {
+    (void)state;
+    enum { SIDE = 300, COUNT = SIDE * SIDE, LINE = 16 };
+    char *text = (char *)test_array((size_t)COUNT * LINE + 200, 1), path[512];
+    for (int pattern = 0; pattern < 2; pattern++) {
+        size_t length = (size_t)sprintf(
+            text, "%s%d %d %d\n", pattern ? BANNER("pattern general") : BANNER("integer general"),
+            SIDE, SIDE, COUNT);
+        for (int k = 0; k < COUNT; k++) {
+            length += (size_t)sprintf(text + length, pattern ? "%d %d\n" : "%d %d %d\n",
+                                      k % SIDE + 1, k / SIDE + 1, k % 1000);
+        }
+        write_temporary(path, sizeof path, text, length);
+        sl_status status = SL_ERR_MEMORY;
+        for (int64_t k = 0; status != SL_OK; k++) {
+            counter_t c = counter_make();
+            sl_options opt = options_counted(&c);
+            sl_matrix *M = NULL;
+            c.fail_at = k;
+            status = sl_matrix_read(&M, path, &opt, NULL);
+            assert_int_equal(status, M ? SL_OK : SL_ERR_MEMORY);
+            const sl_csc A = sl_matrix_view(M);
+            for (int q = 0; q < COUNT && M; q++) {
+                assert_int_equal(A.i[q], q % SIDE);
+                assert_true(pattern ? A.x == NULL : A.x[q] == q % 1000);
+            }
+            sl_matrix_free(M);
+            COUNTER_CLEAN(&c);
+            assert_true(k < 20);
+        }
+        unlink(path);
+    }
+    free(text);
+}
+
+/* Blanks of every kind in every place, and bytes that no number has. */
+static void blanks_and_bytes_that_are_no_digits(void **state) {
+    (void)state;
+    const sl_int p[2] = {0, 1}, i[1] = {0};
+    const double x[1] = {4};
+    assert_parses_to(BANNER("real general") "\r\n \t\r\n\r1\t1\r1\r\n1\r1\t4\r\n \t\r", 1, 1, p, i,
+                     x);
+    assert_parses_to(BANNER("real general") "1 1 1\n1 1 4\n\r\n\t  ", 1, 1, p, i, x);
+    static const char *const words[] = {"4.0.0", "{4", "4}", "4~", "4,0", "4\x80",
+                                        "4)",    "_4", "4_", "@",  "["};
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+        char text[200];
+        sl_matrix *M = NULL;
+        sl_stats stats;
+        (void)sprintf(text, "%s1 1 %s\n", BANNER("real general") "1 1 1\n", words[k]);
+        SL_EXPECT(SL_ERR_IO, parse(&M, text, &stats));
+        assert_int_equal(stats.error.line, 3);
+    }
+    /* what C libraries print for a NaN with a payload */
+    sl_matrix *M = NULL;
+    SL_CHECK(parse(&M, BANNER("real general") "1 1 1\n1 1 nan(a_1)\n", NULL));
+    assert_true(sl_matrix_view(M).x[0] != sl_matrix_view(M).x[0]);
+    sl_matrix_free(M);
+    /* a last line that is too long is not taken for the end of the file */
+    const char start[] = BANNER("real general") "1 1 1\n1 1 4\n";
+    const size_t length = sizeof start - 1 + 70000;
+    char *text = (char *)test_array(length, 1);
+    memset(text, 'x', length);
+    memcpy(text, start, sizeof start - 1);
+    assert_file_reads_as_text(text, length, SL_ERR_IO);
+    free(text);
+}
+
 /* Every status has a text of its own, and so does a number that is no status. */
 static void every_status_has_a_text(void **state) {
     (void)state;
@@ -508,6 +577,8 @@ int main(void) {
         cmocka_unit_test(a_file_without_end_is_refused),
         cmocka_unit_test(files_are_read_across_the_buffer),
         cmocka_unit_test(memory_grows_with_the_entries),
+        cmocka_unit_test(more_entries_than_expected_are_read),
+        cmocka_unit_test(blanks_and_bytes_that_are_no_digits),
         cmocka_unit_test(every_status_has_a_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -52,6 +52,83 @@ static void large_fronts_give_the_same_bits(void **state) {
     assert_same_bits_for_any_thread_count(GEN_GRID3, 15 * 15 * 15, SL_ISA_AUTO);
 }
 
+/* Two dense blocks of w columns, both adjacent to the h rows of a dense last block. In natural
+ * order each is a front with rows below that all threads share, and the fronts follow one another.
+ */
+static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa) {
+    gen_list_t t = gen_list(2 * w + h);
+    uint64_t seed = 7;
+    for (sl_int j = 0; j < t.n; j++) {
+        for (sl_int i = j + 1; i < t.n; i++) {
+            if (j >= w || i < w || i >= 2 * w) {
+                gen_add(&t, i, j, gen_real(&seed));
+            }
+        }
+    }
+    gen_dominate(&t, 0, &seed);
+    sl_options opt = options_with_threads(NULL, 1, NULL);
+    factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
+    opt.isa = isa;
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.relaxation = SL_RELAXATION_NONE;
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, FOR_ANALYSIS(&opt), NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
+    assert_int_equal(sl_symbolic_view(y.S).n_supers, 3);
+    gen_list_free(&t);
+    return y;
+}
+
+/* The update matrices of shared fronts are computed by all threads, each for its own row tiles. */
+static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
+    (void)state;
+    static const sl_parallel_for runs[2] = {run_threads, run_backwards};
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        factored_t y = two_large_fronts(101, 150, isas.isa[k]);
+        for (sl_int count = 2; count <= 5; count++) {
+            int calls = 0;
+            sl_factor *F = NULL;
+            sl_options opt = options_with_threads(runs[count % 2], count, &calls);
+            opt.isa = isas.isa[k];
+            SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+            assert_same_bits(F, y.F);
+            sl_factor_free(F);
+        }
+        factored_free(&y);
+    }
+}
+
+/* A shared front that fails is reported as it is without threads: a value that is not finite is met
+ * before the front, a null pivot after it. No later front is begun. */
+static void failures_in_large_fronts_are_reported(void **state) {
+    (void)state;
+    factored_t y = two_large_fronts(101, 150, SL_ISA_AUTO);
+    for (int kind = 0; kind < 2; kind++) {
+        for (sl_int front = 0; front < 2; front++) {
+            const sl_int row = front * 101, later = kind == 0 ? 202 : 230;
+            const double keep = y.M.x[y.M.p[row]], kept = y.M.x[y.M.p[later]];
+            sl_stats one, many;
+            sl_factor *F = NULL;
+            int calls = 0;
+            y.M.x[y.M.p[row]] = kind == 0 ? (double)NAN : 0.0;
+            y.M.x[y.M.p[later]] = (double)INFINITY;
+            memset(&one, 0, sizeof one);
+            memset(&many, 0, sizeof many);
+            sl_options opt = options_with_threads(NULL, 1, NULL);
+            const sl_status status = sl_factor_create(&F, y.S, &y.M.view, &opt, &one);
+            assert_int_equal(status, kind == 0 ? SL_ERR_NOT_FINITE : SL_ERR_PIVOT);
+            assert_int_equal(one.error.row, row);
+            opt = options_with_threads(run_threads, 2, &calls);
+            SL_EXPECT(status, sl_factor_create(&F, y.S, &y.M.view, &opt, &many));
+            assert_null(F);
+            assert_int_equal(many.error.row, row);
+            y.M.x[y.M.p[row]] = keep;
+            y.M.x[y.M.p[later]] = kept;
+        }
+    }
+    factored_free(&y);
+}
+
 /* The first failure in elimination order is reported, whichever thread meets it. */
 static void errors_do_not_depend_on_the_thread_count(void **state) {
     (void)state;
@@ -136,6 +213,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_the_thread_count),
         cmocka_unit_test(large_fronts_give_the_same_bits),
+        cmocka_unit_test(large_fronts_with_rows_below_give_the_same_bits),
+        cmocka_unit_test(failures_in_large_fronts_are_reported),
         cmocka_unit_test(errors_do_not_depend_on_the_thread_count),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(unusual_thread_counts_are_handled),
