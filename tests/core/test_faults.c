@@ -1,0 +1,158 @@
+/* test_faults.c: METIS that fails or lies, separators of no flow, processors without popcnt, sizes
+ * beyond memory: what calls cannot reach on this machine, by replaced functions and direct calls */
+#define SPARSE_LOCAL_IMPLEMENTATION
+#define SLI_FLOW_ROUNDS 1 /* no flow ends in time: each separator is a border */
+
+#if defined(SL_METIS) && !defined(SL_NO_METIS)
+#include <metis.h>
+#include <string.h>
+
+enum { METIS_TELLS_NO_SIZES = 77 };
+static int metis_fault; /* 0: none, METIS_TELLS_NO_SIZES, or the status that is returned */
+
+static int metis_separators(idx_t n, idx_t *begin, idx_t *to, idx_t *weight, idx_t parts,
+                            idx_t *options, idx_t *perm, idx_t *iperm, idx_t *sizes) {
+    if (metis_fault != 0 && metis_fault != METIS_TELLS_NO_SIZES) {
+        return metis_fault;
+    }
+    const int status = METIS_NodeNDP(n, begin, to, weight, parts, options, perm, iperm, sizes);
+    if (metis_fault != 0) {
+        memset(sizes, 0, (size_t)(2 * parts - 1) * sizeof *sizes);
+    }
+    return status;
+}
+
+#define METIS_NodeND(...) (metis_fault != 0 ? metis_fault : (METIS_NodeND)(__VA_ARGS__))
+#define METIS_NodeNDP metis_separators
+#endif
+
+#include "tests/lib/check_factor.h"
+
+/* The status of an ordering; if it is SL_OK, the order and its separator tree are valid. */
+static sl_status order(gen_kind_t kind, sl_int size, sl_ordering ordering) {
+    gen_matrix_t M = gen_matrix(kind, size, 1, 3);
+    sl_options opt = options_none();
+    sl_symbolic *S = (sl_symbolic *)(void *)&M;
+    opt.ordering = ordering;
+    const sl_status status = sl_symbolic_create(&S, &M.view, &opt, NULL);
+    assert_true((S != NULL) == (status == SL_OK));
+    if (S) {
+        const sl_symbolic_arrays v = sl_symbolic_view(S);
+        NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+        NOTHING_WRONG(check_septree(&v, &M.view));
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    return status;
+}
+
+#if defined(SL_METIS) && !defined(SL_NO_METIS)
+
+static void errors_of_metis_are_reported(void **state) {
+    (void)state;
+    for (int ordering = SL_ORDERING_METIS; ordering <= SL_ORDERING_METIS_REFINED; ordering++) {
+        metis_fault = METIS_ERROR_MEMORY;
+        SL_EXPECT(SL_ERR_MEMORY, order(GEN_GRID2, 900, (sl_ordering)ordering));
+        metis_fault = METIS_ERROR;
+        SL_EXPECT(SL_ERR_ORDERING, order(GEN_GRID2, 900, (sl_ordering)ordering));
+        metis_fault = 0;
+        SL_CHECK(order(GEN_GRID2, 900, (sl_ordering)ordering));
+    }
+}
+
+/* Sizes that do not add up give another order, not a wrong one. */
+static void sizes_of_metis_are_not_trusted(void **state) {
+    (void)state;
+    metis_fault = METIS_TELLS_NO_SIZES;
+    SL_CHECK(order(GEN_GRID2, 900, SL_ORDERING_METIS_REFINED));
+    metis_fault = 0;
+}
+
+#endif
+
+/* The separators that take the place of those that a flow did not find in time separate too. */
+static void borders_separate(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[5] = {GEN_GRID2, GEN_GRID3, GEN_FOREST, GEN_RANDOM,
+                                        GEN_COMPONENTS};
+    for (int kind = 0; kind < 5; kind++) {
+        SL_CHECK(order(kinds[kind], 1500, SL_ORDERING_ND));
+    }
+}
+
+/* A leaf has the same order with and without the instruction, and keeps its own if the bit matrix
+ * does not fit. */
+static void minimum_degree_on_any_processor(void **state) {
+    (void)state;
+    enum { SIDE = 12, LEAF = 100 };
+    gen_list_t t = gen_list(SIDE * SIDE);
+    uint64_t seed = 1;
+    gen_edges_grid(&t, SIDE, SIDE, 1, &seed);
+    gen_matrix_t M = gen_store(&t, gen_style(2), 1);
+    sl_off begin[SIDE * SIDE + 1];
+    sl_int local[SIDE * SIDE], scratch[LEAF], first[LEAF], vertices[LEAF];
+    uint32_t key[LEAF];
+    uint64_t rows[LEAF * 3];
+    sli_level g;
+    sli_mindeg m;
+    memset(&g, 0, sizeof g);
+    memset(&m, 0, sizeof m);
+    g.n = SIDE * SIDE;
+    g.begin = begin;
+    g.to = M.i;
+    m.key = key;
+    m.rows = rows;
+    for (sl_int v = 0; v <= g.n; v++) {
+        begin[v] = M.p[v];
+    }
+    for (sl_int v = 0; v < g.n; v++) {
+        local[v] = -1;
+    }
+    for (int turn = 0; turn < 3; turn++) {
+        int moved = 0;
+        for (sl_int k = 0; k < LEAF; k++) {
+            vertices[k] = (k * 37) % LEAF;
+        }
+        m.room = turn < 2 ? LEAF * 3 : LEAF;
+        m.has_popcnt = turn == 1 && isas_present().count > 1;
+        sli_mindeg_order(&m, &g, vertices, LEAF, local, turn == 0 ? first : scratch);
+        for (sl_int k = 0; k < LEAF; k++) {
+            first[k] = turn == 0 ? vertices[k] : first[k];
+            assert_int_equal(vertices[k], turn < 2 ? first[k] : (k * 37) % LEAF);
+            moved += vertices[k] != (k * 37) % LEAF;
+        }
+        assert_true((moved > 0) == (turn < 2));
+    }
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
+/* Sums of sizes that no memory holds are noticed: they are reached where size_t has 32 bits. */
+static void sizes_beyond_memory_are_refused(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    const sl_options opt = options_counted(&counter);
+    for (int kind = 0; kind < 2; kind++) {
+        sli_block b = {NULL, 0, 0};
+        (void)sli_take(&b, kind ? SIZE_MAX / 16 : UINT64_MAX / 4, sizeof(double));
+        (void)sli_take(&b, SIZE_MAX / 16, sizeof(double));
+        (void)sli_take(&b, SIZE_MAX / 16, sizeof(double));
+        SL_EXPECT(SL_ERR_TOO_LARGE, sli_block_alloc(&b, &opt.allocator));
+        assert_null(b.base);
+    }
+    assert_null(sli_alloc(&opt.allocator, SIZE_MAX));
+    assert_int_equal(counter.calls, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+#if defined(SL_METIS) && !defined(SL_NO_METIS)
+        cmocka_unit_test(errors_of_metis_are_reported),
+        cmocka_unit_test(sizes_of_metis_are_not_trusted),
+#endif
+        cmocka_unit_test(borders_separate),
+        cmocka_unit_test(minimum_degree_on_any_processor),
+        cmocka_unit_test(sizes_beyond_memory_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
