@@ -1,64 +1,64 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f2ab0cb7c36cde8f
+ * FNV-1a of the lines after this comment, without the license: e6f0e0727b662906
  *
  * Contents
  * (what a user reads)
  *     66 intro.h      what the library does, a quick start, notation, conventions, threads, references
  *    131 config.h     macros that a user may define before the include, the version, and the integer types
- *    203 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    331 options.h    options of all calls, threads, and the allocator
- *    459 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    583 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    725 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    844 factor.h     the numerical factorization P A P' = L D L'
- *   1046 solve.h      full solves, and the workspace of all solves
- *   1156 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1250 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1359 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1495 batch.h      many independent solves by one call, distributed over threads
- *   1545 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1721 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1840 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *    208 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    336 options.h    options of all calls, threads, and the allocator
+ *    464 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    588 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    732 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    851 factor.h     the numerical factorization P A P' = L D L'
+ *   1053 solve.h      full solves, and the workspace of all solves
+ *   1163 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1257 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1366 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1502 batch.h      many independent solves by one call, distributed over threads
+ *   1552 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1728 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1847 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   1953 base.h   2081 status.h   2144 options.h   2204 alloc.h   2328 hash.h   2431 sort.h
- *   2501 parallel.h
+ *   1960 base.h   2154 status.h   2217 options.h   2277 alloc.h   2401 hash.h   2504 sort.h
+ *   2574 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2539 panel.h   2571 step.h   2628 pivot_rule.h   2713 front.h   2790 pairs.h
- *   3008 inverse_front.h   3100 table.h   3121 simd.h   3215 simd_scalar.h   3334 simd_avx2.h
- *   3527 simd_avx512.h   3633 simd_neon.h   3813 dispatch.h
+ *   2612 panel.h   2644 step.h   2701 pivot_rule.h   2786 front.h   2863 pairs.h
+ *   3081 inverse_front.h   3173 table.h   3194 simd.h   3288 simd_scalar.h   3407 simd_avx2.h
+ *   3601 simd_avx512.h   3707 simd_neon.h   3887 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   3878 csc.h   3992 csc_build.h   4131 csc_triangle.h   4202 csc_products.h   4326 permute.h
- *   4395 sum.h   4480 output_file.h   4632 matrix_market.h
+ *   3969 csc.h   4083 csc_build.h   4222 csc_triangle.h   4293 csc_products.h   4417 permute.h
+ *   4486 sum.h   4571 output_file.h   4741 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5111 graph.h   5277 coarsen.h   5552 labels.h   5764 subgraph.h   5975 heap.h   6038 bisect.h
- *   6288 separator.h   6578 mindeg.h   6774 dissect.h   7124 levelset.h   7254 geometric.h
- *   7465 septree.h   7530 metis.h   7693 metis_refined.h   7817 nd.h   8024 compress.h
- *   8153 quotient.h   8564 order.h
+ *   5220 graph.h   5386 coarsen.h   5663 labels.h   5875 subgraph.h   6086 heap.h   6149 bisect.h
+ *   6399 separator.h   6690 mindeg.h   6886 dissect.h   7236 levelset.h   7366 geometric.h
+ *   7577 septree.h   7642 metis.h   7799 metis_refined.h   7925 nd.h   8132 compress.h
+ *   8261 quotient.h   8672 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   8786 symbolic_types.h   8829 etree.h   8909 counts.h   8979 supernodes.h   9240 structure.h
- *   9381 schedule.h   9596 symbolic.h   9975 reach.h
+ *   8894 symbolic_types.h   8937 etree.h   9017 counts.h   9087 supernodes.h   9348 structure.h
+ *   9489 schedule.h   9704 symbolic.h  10083 reach.h
  * (factor: the numbers of L and D)
- *  10286 factor_types.h  10624 pivot_search.h  10995 pivoted.h  11064 scatter.h  11237 uplooking.h
- *  11314 null_vectors.h  11606 multifrontal.h  11868 nullspace.h  12119 growth.h
- *  12207 factor_setup.h  12433 factor.h  12643 leftlooking.h  12829 factor_query.h
- *  12965 combination.h
+ *  10394 factor_types.h  10732 pivot_search.h  11103 pivoted.h  11172 scatter.h  11345 uplooking.h
+ *  11422 null_vectors.h  11714 multifrontal.h  11976 nullspace.h  12227 growth.h
+ *  12315 factor_setup.h  12541 factor.h  12751 leftlooking.h  12937 factor_query.h
+ *  13073 combination.h
  * (solve: full and local solves)
- *  13026 region_types.h  13144 work.h  13251 query.h  13452 singular.h  13683 backward.h
- *  13718 sweep.h  13893 compile.h  14102 plan.h  14209 local.h  14367 refine.h
- *  14550 refine_local.h  14775 rcond.h  14945 defects.h
+ *  13134 region_types.h  13252 work.h  13359 query.h  13560 singular.h  13791 backward.h
+ *  13826 sweep.h  14001 compile.h  14210 plan.h  14317 local.h  14475 refine.h
+ *  14658 refine_local.h  14883 rcond.h  15053 defects.h
  * (inverse: entries of the inverse, regions)
- *  15002 traversal.h  15280 traversal_run.h  15461 row_sets.h  15492 unit_vectors.h
- *  15751 bilinear.h  15939 entries.h  16242 block.h  16500 reserve.h  16711 selected.h
- *  16922 selected_query.h  17030 region_choose.h  17282 region.h
+ *  15110 traversal.h  15388 traversal_run.h  15569 row_sets.h  15600 unit_vectors.h
+ *  15859 bilinear.h  16047 entries.h  16350 block.h  16608 reserve.h  16819 selected.h
+ *  17030 selected_query.h  17138 region_choose.h  17390 region.h
  * (batch: many solves, factors and diagonals by one call)
- *  17529 batch_solve.h  17757 batch_factor.h  17958 batch_diagonal.h
+ *  17637 batch_solve.h  17865 batch_factor.h  18066 batch_diagonal.h
  * (last: undefine every internal macro)
- *  18106 undef.h
+ *  18214 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  18217 multi_rhs.inl.h  18591 kernel_set.inl.h  18595 unit_triangle.inl.h  18636 two_rhs.inl.h
- *  18808 product.inl.h  18949 front.inl.h  19176 inverse_front.inl.h  19479 small_supernode.inl.h
- *  19647 single_rhs.inl.h
+ *  18330 multi_rhs.inl.h  18704 kernel_set.inl.h  18708 unit_triangle.inl.h  18749 two_rhs.inl.h
+ *  18921 product.inl.h  19062 front.inl.h  19289 inverse_front.inl.h  19594 small_supernode.inl.h
+ *  19762 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -153,6 +153,11 @@
  *                                the file: #define SL_HEADER "new_name.h", without its folder.
  *  SL_VERIFY                     checks internal invariants and unread options at run time: slow,
  *                                for debugging.
+ *
+ * Kernels: gcc and clang on x86, and on Windows clang, clang-cl and MSVC for x64, compile AVX2 and
+ * AVX-512, one of which is selected at run time; 64-bit ARM has NEON. All others have plain C. So
+ * does gcc for Windows (MinGW), which does not align vectors on the stack (gcc bug 54412): clang's
+ * code factors in a third of its time. For WebAssembly, -msimd128 vectorizes plain C.
  *
  * The implementation must not be compiled with -ffast-math or -ffinite-math-only: they remove the
  * checks for NaN and infinity, so it stops with an #error. Files that only include the declarations
@@ -711,9 +716,11 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
  *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
  *  the system may lose both files.
  *
- *  Windows and others without POSIX: the old file is removed just before the renaming. If the
- *  renaming fails, or a kill comes between the two, the complete file has its temporary name. Two
+ *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
  *  processes must not write one path at the same time.
+ *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
+ *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
+ *  its temporary name.
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
  *                 one triangle.
@@ -754,11 +761,11 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
  *  Threads  any number of calls at once, with the same result for the same pattern however it is
- *           stored, on every processor and with every compiler, except with METIS: METIS seeds and draws from rand() of the C library and
- *           prints a line if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and
- *           SIGTERM of the whole process; during SL_ORDERING_METIS_REFINED it raises SIGABRT if it
- *           runs out of memory. Concurrent calls with METIS are safe only if rand() is, and may
- *           then order differently from run to run.
+ *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
+ *           draws from rand() of the C library and prints a line if it runs out of memory. During
+ *           SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process; during
+ *           SL_ORDERING_METIS_REFINED it raises SIGABRT if it runs out of memory. Concurrent calls
+ *           with METIS are safe only if rand() is, and may then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [Liu90] elimination
  *           tree; [GNP94] counts; [AG89] relaxed supernodes.
@@ -1971,17 +1978,39 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_regi
 #define SLI_METIS 1
 #endif
 
-/* AVX kernels need target attributes per function and correctly aligned spills of vectors. MSVC has
- * no such attribute; MinGW misaligns the spills. */
-#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__) && !defined(_WIN32) && \
-  !defined(SL_NO_SIMD)
-#define SLI_X86 1
-#include <cpuid.h>
-#include <immintrin.h>
+/* gcc and clang, which in the dialect of MSVC does not say __GNUC__: attributes and builtins. */
+#if defined(__GNUC__) || defined(__clang__)
+#define SLI_GNU 1
 #endif
-#if defined(__aarch64__) && defined(__ARM_NEON) && !defined(SL_NO_SIMD)
+
+/* AVX kernels need correctly aligned spills of vectors, which gcc for Windows does not have (its
+ * bug 54412), and attributes of functions that name the instruction set. MSVC compiles intrinsics
+ * without the attribute; its version 19.38 is said to miscompile such code. */
+#if defined(SL_NO_SIMD)
+#elif defined(__clang__) || (defined(__GNUC__) && !defined(_WIN32))
+#if defined(__x86_64__) || defined(__i386__)
+#define SLI_X86 1
+#include <immintrin.h>
+#if defined(_MSC_VER) /* there immintrin.h includes only what the command line enables */
+#include <smmintrin.h>
+#include <avxintrin.h>
+#include <avx2intrin.h>
+#include <avx512fintrin.h>
+#include <fmaintrin.h>
+#endif
+#elif defined(__aarch64__) && defined(__ARM_NEON)
 #define SLI_ARM 1
 #include <arm_neon.h>
+#endif
+#elif defined(_MSC_VER)
+#if defined(_M_X64) && !defined(_M_ARM64EC) && _MSC_VER >= 1920 && _MSC_VER != 1938
+#define SLI_X86 1
+#include <immintrin.h>
+#include <intrin.h>
+#elif defined(_M_ARM64)
+#define SLI_ARM 1
+#include <arm_neon.h>
+#endif
 #endif
 
 /* Functions of Linux under names of this library, because -std=c99 hides their declarations. */
@@ -1997,7 +2026,21 @@ extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("
 #include <sys/stat.h>
 #endif
 
-#if defined(__GNUC__)
+/* Functions of Windows, as <windows.h> declares them; that header defines too many macros. */
+#if defined(_WIN32)
+#define SLI_WINDOWS 1
+#if defined(__cplusplus)
+extern "C" {
+#endif
+__declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
+                        unsigned long flags);
+__declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
+#if defined(__cplusplus)
+}
+#endif
+#endif
+
+#if defined(SLI_GNU)
 #define SLI_INLINE __attribute__((unused)) static inline
 /* for functions whose calls pass a constant that must be folded into the body */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
@@ -2012,12 +2055,38 @@ extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("
 #define SLI_UNROLL _Pragma("GCC unroll 8")
 #else
 #define SLI_INLINE static inline
-#define SLI_ALWAYS_INLINE static inline
 #define SLI_NOINLINE
 #define SLI_TARGET(list)
+#if defined(_MSC_VER)
+#define SLI_ALWAYS_INLINE static __forceinline
+#define SLI_ALIGNED(variable) __declspec(align(64)) variable
+#else
+#define SLI_ALWAYS_INLINE static inline
 #define SLI_ALIGNED(variable) variable
+#endif
+#if defined(_MSC_VER) && defined(SLI_X86)
+#define SLI_PREFETCH(p, bytes) _mm_prefetch((const char *)(p) + (bytes), _MM_HINT_T0)
+#else
 #define SLI_PREFETCH(p, bytes) ((void)0)
+#endif
 #define SLI_UNROLL
+#endif
+/* c - a b in one rounding, in a function compiled for that instruction */
+#if defined(SLI_GNU)
+#define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
+#elif defined(SLI_X86)
+#define SLI_FNMA1(a, b, c) \
+  _mm_cvtsd_f64(_mm_fnmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)))
+#else
+#define SLI_FNMA1(a, b, c) fma(-(a), b, c)
+#endif
+/* Keeps a vector in its register: without this, a value used several times is loaded each time. */
+#if defined(SLI_GNU) && defined(SLI_X86)
+#define SLI_PIN(a) __asm__("" : "+x"(a))
+#define SLI_PIN_ANY(a) __asm__("" : "+v"(a)) /* also in registers 16 to 31 */
+#else
+#define SLI_PIN(a) ((void)0)
+#define SLI_PIN_ANY(a) ((void)0)
 #endif
 
 /* A precondition. SL_VERIFY builds check it. */
@@ -2053,10 +2122,13 @@ SLI_INLINE int sli_is_finite(double a) {
   return a - a == 0.0;
 }
 
-#if defined(SLI_POSIX)
+#if defined(SLI_POSIX) || defined(SLI_WINDOWS)
 /* Whether path is a symbolic link. Not noticed where the headers hide lstat. */
 SLI_INLINE int sli_is_link(const char *path) {
-#if defined(__linux__) && defined(__GNUC__)
+#if defined(SLI_WINDOWS)
+  const unsigned long attributes = GetFileAttributesA(path); /* all ones: there is no such file */
+  return attributes != 0xffffffffu && (attributes & 0x400u) != 0;
+#elif defined(__linux__) && defined(__GNUC__)
   char to[1];
   return sli_readlink(path, to, sizeof to) >= 0;
 #elif defined(S_IFLNK) && defined(S_ISLNK)
@@ -2069,7 +2141,8 @@ SLI_INLINE int sli_is_link(const char *path) {
 }
 #endif
 
-/* Seconds of processor time since an arbitrary moment. C99 has no other clock. */
+/* Seconds of processor time since an arbitrary moment. C99 has no other clock; on Windows it counts
+ * all time. */
 SLI_INLINE double sli_seconds(void) {
 #if defined(SL_NO_CLOCK)
   return 0.0;
@@ -2342,7 +2415,7 @@ typedef struct sli_hash {
 #define SLI_HASH_4 0x589965cc75374cc3u
 
 SLI_INLINE int sli_hash_equals(sli_hash g, sli_hash h) {
-  return g.a == h.a && g.b == h.b;
+  return ((g.a ^ h.a) | (g.b ^ h.b)) == 0;
 }
 
 /* The two halves of the 128-bit product, added without carry. */
@@ -2515,7 +2588,7 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
              void *data) {
   sl_int k;
-  if (count > 1 && t->run != NULL) {
+  if (t->run != NULL && count > 1) {
     t->run(t->context, count, body, data);
     return;
   }
@@ -3338,7 +3411,7 @@ typedef struct sli_kernels {
 #define SLV_NAME(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX2
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
-#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 
 /* All bits set in lanes k .. 3, k = -3 .. 8. */
 SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
@@ -3446,7 +3519,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_LOAD_PINNED(a, p) \
   a##_0 = _mm256_load_pd(p); \
   a##_1 = _mm256_load_pd((p) + 4); \
-  __asm__("" : "+x"(a##_0), "+x"(a##_1)); /* used 4 times: loads it only once */
+  SLI_PIN(a##_0); /* used 4 times */ \
+  SLI_PIN(a##_1);
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
 #define SLV_MULTIPLY(a, b, c) \
   a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
@@ -3534,7 +3608,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_NAME_4(f) sli_##f##4_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) __m512d a;
 #define SLV_ZERO(a) a = _mm512_setzero_pd();
 #define SLV_LOAD(a, p) a = _mm512_load_pd(p);
@@ -3589,7 +3663,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_EACH_COLUMN SLI_EACH8
 #define SLV_LOAD_PINNED(a, p) \
   a = _mm512_load_pd(p); \
-  __asm__("" : "+v"(a)); /* used 8 times: loads it only once */
+  SLI_PIN_ANY(a); /* used 8 times */
 #define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
@@ -3637,7 +3711,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_NAME(f) sli_##f##_neon
 #define SLV_ISA SL_ISA_NEON
 #define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) __builtin_fma(-(a), b, c) /* c - a b */
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 #define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
 #define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
 #define SLV_LOAD(a, p) \
@@ -3813,11 +3887,25 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 /* src/impl/kernels/dispatch.h: detects the instruction sets of this processor and selects a kernel table */
 
 #if defined(SLI_X86)
+/* What CPUID says of a leaf: eax, ebx, ecx, edx. Not by <cpuid.h>, which conflicts with <intrin.h>.
+ */
+SLI_INLINE void sli_cpuid(unsigned leaf, unsigned *r) {
+#if defined(SLI_GNU)
+  __asm__ volatile("cpuid" : "=a"(r[0]), "=b"(r[1]), "=c"(r[2]), "=d"(r[3]) : "a"(leaf), "c"(0));
+#else
+  __cpuidex((int *)r, (int)leaf, 0);
+#endif
+}
+
 /* XCR0: the register states that the operating system saves. */
 SLI_INLINE unsigned sli_xcr0(void) {
+#if defined(SLI_GNU)
   unsigned low, high;
   __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
   return low;
+#else
+  return (unsigned)_xgetbv(0);
+#endif
 }
 #endif
 
@@ -3825,17 +3913,20 @@ SLI_INLINE unsigned sli_xcr0(void) {
  * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
-  unsigned a, b, c, d, xcr0;
+  unsigned first[4], leaf[4], xcr0;
   const unsigned osxsave_avx_fma = (1u << 27) | (1u << 28) | (1u << 12);
-  if (!__get_cpuid(1, &a, &b, &c, &d) || (c & osxsave_avx_fma) != osxsave_avx_fma) {
+  sli_cpuid(0, first); /* first[0]: the last leaf */
+  sli_cpuid(1, leaf);
+  if (first[0] < 7 || (leaf[2] & osxsave_avx_fma) != osxsave_avx_fma) {
     return SL_ISA_SCALAR;
   }
   xcr0 = sli_xcr0(); /* 0x6: SSE and AVX state; 0xe0: AVX-512 state */
-  if ((xcr0 & 0x6u) != 0x6u || !__get_cpuid_count(7, 0, &a, &b, &c, &d) || !(b & (1u << 5))) {
-    return SL_ISA_SCALAR; /* bit 5: AVX2 */
+  sli_cpuid(7, leaf);
+  if ((xcr0 & 0x6u) != 0x6u || !(leaf[1] & (1u << 5))) { /* bit 5: AVX2 */
+    return SL_ISA_SCALAR;
   }
 #if defined(SLI_AVX512)
-  if ((xcr0 & 0xe6u) == 0xe6u && (b & (1u << 16))) { /* bit 16: AVX512F */
+  if ((xcr0 & 0xe6u) == 0xe6u && (leaf[1] & (1u << 16))) { /* bit 16: AVX512F */
     return SL_ISA_AVX512;
   }
 #endif
@@ -4524,13 +4615,19 @@ static int sli_take_attributes(const char *name, const char *old_name) {
 #else
 /* The same with the means of C: what has no length, such as a device, is written in place. */
 static int sli_is_replaceable(const char *path, int *exists) {
-  FILE *probe = fopen(path, "r+b");
+  FILE *probe;
   long length = 0;
   *exists = 0; /* no attributes to keep */
+#if defined(SLI_WINDOWS)
+  if (sli_is_link(path)) {
+    return 0;
+  }
+#endif
+  probe = fopen(path, "r+b");
   if (probe != NULL) {
     length = fseek(probe, 0, SEEK_END) == 0 ? ftell(probe) : 0;
     fclose(probe);
-    return length > 0;
+    return length != 0; /* -1: longer than a long can say */
   }
   probe = fopen(path, "rb"); /* can be read and not written: not to be replaced */
   if (probe != NULL) {
@@ -4607,21 +4704,33 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
   return o->file != NULL ? SL_OK : SL_ERR_IO;
 }
 
+/* Gives the temporary file the name of the old one, which it replaces in one step. Returns whether
+ * that succeeded; *is_only_copy: it did not, and the old file is gone. */
+static int sli_replace(const sli_output *o, int *is_only_copy) {
+  *is_only_copy = 0;
+#if defined(SLI_WINDOWS)
+  if (MoveFileExA(o->temporary, o->path, 1) != 0) { /* 1: replaces an existing file */
+    return 1;
+  }
+#endif
+  if (rename(o->temporary, o->path) == 0) {
+    return 1;
+  }
+#if !defined(SLI_POSIX) /* rename may refuse an existing name */
+  *is_only_copy = remove(o->path) == 0;
+  if (*is_only_copy && rename(o->temporary, o->path) == 0) {
+    return 1;
+  }
+#endif
+  return 0;
+}
+
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
 static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
-  int ok = fclose(o->file) == 0 && complete;
+  int ok = fclose(o->file) == 0 && complete, is_only_copy = 0;
   if (o->temporary != NULL) {
-    int is_lost = !ok;
-    if (ok && rename(o->temporary, o->path) != 0) {
-#if defined(SLI_POSIX)
-      ok = 0;
-      is_lost = 1;
-#else
-      /* rename may refuse an existing name; the temporary file is then the only copy */
-      ok = remove(o->path) == 0 && rename(o->temporary, o->path) == 0;
-#endif
-    }
-    if (is_lost) {
+    ok = ok && sli_replace(o, &is_only_copy);
+    if (!ok && !is_only_copy) {
       remove(o->temporary);
     }
     sli_free(a, o->temporary);
@@ -5319,7 +5428,9 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
   const sl_off first = g->begin[v], degree = g->begin[v + 1] - first;
   const sl_int own = sli_level_weight(g, v);
   sl_int best = -1, best_edge = 0, best_weight = 1;
-  sl_off k, e = degree > 0 ? first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree) : 0;
+  sl_off k, e;
+  SLI_ASSERT(degree > 0); /* the graph is connected */
+  e = first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree);
   for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
     const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
     if (mate[u] == -1 && weight <= heaviest - own &&
@@ -5337,27 +5448,27 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
  * of pairs. */
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
   const sl_int window = 512;
-  sl_int first, k, v, pairs = 0;
+  sl_off first;
+  sl_int k, v, pairs = 0;
   for (v = 0; v < g->n; v++) {
     mate[v] = -1;
   }
   for (first = 0; first < g->n; first += window) {
     const uint32_t turn = sli_hash32((uint32_t)first);
     for (k = 0; k < window; k++) {
+      const sl_off at =
+        first + (sl_off)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
       sl_int u;
-      v = first + (sl_int)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
-      if (v >= g->n || mate[v] != -1) {
+      if (at >= g->n || mate[at] != -1) {
         continue;
       }
+      v = (sl_int)at;
       u = sli_match_best(g, v, heaviest, mate);
       if (u != -1) {
         mate[v] = u;
         mate[u] = v;
         pairs++;
       }
-    }
-    if (first > INT32_MAX - window) {
-      break;
     }
   }
   return pairs;
@@ -6302,8 +6413,10 @@ typedef struct sli_flow {
 } sli_flow;
 
 #define SLI_FLOW_NONE (-1)
-#define SLI_FLOW_END (-2)  /* the path begins or ends here */
-#define SLI_FLOW_ROUNDS 60 /* no band seen needed more than 20 */
+#define SLI_FLOW_END (-2)     /* the path begins or ends here */
+#if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 1 */
+#define SLI_FLOW_ROUNDS 60    /* no band seen needed more than 20 */
+#endif
 
 /* Chooses the terminals: vertices with neighbors outside the band. If the whole of
  * a side lies in the band, its layer farthest from the border replaces them. */
@@ -6371,7 +6484,7 @@ static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
     state = f->path[length - 1];
     v = state / 2;
     if (state % 2 == 1) {
-      if (f->terminal[v] == 2 && f->after[v] != SLI_FLOW_END) {
+      if (f->terminal[v] == 2) { /* no path ends here yet: its entrance would lead back */
         break;
       }
       next_state = sli_flow_next_state(f, v, round);
@@ -6490,10 +6603,9 @@ static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
   for (head = 0; head < tail; head++) {
     v = f->path[head] / 2;
     if (f->path[head] % 2 == 0) {
-      next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1
-             : f->before[v] >= 0           ? 2 * f->before[v] + 1
-                             : -1;
-      if (next_state != -1 && f->seen[next_state] != mark) {
+      /* not an entrance where a path begins: all of those are marked */
+      next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1 : 2 * f->before[v] + 1;
+      if (f->seen[next_state] != mark) {
         f->seen[next_state] = mark;
         f->path[tail++] = next_state;
       }
@@ -6595,7 +6707,7 @@ typedef struct sli_mindeg {
 /* The number of bits set: one instruction where the function that inlines this is compiled for it,
  * see sli_mindeg_run_popcnt. */
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
-#if defined(__GNUC__)
+#if defined(SLI_GNU)
   return (uint32_t)__builtin_popcountll(w);
 #else
   w -= w >> 1 & 0x5555555555555555u;
@@ -6606,7 +6718,7 @@ SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
 }
 
 SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
-#if defined(__GNUC__)
+#if defined(SLI_GNU)
   return (sl_int)__builtin_ctzll(w);
 #else
   return (sl_int)sli_popcount((w & (0 - w)) - 1);
@@ -6701,7 +6813,7 @@ static void sli_mindeg_run(sli_mindeg *m, sl_int *order) {
   sli_mindeg_run_body(m, order);
 }
 
-#if defined(SLI_X86)
+#if defined(SLI_X86) && defined(SLI_GNU)
 SLI_TARGET("popcnt") static void sli_mindeg_run_popcnt(sli_mindeg *m, sl_int *order) {
   sli_mindeg_run_body(m, order);
 }
@@ -6757,7 +6869,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   if (!sli_mindeg_fill(m, g, vertices, count, local)) {
     return;
   }
-#if defined(SLI_X86)
+#if defined(SLI_X86) && defined(SLI_GNU)
   if (m->has_popcnt) {
     sli_mindeg_run_popcnt(m, order);
   } else
@@ -7560,24 +7672,17 @@ static int sli_metis_options_are_valid(const sl_int *options) {
   return 1;
 }
 
-/* Builds the component's graph in METIS's format: numbered by component, each edge once. */
+/* Builds the component's graph in METIS's format, numbered by component. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
-              const sl_int *local, idx_t *xadj, idx_t *adjncy, idx_t *mark) {
+              const sl_int *local, idx_t *xadj, idx_t *adjncy) {
   sl_int k;
   idx_t edges = 0;
-  for (k = 0; k < count; k++) {
-    mark[k] = -1;
-  }
   for (k = 0; k < count; k++) {
     const sl_int v = vertices[k];
     sl_off e;
     xadj[k] = edges;
     for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-      const sl_int u = local[G->to[e]];
-      if (mark[u] != k) {
-        mark[u] = k;
-        adjncy[edges++] = u;
-      }
+      adjncy[edges++] = local[G->to[e]];
     }
   }
   xadj[count] = edges;
@@ -7611,7 +7716,7 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
   if (status != SL_OK) {
     return status;
   }
-  sli_metis_graph(G, vertices, count, local, xadj, adjncy, iperm);
+  sli_metis_graph(G, vertices, count, local, xadj, adjncy);
   METIS_SetDefaultOptions(options);
   for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
     options[k] = metis_options[k];
@@ -7634,7 +7739,7 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
 }
 
 /* Finds nested separators of a graph. n_leaves: of the separator tree, a power of two. order := the
- * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 sizes: those of
+ * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 weights: those of
  * the leaf subgraphs, then those of the separators level by level, the root's last. */
 static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_int *order,
                     sl_int *sizes, const sl_allocator *a) {
@@ -7661,6 +7766,7 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
   if (status != SL_OK) {
     return status;
   }
+  memset(size, 0, 2 * (size_t)n_leaves * sizeof(idx_t)); /* METIS skips empty subgraphs */
   for (k = 0; k <= g->n; k++) {
     xadj[k] = (idx_t)g->begin[k];
   }
@@ -7745,7 +7851,7 @@ static void sli_metis_refined_dissolve(sli_dissection *d, sl_int node, sl_int *v
 /* Finds labels by METIS. */
 static sl_status sli_dissect_metis(sli_dissection *d) {
   const sli_level *g = &d->levels[0];
-  sl_int n_leaves = 1, v, node, k, at = 0, *sizes = d->begin, *size = d->nodes;
+  sl_int n_leaves = 1, v, node, k, *sizes = d->begin, *size = d->nodes;
   sl_status status;
   while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8) {
     n_leaves *= 2;
@@ -7757,18 +7863,20 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
   }
   sli_dissect_start(d);
   sli_metis_refined_tree(d, n_leaves);
-  /* METIS lists the sizes of the leaves, then those of the separators of each level, the root's
+  /* METIS lists the weights of the leaves, then those of the separators of each level, the root's
    * last. */
   for (k = n_leaves, v = 0; k > 0; v += k, k /= 2) {
     for (node = 0; node < k; node++) {
       size[k - 1 + node] = sizes[v + node];
     }
   }
-  for (node = sli_label_tree_first(&d->tree); node != -1;
-     node = sli_label_tree_next(&d->tree, node)) {
-    for (k = 0; k < size[node]; k++) {
-      d->label[d->order[at++]] = node;
+  node = sli_label_tree_first(&d->tree);
+  for (k = 0; k < g->n; k++) {
+    while (size[node] <= 0 && node != d->tree.root) { /* all of its vertices have their label */
+      node = sli_label_tree_next(&d->tree, node);
     }
+    d->label[d->order[k]] = node;
+    size[node] -= sli_level_weight(g, d->order[k]);
   }
   memset(d->tree.weight, 0, (size_t)d->tree.count * sizeof(sl_int));
   sli_label_tree_number(&d->tree, g->n, d->label);
@@ -9500,7 +9608,7 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
 /* Finds the tasks: largest subtrees of at most `limit` flops, in ascending order of flops. */
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
                double limit) {
-  const double scale = limit > 0.0 ? 1e9 / limit : 0.0;
+  const double scale = 1e9 / limit; /* a front has at least one flop */
   sl_int s;
   p->n_tasks = p->n_tops = 0;
   for (s = 0; s < f->count; s++) {
@@ -18105,6 +18213,11 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
 #undef SLI_METIS
+#undef SLI_GNU
+#undef SLI_WINDOWS
+#undef SLI_FNMA1
+#undef SLI_PIN
+#undef SLI_PIN_ANY
 #undef SLI_X86
 #undef SLI_ARM
 #undef SLI_AVX512
@@ -19427,7 +19540,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
         SLV_NAME(block)
         (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
       }
-      SLV_NAME(merge)(row + tile_size * (ptrdiff_t)c, x, rows, 0, columns);
+      /* after the last row of a root the lanes are 0, for the groups before this one */
+      SLV_NAME(merge)
+      (row + tile_size * (ptrdiff_t)c, x, f->below == 0 ? SLI_TILE : rows, 0, columns);
       if (c < t) {
         SLV_NAME(mirror)
         (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
