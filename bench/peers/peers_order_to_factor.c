@@ -6,8 +6,8 @@
 /* Each library runs as a whole on the caller's matrix, with its own ordering, and releases what
  * it allocated: this library with its defaults, and for the purpose of one factor; CHOLMOD set to
  * METIS; CHOLMOD with nothing set, which tries AMD and perhaps METIS and chooses between a
- * supernodal and a simplicial factor; Eigen with AMD, its default. The last factors of CHOLMOD's and Eigen's defaults are kept:
- * later steps refactor them and solve with them. */
+ * supernodal and a simplicial factor; Eigen with AMD, its default. The last factors of CHOLMOD's
+ * and Eigen's defaults are kept: later steps refactor them and solve with them. */
 
 /* A simplicial factorization with more operations than max_flops_repeated is timed once; with more
  * than max_flops_amd, which is some seconds, not at all. */
