@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e6f0e0727b662906
+ * FNV-1a of the lines after this comment, without the license: 0b41764cf1c69f5b
  *
  * Contents
  * (what a user reads)
@@ -56,9 +56,9 @@
  * (last: undefine every internal macro)
  *  18214 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  18330 multi_rhs.inl.h  18704 kernel_set.inl.h  18708 unit_triangle.inl.h  18749 two_rhs.inl.h
- *  18921 product.inl.h  19062 front.inl.h  19289 inverse_front.inl.h  19594 small_supernode.inl.h
- *  19762 single_rhs.inl.h
+ *  18332 multi_rhs.inl.h  18706 kernel_set.inl.h  18710 unit_triangle.inl.h  18751 two_rhs.inl.h
+ *  18923 product.inl.h  19064 front.inl.h  19291 inverse_front.inl.h  19596 small_supernode.inl.h
+ *  19764 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10471,7 +10471,7 @@ struct sl_factor {
   double *squares; /* components: w' D^+ w of the tree of each anchor */
   double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
   /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
-   * and in 2x2 pivots, which are applied before it; NULL: D */
+   * and in 2x2 pivots, which are applied before it; read if is_centered or with pairs */
   double *divisors;
   double *center_scratch;
   double *buffer; /* kernel scratch, one piece a worker */
@@ -13820,7 +13820,7 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
     sli_pairs_apply(F, R, x, (sl_int)1 << kind);
   }
   F->kernels->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->L,
-                 F->divisors == NULL ? F->D : F->divisors, x, scratch);
+                 F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
 /* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
@@ -18260,6 +18260,8 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_CHUNK_COLUMNS
 #undef SLI_FRONT_RECIPROCALS
 #undef SLI_PIVOT_THRESHOLD
+#undef SLI_QUOTIENT_DENSE_ROW
+#undef SLI_ORDER_ND_FLOPS
 #undef SLI_GROWTH_LIMIT
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT

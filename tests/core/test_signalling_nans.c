@@ -58,7 +58,9 @@ static void solve_all(buffers_t *y, const sl_csc *A, const sl_symbolic *S, const
     for (sl_int nrhs = 1; nrhs <= MOST_RHS; nrhs++) {
         const size_t row = (size_t)nrhs;
         SL_CHECK(sl_factor_solve(F, signalling(y), n, y->B, n, nrhs, W));
-        SL_CHECK(sl_factor_refine(F, A, y->X, n, y->B, n, nrhs, 2, W, &stats));
+        /* singular systems are inconsistent here, and some are changed by regularization */
+        const sl_status refined = sl_factor_refine(F, A, y->X, n, y->B, n, nrhs, 2, W, &stats);
+        assert_true(refined == SL_OK || refined == SL_ERR_INACCURATE);
         SL_CHECK(sl_factor_solve_interleaved(F, signalling(y), row, y->B, row, nrhs, W));
         SL_CHECK(sl_plan_solve(P, F, signalling(y), n, y->B, n, nrhs, W));
         SL_CHECK(sl_plan_solve_interleaved(P, F, signalling(y), row, y->B, row, nrhs, W));

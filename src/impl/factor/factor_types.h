@@ -85,7 +85,7 @@ struct sl_factor {
     double *squares; /* components: w' D^+ w of the tree of each anchor */
     double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
     /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
-     * and in 2x2 pivots, which are applied before it; NULL: D */
+     * and in 2x2 pivots, which are applied before it; read if is_centered or with pairs */
     double *divisors;
     double *center_scratch;
     double *buffer; /* kernel scratch, one piece a worker */

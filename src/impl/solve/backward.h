@@ -35,7 +35,7 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
         sli_pairs_apply(F, R, x, (sl_int)1 << kind);
     }
     F->kernels->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->L,
-                               F->divisors == NULL ? F->D : F->divisors, x, scratch);
+                               F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
 #endif
