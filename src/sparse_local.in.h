@@ -21,6 +21,7 @@ extern "C" {
 #include "public/several.h"
 #include "public/selected.h"
 #include "public/region.h"
+#include "public/save.h"
 #ifdef __cplusplus
 }
 #endif
@@ -36,6 +37,7 @@ extern "C" {
 #include "impl/base/options.h"
 #include "impl/base/alloc.h"
 #include "impl/base/hash.h"
+#include "impl/base/file_map.h"
 #include "impl/base/sort.h"
 #include "impl/base/parallel.h"
 /* kernels: numerical kernels on raw arrays, once for each instruction set */
@@ -131,6 +133,12 @@ extern "C" {
 #include "impl/inverse/selected_query.h"
 #include "impl/inverse/region_choose.h"
 #include "impl/inverse/region.h"
+/* save: factors in files */
+#include "impl/save/format.h"
+#include "impl/save/decode.h"
+#include "impl/save/check.h"
+#include "impl/save/write.h"
+#include "impl/save/load.h"
 /* batch: many solves, factors and diagonals by one call */
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"

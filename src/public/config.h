@@ -18,6 +18,8 @@
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
+ *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
+ *                                map files.
  *  SL_API                        linkage of the public functions, for a shared library: for example
  *                                __declspec(dllexport), or __attribute__((visibility("default"))).
  *  SL_HEADER                     name of this header, default "sparse_local.h". The implementation

@@ -106,8 +106,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
- *  Returns, Cost    as sl_factor_create, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
- *                   SL_ERR_UNSUPPORTED.
+ *  Returns, Cost    as sl_factor_create, but never SL_ERR_UNSUPPORTED; SL_ERR_STATE: a mapped factor
+ *                   (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
+ *                   refactorization of a loaded factor (sl_load_file), which allocates its fronts.
  *  Threads          exclusive use of F.
  *  Example          tests/core/test_factor.c
  */
@@ -129,7 +130,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
  *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
- *           F has no numbers.
+ *           F has no numbers, or is mapped.
  *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
  *           bytes per entry of the columns, 4 per row of A, of which only those reached are
  *           touched, and 4 per row of the largest front. With null pivots, one complete

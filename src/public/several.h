@@ -142,8 +142,9 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *                      own use these, one after the other.
  *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_STATE: factors
- *           of several analyses. After these two no factor has changed. Else the status of the
- *           first factor that failed.
+ *           of several analyses, or a mapped one; SL_ERR_MEMORY and SL_ERR_TOO_LARGE: only with
+ *           the first refactorization of a loaded factor. After these no factor has changed. Else
+ *           the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
  *  Example  tests/core/test_batch_factor.c
  */

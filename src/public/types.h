@@ -29,7 +29,8 @@ typedef enum sl_status {
     SL_ERR_IO,
     /* METIS failed */
     SL_ERR_ORDERING,
-    /* a failed factor, or objects that do not belong together */
+    /* a failed factor, a mapped one that would have to change, or objects that do not belong
+     * together */
     SL_ERR_STATE,
     /* a singular system whose right-hand side has no solution */
     SL_ERR_INCONSISTENT,

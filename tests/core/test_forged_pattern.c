@@ -19,8 +19,8 @@ static void forge(const sl_csc *A, sl_int *i) {
     h.b = (uint64_t)A->n_cols;
     h = sli_hash_ints(h, A->p, (sl_off)A->n_cols + 1);
     uint64_t chain[4] = {h.a ^ second, 0, 0, 0};
-    (void)sli_hash_stripe(chain, (const unsigned char *)A->i, 0);
-    (void)sli_hash_stripe(chain, (const unsigned char *)A->i + STRIPE, 0);
+    (void)sli_hash_stripe(chain, (const unsigned char *)A->i, SLI_HASH_INTS, 0);
+    (void)sli_hash_stripe(chain, (const unsigned char *)A->i + STRIPE, SLI_HASH_INTS, 0);
     memcpy(i, A->i, NNZ * sizeof *i);
     memcpy(i, &blind, sizeof blind);
     i[2] = 100000000; /* far out of range, and without influence on the hash */

@@ -19,7 +19,7 @@ static const option_t options[] = {
     {"block_size", READS_ANALYSIS},
     {"purpose", READS_ANALYSIS},
     {"triangle", READS_TRIANGLE},
-    {"isa", READS_FACTOR},
+    {"isa", READS_ISA},
     {"method", READS_FACTOR},
     {"null_pivots", READS_FACTOR},
     {"null_tolerance", READS_FACTOR},

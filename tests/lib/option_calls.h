@@ -11,7 +11,8 @@ enum {
     READS_ANALYSIS = 2,
     READS_FACTOR = 4,
     READS_REGION = 8,
-    READS_REGION_BYTES = 16
+    READS_REGION_BYTES = 16,
+    READS_ISA = 32
 };
 
 /* Objects that the calls need, made with default options. */
@@ -98,6 +99,21 @@ static inline sl_status option_read(option_fixture_t *f, const sl_options *opt) 
     return status == SL_ERR_IO ? SL_OK : status;
 }
 
+/* The bytes are no saved factor: SL_ERR_UNSUPPORTED if the options are accepted. */
+static inline sl_status option_load(option_fixture_t *f, const sl_options *opt) {
+    static const char nothing[64];
+    sl_symbolic *S = OPTION_GARBAGE(sl_symbolic);
+    sl_factor *F = OPTION_GARBAGE(sl_factor);
+    const sl_status status = sl_load_memory(&S, &F, nothing, 64, SL_LOAD_CHECKED, opt);
+    assert_null(S);
+    assert_null(F);
+    return status == SL_ERR_UNSUPPORTED ? SL_OK : status;
+}
+
+static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) {
+    return sl_save_file("/dev/null", f->pair.S, f->F, opt);
+}
+
 static inline sl_status option_triangle(option_fixture_t *f, const sl_options *opt) {
     sl_triangle triangle = SL_TRIANGLE_BOTH;
     const sl_status status = sl_csc_triangle(&f->U, &triangle, opt, NULL);
@@ -161,14 +177,16 @@ static const struct {
     {"sl_matrix_sum", option_sum, READS_TRIANGLE},
     {"sl_symbolic_create", option_symbolic, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_symbolic_create_pivoted", option_pivoted, READS_ANALYSIS | READS_TRIANGLE},
-    {"sl_factor_create", option_factor, READS_FACTOR},
-    {"sl_factor_create_combination", option_combination, READS_FACTOR},
+    {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
+    {"sl_factor_create_combination", option_combination, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
     {"sl_work_create", option_work, READS_NOTHING},
     {"sl_plan_create", option_plan, READS_REGION},
     {"sl_selected_create", option_selected, READS_NOTHING},
     {"sl_region_create", option_region, READS_REGION_BYTES},
-    {"sl_batch_factor", option_batch_factor, READS_FACTOR},
+    {"sl_batch_factor", option_batch_factor, READS_FACTOR | READS_ISA},
+    {"sl_load_memory", option_load, READS_ISA},
+    {"sl_save_file", option_save, READS_NOTHING},
     {"sl_batch_solve", option_batch_solve, READS_NOTHING},
     {"sl_batch_solve_interleaved", option_batch_interleaved, READS_NOTHING},
     {"sl_batch_refactor", option_batch_refactor, READS_NOTHING},

@@ -48,7 +48,8 @@ gives 0 'usage: sparse-local COMMAND' --help
 gives 0 'generated surface' help
 gives 2 'usage: sparse-local COMMAND'
 gives 2 'unknown command frobnicate' frobnicate
-commands=$("$program" --help | sed -n 's/^  \([a-z]*\) .*/\1/p')
+# all commands but query, which takes no mesh
+commands=$("$program" --help | sed -n '/^  query /d; s/^  \([a-z]*\) .*/\1/p')
 for command in $commands; do
     gives 0 "usage: sparse-local $command " "$command" --help
     awk 'length > 100 { exit 1 }' "$dir/out"
@@ -106,6 +107,34 @@ gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
 "$program" hks sphere:2 --times 3 --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" &&
     cmp -s "$dir/h1.csv" "$dir/h2.csv"
 record $? "hks gives the same numbers with one thread and with two"
+
+# Saved factors.
+
+gives 0 'f.slf: [0-9.]* MB, 162 rows' save sphere:2 --out "$dir/f.slf"
+gives 0 'positive, 0 negative, 0 null, 0 regularized' info "$dir/f.slf"
+printf '# heat from 5\n\n5;1;12,5\r\n5,12;1,0;12,5\n0-2;1,2,3;all' >"$dir/questions"
+for checks in --flush --trusted --verify; do
+    "$program" query "$dir/f.slf" $checks <"$dir/questions" >"$dir/out" 2>"$dir/err" &&
+        [ "$(wc -l <"$dir/out")" -eq 3 ] && [ "$(awk -F, 'NR == 3 { print NF }' "$dir/out")" -eq 162 ]
+    record $? "query $checks answers each question in a line"
+done
+[ "$(sed -n 1p "$dir/out")" = "$(sed -n 2p "$dir/out")" ] && [ -s "$dir/out" ]
+record $? "query: rows of b with the value 0 change nothing"
+for question in '5;1' '5;1;2;3' '5;1,2;3' '5;;3' '5;x;3' '5;nan;3' '5;1,;3'; do
+    echo "$question" >"$dir/questions"
+    "$program" query "$dir/f.slf" <"$dir/questions" >"$dir/out" 2>"$dir/err"
+    [ $? -eq 1 ] && grep -q 'line 1' "$dir/err"
+    record $? "query refuses $question"
+done
+gives 2 'exclude each other' query "$dir/f.slf" --trusted --verify
+gives 2 'needs FILE.slf' query
+gives 0 'usage: sparse-local query ' query --help
+gives 2 'out FILE is missing' save sphere:1
+gives 1 'cannot be read, parsed or written' save sphere:1 --out "$dir/no/f.slf"
+gives 1 'cannot be read, parsed or written' query "$dir/none.slf"
+head -c 5000 "$dir/f.slf" >"$dir/cut.slf"
+gives 1 'cannot be read, parsed or written' query "$dir/cut.slf"
+gives 1 'not supported' query "$program"
 
 # Meshes that are not surfaces, and degenerate ones, are handled without a crash.
 

@@ -199,7 +199,7 @@ function identifier(text) {
 
 function check_name(name) {
     if (name != "" && name !~ /^(sl|sli)_/ && name !~ /^(SL|SLI|SLV|SLW)_/ && \
-        name != "SPARSE_LOCAL_IMPLEMENTED")
+        name != "SPARSE_LOCAL_IMPLEMENTED" && name !~ /^(WIN32_LEAN_AND_MEAN|NOMINMAX)$/)
         violation("`" name "` at file scope has no prefix", \
                   "name it sli_" name " (macros: SLI_, SLV_, SLW_)")
 }

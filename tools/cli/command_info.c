@@ -1,5 +1,6 @@
 /* command_info.c: statistics of a mesh and the cost of factoring its Laplacian */
 #include <stdlib.h>
+#include <string.h>
 
 #include "app.h"
 #include "command.h"
@@ -7,16 +8,19 @@
 #include "tools/mesh/mesh_stats.h"
 
 static const options_usage usage = {
-    "info", "MESH", 1, 1, "Prints statistics of a mesh and the cost of factoring its Laplacian."};
+    "info", "MESH", 1, 1,
+    "Prints statistics of a mesh and the cost of factoring its Laplacian, or of a saved factor."};
 
 static const options_manual manual = {
     "Counts components, boundaries and defects of the mesh. Then analyzes and factors M + t L, the "
-    "lumped mass plus t times the cotangent Laplacian.",
+    "lumped mass plus t times the cotangent Laplacian. MESH may also be a file of sparse-local "
+    "save, "
+    "whose name ends in .slf.",
     "Counts and measures of the mesh; entries of L, height of the elimination tree and entries of "
     "L "
     "on the path from a column to its root; seconds and megabytes of each phase; range of the "
     "pivots.",
-    "star:6\nbunny.obj --mesh-only"};
+    "star:6\nbunny.obj --mesh-only\nbunny.slf"};
 
 static void print_mesh(const mesh *m, const mesh_stats *f) {
     printf("vertices             %12d   used by a face %d\n", (int)m->n_vertices,
@@ -63,24 +67,55 @@ static void print_paths(const sl_symbolic *S) {
     free(weight);
 }
 
-static void print_costs(const heat_system *h, double seconds_read, double seconds_solve) {
-    const sl_stats *s = &h->stats;
-    printf("M + t L              %12d   rows, %lld entries of the lower triangle, t = %.6g\n",
-           (int)s->symbolic.n, (long long)s->symbolic.nnz_a, h->t);
+static void print_analysis(const sl_symbolic *S, const sl_stats *s) {
     printf("nnz(L)               %12lld   %.2f times as many; %lld stored in %d supernodes\n",
            (long long)s->symbolic.nnz_l,
            (double)s->symbolic.nnz_l / (double)(s->symbolic.nnz_a > 0 ? s->symbolic.nnz_a : 1),
            (long long)s->symbolic.nnz_panels, (int)s->symbolic.supernodes);
     printf("elimination tree     %12d   height in columns; roots %d\n",
            (int)s->symbolic.tree_height, (int)s->symbolic.components);
-    print_paths(h->S);
+    print_paths(S);
+}
+
+static void print_factor(const sl_stats *s) {
+    printf("megabytes            analysis %.2f, factor %.2f\n", 1e-6 * (double)s->symbolic.bytes,
+           1e-6 * (double)s->factor.bytes);
+    printf("pivots               from %.4g to %.4g\n", s->factor.pivot_min, s->factor.pivot_max);
+}
+
+static void print_costs(const heat_system *h, double seconds_read, double seconds_solve) {
+    const sl_stats *s = &h->stats;
+    printf("M + t L              %12d   rows, %lld entries of the lower triangle, t = %.6g\n",
+           (int)s->symbolic.n, (long long)s->symbolic.nnz_a, h->t);
+    print_analysis(h->S, s);
     printf("seconds              read %.4g, assemble %.4g, order %.4g, analyze %.4g, factor %.4g, "
            "full solve %.4g\n",
            seconds_read, h->seconds_assemble, s->symbolic.seconds_order,
            s->symbolic.seconds_analyze, s->factor.seconds_setup + s->factor.seconds, seconds_solve);
-    printf("megabytes            analysis %.2f, factor %.2f\n", 1e-6 * (double)s->symbolic.bytes,
-           1e-6 * (double)s->factor.bytes);
-    printf("pivots               from %.4g to %.4g\n", s->factor.pivot_min, s->factor.pivot_max);
+    print_factor(s);
+}
+
+/* A file of sparse-local save, completely verified. */
+static void print_saved(const char *path) {
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats s;
+    memset(&s, 0, sizeof s);
+    app_must(sl_load_file(&S, &F, path, SL_LOAD_VERIFIED, NULL), path, NULL);
+    sl_symbolic_stats(S, &s);
+    printf("%s\n", path);
+    printf("matrix               %12d   rows, %lld entries of the lower triangle\n",
+           (int)s.symbolic.n, (long long)s.symbolic.nnz_a);
+    print_analysis(S, &s);
+    if (F != NULL) {
+        sl_factor_stats(F, &s);
+        print_factor(&s);
+        printf("signs of the pivots  %12d   positive, %d negative, %d null, %d regularized\n",
+               (int)s.factor.positive, (int)s.factor.negative, (int)s.factor.null,
+               (int)s.factor.regularized);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
 }
 
 static double time_solve(const heat_system *h) {
@@ -110,6 +145,11 @@ int command_info(int argc, char **argv) {
         {OPTION_FLAG, "mesh-only", &mesh_only, NULL, "print the mesh statistics only"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
+    const size_t length = strlen(operand);
+    if (length > 4 && strcmp(operand + length - 4, ".slf") == 0) {
+        print_saved(operand);
+        return 0;
+    }
     mesh m;
     mesh_stats found;
     double begin = app_now();

@@ -23,6 +23,8 @@ static const command commands[] = {
     {"arap", "planar layout of a patch, as rigid as possible", command_arap},
     {"scp", "planar layout of a patch, spectral conformal", command_scp},
     {"geodesic", "distances on the surface by the heat method, Voronoi cells", command_geodesic},
+    {"save", "factors the Laplacian of a mesh and saves the factor in a file", command_save},
+    {"query", "answers local solves with a saved factor, from standard input", command_query},
 };
 
 enum { N_COMMANDS = sizeof commands / sizeof *commands };

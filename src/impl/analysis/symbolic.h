@@ -58,9 +58,9 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
 }
 
+/* All arrays. A saved analysis has them in this order (save/format.h). */
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-    (void)sli_take(b, 1, sizeof(sl_symbolic));
     S->perm = SLI_TAKE(b, sl_int, n);
     S->iperm = SLI_TAKE(b, sl_int, n);
     S->parent = SLI_TAKE(b, sl_int, n);
@@ -272,6 +272,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
         rows += w->amalgamation.below[s];
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(&draft, &b, rows, stats->symbolic.nnz_a);
         stats->symbolic.bytes = b.used;
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
@@ -350,6 +351,7 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
 SL_API void sl_symbolic_free(sl_symbolic *S) {
     if (S != NULL) {
         const sl_allocator a = S->allocator;
+        sli_unmap(&S->mapping);
         sli_free(&a, S);
     }
 }

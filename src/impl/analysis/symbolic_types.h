@@ -4,6 +4,7 @@
 
 #include "../../public/analyze.h"
 #include "../base/alloc.h"
+#include "../base/file_map.h"
 #include "../base/hash.h"
 #include "../kernels/pairs.h"
 #include "../kernels/step.h"
@@ -48,6 +49,8 @@ struct sl_symbolic {
     sl_int n_nodes;                   /* nodes of the separator tree; 0: the ordering has none */
     sl_int *node_of;                  /* n: the node of each column */
     sl_int *node_parent, *node_level; /* n_nodes */
+    sli_mapping mapping;              /* the mapped file that holds the arrays; empty: none */
+    int is_partial;                   /* made from a file that has more than this library reads */
 };
 
 #endif

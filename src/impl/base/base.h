@@ -58,28 +58,72 @@
 #endif
 #endif
 
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#define SLI_BIG_ENDIAN 1
+#endif
+
 /* Functions of Linux under names of this library, because -std=c99 hides their declarations. */
 #if defined(__linux__) && defined(__GNUC__)
 #define SLI_HUGE_PAGES 14
 extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise");
+#define SLI_FSYNC 1
 extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("readlink");
+extern int sli_fsync(int file) __asm__("fsync");
+extern int sli_fileno(FILE *file) __asm__("fileno");
+extern FILE *sli_fdopen(int file, const char *mode) __asm__("fdopen");
+extern int sli_linkat(int from_folder, const char *from, int to_folder, const char *to,
+                      int flags) __asm__("linkat");
 #endif
 
 /* POSIX systems: what a path is and who may read it. */
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
+#if !defined(SL_NO_MMAP)
+#define SLI_MMAP 1
+#include <sys/mman.h>
+#endif
 #endif
 
 /* Functions of Windows, as <windows.h> declares them; that header defines too many macros. */
 #if defined(_WIN32)
 #define SLI_WINDOWS 1
+#include <io.h>
 #if defined(__cplusplus)
 extern "C" {
 #endif
 __declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
                                                 unsigned long flags);
 __declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
+#if !defined(SL_NO_MMAP)
+#define SLI_MAP_VIEW 1
+#if defined(_WIN64)
+typedef unsigned long long sli_windows_size;
+#else
+typedef unsigned long sli_windows_size;
+#endif
+struct _SECURITY_ATTRIBUTES;
+union _LARGE_INTEGER;
+__declspec(dllimport) void *__stdcall CreateFileA(const char *path, unsigned long access,
+                                                  unsigned long share,
+                                                  struct _SECURITY_ATTRIBUTES *security,
+                                                  unsigned long disposition, unsigned long flags,
+                                                  void *model);
+__declspec(dllimport) int __stdcall GetFileSizeEx(void *file, union _LARGE_INTEGER *size);
+__declspec(dllimport) void *__stdcall CreateFileMappingA(void *file,
+                                                         struct _SECURITY_ATTRIBUTES *security,
+                                                         unsigned long protection,
+                                                         unsigned long size_high,
+                                                         unsigned long size_low, const char *name);
+__declspec(dllimport) void *__stdcall MapViewOfFile(void *section, unsigned long access,
+                                                    unsigned long offset_high,
+                                                    unsigned long offset_low,
+                                                    sli_windows_size bytes);
+__declspec(dllimport) int __stdcall UnmapViewOfFile(const void *bytes);
+__declspec(dllimport) int __stdcall CloseHandle(void *handle);
+#endif
 #if defined(__cplusplus)
 }
 #endif
@@ -166,6 +210,16 @@ SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
 SLI_INLINE int sli_is_finite(double a) {
     return a - a == 0.0;
 }
+
+#if defined(__APPLE__)
+#define SLI_FSYNC 1
+SLI_INLINE int sli_fsync(int file) {
+    return fsync(file);
+}
+SLI_INLINE int sli_fileno(FILE *file) {
+    return fileno(file);
+}
+#endif
 
 #if defined(SLI_POSIX) || defined(SLI_WINDOWS)
 /* Whether path is a symbolic link. Not noticed where the headers hide lstat. */

@@ -36,59 +36,98 @@ SLI_INLINE uint64_t sli_fold(uint64_t x, uint64_t y) {
 #endif
 }
 
-SLI_INLINE uint64_t sli_word(const void *bytes) {
+/* What an array consists of. Its hash does not depend on the byte order of the processor: words are
+ * read as a little-endian processor reads them. */
+typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_REALS, SLI_HASH_BYTES } sli_hashed;
+
+SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
     uint64_t word;
     memcpy(&word, bytes, sizeof word);
+#if defined(SLI_BIG_ENDIAN)
+    word = kind == SLI_HASH_REALS  ? word
+           : kind == SLI_HASH_INTS ? word << 32 | word >> 32
+                                   : __builtin_bswap64(word);
+#else
+    (void)kind;
+#endif
     return word;
 }
 
 /* Hashes one stripe. A 31-bit half of a word that reaches 2^31 - `room`, and one with its highest
  * bit set, sets bit 31 or 63 of the result. */
 SLI_ALWAYS_INLINE uint64_t sli_hash_stripe(uint64_t *chain, const unsigned char *bytes,
-                                           uint64_t room) {
+                                           sli_hashed kind, uint64_t room) {
     uint64_t beyond = 0;
     int c;
     SLI_UNROLL
     for (c = 0; c < 4; c++) {
-        const uint64_t x = sli_word(bytes + 16 * c), y = sli_word(bytes + 16 * c + 8);
+        const uint64_t x = sli_word(bytes + 16 * c, kind), y = sli_word(bytes + 16 * c + 8, kind);
         chain[c] = sli_fold(x ^ SLI_HASH_1, y ^ chain[c]);
         beyond |= (x + room) | x | (y + room) | y;
     }
     return beyond;
 }
 
-/* Mixes an array into h. The chains are independent, because the multiplications of one chain wait
- * for each other: 12 bytes a cycle. */
-SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t bytes,
-                                            uint64_t room, uint64_t *beyond) {
-    uint64_t chain[4], found = 0;
-    const unsigned char *at = (const unsigned char *)data;
-    size_t left = bytes;
+/* The chains of an array that is mixed into h. They are independent, because the multiplications of
+ * one chain wait for each other: 12 bytes a cycle. */
+SLI_INLINE void sli_hash_begin(sli_hash h, uint64_t *chain) {
     chain[0] = h.a ^ SLI_HASH_2;
     chain[1] = h.b ^ SLI_HASH_3;
     chain[2] = h.a + SLI_HASH_4;
     chain[3] = h.b + SLI_HASH_1;
-    for (; left >= SLI_HASH_STRIPE; left -= SLI_HASH_STRIPE, at += SLI_HASH_STRIPE) {
-        found |= sli_hash_stripe(chain, at, room);
-    }
-    if (left > 0) {
-        unsigned char last[SLI_HASH_STRIPE] = {0};
-        memcpy(last, at, left);
-        found |= sli_hash_stripe(chain, last, room);
-    }
+}
+
+SLI_INLINE sli_hash sli_hash_end(const uint64_t *chain, uint64_t bytes) {
+    sli_hash h;
     h.a = sli_fold(chain[0] ^ bytes, chain[1] ^ SLI_HASH_2) ^
           sli_fold(chain[2] ^ SLI_HASH_3, chain[3] ^ SLI_HASH_4);
     h.b = sli_fold(chain[0] ^ SLI_HASH_4, chain[2] ^ SLI_HASH_1) +
           sli_fold(chain[1] ^ SLI_HASH_3, chain[3] ^ SLI_HASH_2);
-    *beyond = found;
     return h;
+}
+
+/* Hashes bytes in stripes; the last one is filled up with zeros. */
+SLI_ALWAYS_INLINE uint64_t sli_hash_stripes(uint64_t *chain, const void *data, size_t bytes,
+                                            sli_hashed kind, uint64_t room) {
+    uint64_t found = 0;
+    const unsigned char *at = (const unsigned char *)data;
+    size_t left = bytes;
+    for (; left >= SLI_HASH_STRIPE; left -= SLI_HASH_STRIPE, at += SLI_HASH_STRIPE) {
+        found |= sli_hash_stripe(chain, at, kind, room);
+    }
+    if (left > 0) {
+        unsigned char last[SLI_HASH_STRIPE] = {0};
+        memcpy(last, at, left);
+        found |= sli_hash_stripe(chain, last, kind, room);
+    }
+    return found;
+}
+
+/* Mixes an array into h. */
+SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t bytes,
+                                            sli_hashed kind, uint64_t room, uint64_t *beyond) {
+    uint64_t chain[4];
+    sli_hash_begin(h, chain);
+    *beyond = sli_hash_stripes(chain, data, bytes, kind, room);
+    return sli_hash_end(chain, bytes);
 }
 
 static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
     uint64_t unused;
-    return sli_hash_checked(h, data, bytes, 0, &unused);
+    return sli_hash_checked(h, data, bytes, SLI_HASH_BYTES, 0, &unused);
 }
 
+#if defined(SLI_BIG_ENDIAN)
+static sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
+    uint64_t unused;
+    return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, 0, &unused);
+}
+
+static sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
+    uint64_t unused;
+    return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_REALS, 0, &unused);
+}
+#else
 SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
     return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
@@ -96,12 +135,14 @@ SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
 SLI_INLINE sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
     return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
+#endif
 
 /* Mixes indices into *h; returns whether all of them are in 0..n-1. */
 static int sli_hash_indices(sli_hash *h, const sl_int *a, sl_int count, sl_int n) {
     const uint64_t room = ((uint64_t)1 << 31) - (uint64_t)n;
     uint64_t beyond;
-    *h = sli_hash_checked(*h, a, (size_t)count * sizeof *a, room << 32 | room, &beyond);
+    *h = sli_hash_checked(*h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, room << 32 | room,
+                          &beyond);
     return count == 0 || (beyond & 0x8000000080000000u) == 0;
 }
 

@@ -12,7 +12,8 @@ enum {
     SLI_READS_ANALYSIS = 2, /* the ordering and the options that orderings read */
     SLI_READS_FACTOR = 4,
     SLI_READS_REGION = 8,
-    SLI_READS_REGION_BYTES = 16
+    SLI_READS_REGION_BYTES = 16,
+    SLI_READS_ISA = 32
 };
 
 SL_API void sl_options_init(sl_options *opt, size_t size) {
@@ -28,13 +29,14 @@ static int sli_options_set(const sl_options *opt) {
     const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
                          opt->metis_options != NULL || opt->coordinates != NULL ||
                          opt->dimensions != 0 || opt->block_size != 0 || opt->purpose != 0;
-    const int factor = opt->isa != 0 || opt->method != 0 || opt->null_pivots != 0 ||
-                       opt->null_tolerance != 0.0 || opt->mass != NULL ||
-                       opt->consistency_tolerance != 0.0 || opt->regularization != 0.0 ||
-                       opt->signs != NULL || opt->null_vector != NULL ||
-                       opt->growth_limit != 0.0 || opt->error_limit != 0.0;
-    return (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) | (analysis ? SLI_READS_ANALYSIS : 0) |
-           (factor ? SLI_READS_FACTOR : 0) | (opt->region != NULL ? SLI_READS_REGION : 0) |
+    const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
+                       opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
+                       opt->regularization != 0.0 || opt->signs != NULL ||
+                       opt->null_vector != NULL || opt->growth_limit != 0.0 ||
+                       opt->error_limit != 0.0;
+    return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
+           (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
+           (opt->region != NULL ? SLI_READS_REGION : 0) |
            (opt->region_bytes != 0 ? SLI_READS_REGION_BYTES : 0);
 }
 #endif

@@ -159,12 +159,24 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
                 return SL_ERR_ARGUMENT;
             }
         }
-        if (!sli_factor_is_over(factors[k], factors[0]->S, factors[0]->analysis)) {
+        if (!sli_factor_is_over(factors[k], factors[0]->S, factors[0]->analysis) ||
+            factors[k]->is_immutable) {
             return SL_ERR_STATE;
         }
     }
     *at = -1;
     return SL_OK;
+}
+
+/* Gives loaded factors their scratch. *at: the one at fault; -1 for none. */
+static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int count, sl_int *at) {
+    sl_status status = SL_OK;
+    sl_int k;
+    for (k = 0; k < count && status == SL_OK; k++) {
+        status = sli_factor_prepare(factors[k]);
+        *at = status == SL_OK ? -1 : k;
+    }
+    return status;
 }
 
 SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
@@ -189,6 +201,7 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
     if (status == SL_OK && count > 0) {
         status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
     }
+    status = status == SL_OK ? sli_factor_batch_prepare(factors, count, &at) : status;
     if (status == SL_OK && count > 0) {
         f.factors = factors;
         f.count = count;

@@ -52,10 +52,11 @@ SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coef
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!sli_factor_is_over(F, F->S, F->analysis)) {
+    if (!sli_factor_may_change(F)) {
         return SL_ERR_STATE;
     }
     status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
+    status = status == SL_OK ? sli_factor_prepare(F) : status;
     if (status != SL_OK) {
         return status;
     }

@@ -174,7 +174,8 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+    status = sli_factor_may_change(F) ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+    status = status == SL_OK ? sli_factor_prepare(F) : status;
     if (status != SL_OK) {
         return status;
     }

@@ -9,17 +9,19 @@
 #include "growth.h"
 #include "nullspace.h"
 
-static void sli_factor_layout(sl_factor *F, sli_block *b) {
+/* What a factorization leaves and solves read, and the options that the next one needs. has_mass:
+ * there are weights. A saved factor has these arrays in this order (save/format.h). */
+static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     const sl_symbolic *S = F->S;
-    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-    const uint64_t workers = (uint64_t)F->schedule.workers;
-    (void)sli_take(b, 1, sizeof(sl_factor));
+    const size_t n = (size_t)S->n;
     F->D = SLI_TAKE(b, double, n);
     if (S->n_pairs > 0) {
         F->E = SLI_TAKE(b, double, n);
+    }
+    if (S->n_pairs > 0 || has_mass) {
         F->divisors = SLI_TAKE(b, double, n);
     }
-    F->extents = SLI_TAKE(b, sli_extent, supers);
+    F->extents = SLI_TAKE(b, sli_extent, S->n_supers);
     if (F->rule.regularization != 0.0) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.shifts = SLI_TAKE(b, double, n);
@@ -27,20 +29,30 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     }
     if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
         F->nulls = SLI_TAKE(b, sl_int, n);
-        F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.kinds = SLI_TAKE(b, signed char, n);
-        F->rows = SLI_TAKE(b, sli_null_row, n);
-        F->rounding = SLI_TAKE(b, double, n);
+        F->z = SLI_TAKE(b, double, n);
         F->g = SLI_TAKE(b, double, n);
-        F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
     }
-    if (F->is_centered) {
+    if (has_mass) {
         F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
         F->squares = SLI_TAKE(b, double, S->stats.symbolic.components);
         F->mass = SLI_TAKE(b, double, n);
         F->center = SLI_TAKE(b, double, n);
-        F->divisors = SLI_TAKE(b, double, n);
         F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+    }
+    F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+}
+
+/* The scratch of a factorization. */
+static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
+    const sl_symbolic *S = F->S;
+    const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+    const uint64_t workers = (uint64_t)F->schedule.workers;
+    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+        F->rule.signs = SLI_TAKE(b, signed char, n);
+        F->rows = SLI_TAKE(b, sli_null_row, n);
+        F->rounding = SLI_TAKE(b, double, n);
+        F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
     }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
@@ -58,7 +70,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
         F->list = SLI_TAKE(b, uint64_t, supers);
         F->list_scratch = SLI_TAKE(b, uint64_t, supers);
     }
-    F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
 }
 
 /* Plans a supernodal factorization: assigns fronts to workers and allocates the update stack. */
@@ -86,6 +97,31 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     return status;
 }
 
+/* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
+ * with its first refactorization. */
+static sl_status sli_factor_prepare(sl_factor *F) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    if (F->scratch != NULL) {
+        return SL_OK;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_factor_layout_scratch(F, &b);
+        F->stats.factor.bytes += pass == 0 ? b.used : 0;
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+        F->scratch = b.base;
+        status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
+    }
+    if (status != SL_OK) {
+        sli_free(&F->allocator, F->scratch);
+        F->scratch = NULL;
+    }
+    return status;
+}
+
 /* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of 1e2 to
  * 1e6 rows it stayed below 60 + n/16 units of rounding, while every pivot of a regular matrix
  * stayed above 1e9 units. */
@@ -108,7 +144,8 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
 
 /* Checks all options that a factorization reads. */
 static int sli_factor_options_are_valid(const sl_options *opt) {
-    return sli_options_are_valid(opt, SLI_READS_FACTOR) && sli_factor_choices_are_valid(opt);
+    return sli_options_are_valid(opt, SLI_READS_FACTOR | SLI_READS_ISA) &&
+           sli_factor_choices_are_valid(opt);
 }
 
 /* A limit of the options: 0 is the default, and what is negative is no limit. */
@@ -154,7 +191,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
             if (!sli_is_finite(z)) {
                 return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
             }
-            F->rows[S->iperm[i]].z = z;
+            F->z[S->iperm[i]] = z;
         }
     }
     return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
@@ -178,8 +215,25 @@ SL_API void sl_factor_free(sl_factor *F) {
     if (F != NULL) {
         const sl_allocator a = F->allocator;
         sli_free(&a, F->stack);
+        sli_free(&a, F->scratch);
         sli_free(&a, F);
     }
+}
+
+/* Sets the kernels and the threads of a factor that has its analysis and its method. */
+static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
+    F->schedule.workers = 1;
+    if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
+        F->threads = opt->threads;
+        F->schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(F->S->n_supers, 1));
+    }
+    F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+    if (F->kernels == NULL) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    F->stats.factor.isa = F->kernels->isa;
+    F->stats.factor.method = F->method;
+    return SL_OK;
 }
 
 /* Creates a factor with its memory and its schedule, but without numbers. */
@@ -197,31 +251,21 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     draft.analysis = S->identity;
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
-    draft.schedule.workers = 1;
-    if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
-        draft.threads = opt->threads;
-        draft.schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(S->n_supers, 1));
-    }
-    draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
-    if (draft.kernels == NULL || (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP)) {
-        return SL_ERR_UNSUPPORTED;
-    }
+    status = S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP ? SL_ERR_UNSUPPORTED
+                                                                      : sli_factor_use(&draft, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        sli_factor_layout(&draft, &b);
+        (void)sli_take(&b, 1, sizeof(sl_factor));
+        sli_factor_layout(&draft, &b, draft.is_centered);
         draft.stats.factor.bytes = b.used;
         status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
-        draft.stats.factor.isa = draft.kernels->isa;
-        draft.stats.factor.method = draft.method;
         *F = draft;
         if (F->E != NULL) {
             memset(F->E, 0, (size_t)S->n * sizeof(double));
         }
-        if (F->method == SL_METHOD_SUPERNODAL) {
-            status = sli_factor_schedule(F);
-        }
+        status = sli_factor_prepare(F);
         status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
         F->stats.factor.seconds_setup = sli_seconds() - started;
         if (status == SL_OK) {

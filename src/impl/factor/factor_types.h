@@ -28,10 +28,10 @@ typedef struct sli_failure {
 
 /* Row k of A z in pivot order. A cache line holds two: the product visits rows at random. */
 typedef struct sli_null_row {
-    double z;       /* the assumed null vectors of all components */
-    double product; /* scratch: (A z)(k) */
-    double size;    /* scratch: (|A| |z|)(k) */
-    sl_int entries; /* scratch: entries of the row */
+    double z;
+    double product; /* (A z)(k) */
+    double size;    /* (|A| |z|)(k) */
+    sl_int entries; /* entries of the row */
     sl_int last;    /* the last pivot of the component of the row */
 } sli_null_row;
 /* What a supernode contributes to pivot growth (growth.h). */
@@ -39,6 +39,7 @@ typedef struct sli_extent {
     double entry;     /* the largest |a| in its columns */
     double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
     sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
+    sl_int zero;      /* instead of padding: saved factors have no undefined bytes */
 } sli_extent;
 
 struct sl_factor {
@@ -50,6 +51,8 @@ struct sl_factor {
     sl_null_pivots null_pivots;
     sl_method method;
     int is_valid;     /* L and D hold a factor */
+    int is_immutable; /* L, D and the other arrays are those of a mapped file */
+    void *scratch;    /* the block of all scratch arrays; NULL: not allocated yet */
     sl_status status; /* of the last factorization */
     /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
      * numbers keeps it */
@@ -75,8 +78,9 @@ struct sl_factor {
     /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
     sl_int *anchors;
     double *mass;       /* n: the weights m in pivot order; NULL: none */
-    sli_null_row *rows; /* n */
-    double *rounding;   /* n: for the rule */
+    double *z;          /* n: the assumed null vectors of all components */
+    sli_null_row *rows; /* n: scratch */
+    double *rounding;   /* n: scratch for the rule */
     /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h); before
      * a column of L is computed, z or 0 */
     double *g;
@@ -139,6 +143,11 @@ SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_
 /* Entries of the inverse are computed with a diagonal D only. */
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
     return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+/* May the numbers of F change, and is its analysis still there? */
+SLI_INLINE int sli_factor_may_change(const sl_factor *F) {
+    return !F->is_immutable && sli_factor_is_over(F, F->S, F->analysis);
 }
 
 /* Fills in a failure and returns its status. */
@@ -220,6 +229,7 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     sl_status status = SL_OK;
     F->extents[s].entry = F->extents[s].magnitude = 0.0;
     F->extents[s].pivot = -1;
+    F->extents[s].zero = 0;
     if (from->A != NULL) {
         return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
     }

@@ -50,12 +50,19 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
     return cause;
 }
 
-/* Refuses the tree of supernodes first .. last, whose magnitudes exceed bound. Row k of the first
- * such magnitude is where the growth shows; it goes back to a pivot that is small. */
-static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double bound,
+/* The growth of the largest magnitude. The sum may overflow, but no term of a finite pivot does. */
+SLI_INLINE double sli_growth(double magnitude, double entry) {
+    return magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+}
+
+/* Refuses the tree of supernodes first .. last, whose growth exceeds the limit. entry: the largest
+ * |a|. Row k of the first such magnitude is where the growth shows; it goes back to a pivot that is
+ * small. */
+static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double entry,
                                    sli_failure *failure) {
+    const double bound = F->growth_limit * entry;
     sl_int s = first, k, cause;
-    while (s < last && !(F->extents[s].magnitude > bound)) {
+    while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
         s++;
     }
     k = F->extents[s].pivot;
@@ -76,12 +83,11 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
         entry = fmax(entry, F->extents[s].entry);
         magnitude = fmax(magnitude, F->extents[s].magnitude);
         if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
-            /* the sum may overflow, but no term of a finite pivot does */
-            growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+            growth = sli_growth(magnitude, entry);
             info->growth = fmax(info->growth, growth);
             info->entry_max = fmax(info->entry_max, entry);
             if (growth > F->growth_limit && failure->status == SL_OK) {
-                (void)sli_growth_refuse(F, first, s, F->growth_limit * entry, failure);
+                (void)sli_growth_refuse(F, first, s, entry, failure);
             }
             entry = magnitude = 0.0;
             first = s + 1;

@@ -142,7 +142,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_factor_fits(F, A);
+    status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
     if (status != SL_OK) {
         return status;
     }
@@ -155,6 +155,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     if (F->method != SL_METHOD_SUPERNODAL || entries >= (uint64_t)sli_nnz(A)) {
         return sl_factor_refactor(F, A, stats);
     }
+    status = sli_factor_prepare(F);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);

@@ -214,6 +214,9 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     const double rounding = sli_null_rounding(S->n), *diagonal = F->g;
     sl_int k, refused = -1;
     F->stats.factor.regular = 0;
+    for (k = 0; k < S->n; k++) {
+        F->rows[k].z = F->z[k];
+    }
     sli_null_product(S, from, F->rows, F->g);
     sli_null_components(F->rows, S->n);
     memset(F->rounding, 0, (size_t)S->n * sizeof(double));

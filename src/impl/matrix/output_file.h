@@ -7,10 +7,19 @@
 #define SLI_TEMPORARY_NAMES 100 /* tried beside a file: path.tmp00 to path.tmp99 */
 #define SLI_TEMPORARY_SUFFIX 16 /* bytes of ".tmp" and any int, as compilers count them */
 
+/* Files without a name, and how they get one: of Linux, where the headers show the constant. */
+#if defined(SLI_FSYNC) && defined(__linux__) && defined(__O_TMPFILE)
+#define SLI_UNNAMED_FILES 1
+#define SLI_FILE_NAME_MAX 32 /* of /proc/self/fd/ and any int */
+#define SLI_HERE (-100)      /* AT_FDCWD */
+#define SLI_FOLLOW 0x400     /* AT_SYMLINK_FOLLOW */
+#endif
+
 typedef struct sli_output {
     FILE *file;
     const char *path;
     char *temporary; /* name of the file that is renamed to path; NULL: path itself is written */
+    int is_unnamed;  /* the file gets the temporary name only when it is complete */
 } sli_output;
 
 #if defined(SLI_POSIX)
@@ -86,12 +95,53 @@ static FILE *sli_create_new(const char *name) {
 #endif
 }
 
+#if defined(SLI_UNNAMED_FILES)
+/* Opens a file without a name in the folder of o->path, which vanishes if the process is killed.
+ * o->temporary is used to name the folder. Returns 0, without a file, where the file system has no
+ * such files or this one could not take the place of path. */
+static int sli_create_unnamed(sli_output *o, int exists) {
+    const char *slash = strrchr(o->path, '/');
+    const size_t length = slash == NULL ? 0 : (size_t)(slash - o->path) + 1;
+    char name[SLI_FILE_NAME_MAX];
+    int file;
+    memcpy(o->temporary, o->path, length);
+    memcpy(o->temporary + length, ".", 2);
+    file = open(o->temporary, __O_TMPFILE | O_WRONLY, 0666);
+    if (file < 0) {
+        return 0;
+    }
+    snprintf(name, sizeof name, "/proc/self/fd/%d", file);
+    o->file = !exists || sli_take_attributes(name, o->path) ? sli_fdopen(file, "wb") : NULL;
+    if (o->file == NULL) {
+        close(file);
+    }
+    return o->file != NULL;
+}
+
+/* Gives an unnamed file the first temporary name that is free. Returns whether it has one. */
+static int sli_name_unnamed(sli_output *o) {
+    const size_t length = strlen(o->path);
+    char name[SLI_FILE_NAME_MAX];
+    int k, is_named = 0;
+    snprintf(name, sizeof name, "/proc/self/fd/%d", sli_fileno(o->file));
+    memcpy(o->temporary, o->path, length);
+    for (k = 0; k < SLI_TEMPORARY_NAMES && !is_named; k++) {
+        snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
+        is_named = sli_linkat(SLI_HERE, name, SLI_HERE, o->temporary, SLI_FOLLOW) == 0;
+    }
+    return is_named;
+}
+#endif
+
 /* Creates the file o->temporary. Returns 0, without a file, if it could not take the place of path,
  * so that path itself must be written. Returns 1 with the file, or with o->file NULL if there is no
  * space for it or no name. */
 static int sli_create_beside(sli_output *o, int exists) {
     const size_t length = strlen(o->path);
     int k;
+#if defined(SLI_UNNAMED_FILES)
+    o->is_unnamed = sli_create_unnamed(o, exists);
+#endif
     memcpy(o->temporary, o->path, length);
     for (k = 0; k < SLI_TEMPORARY_NAMES && o->file == NULL; k++) {
         snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
@@ -101,7 +151,7 @@ static int sli_create_beside(sli_output *o, int exists) {
         return errno != EACCES && errno != EPERM && errno != EROFS && errno != ENAMETOOLONG;
     }
 #if defined(SLI_POSIX)
-    if (exists && !sli_take_attributes(o->temporary, o->path)) {
+    if (exists && !o->is_unnamed && !sli_take_attributes(o->temporary, o->path)) {
         fclose(o->file);
         o->file = NULL;
         remove(o->temporary);
@@ -119,6 +169,7 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
     o->path = path;
     o->temporary = NULL;
     o->file = NULL;
+    o->is_unnamed = 0;
     if (sli_is_replaceable(path, &exists)) {
         o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
         if (o->temporary == NULL) {
@@ -161,10 +212,15 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
 
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
 static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
-    int ok = fclose(o->file) == 0 && complete, is_only_copy = 0;
+    int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
+#if defined(SLI_UNNAMED_FILES)
+    has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
+    ok = ok && has_name;
+#endif
+    ok = fclose(o->file) == 0 && ok;
     if (o->temporary != NULL) {
         ok = ok && sli_replace(o, &is_only_copy);
-        if (!ok && !is_only_copy) {
+        if (!ok && has_name && !is_only_copy) {
             remove(o->temporary);
         }
         sli_free(a, o->temporary);

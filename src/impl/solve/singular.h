@@ -117,7 +117,7 @@ static void sli_null_products(const sl_factor *F, const sli_reach *R, double *y,
                 }
                 sli_chains_sum(chains, lanes, sums);
                 for (r = 0; r < lanes; r++) {
-                    y[(ptrdiff_t)at * lanes + r] = sums[r] / F->rows[null].z;
+                    y[(ptrdiff_t)at * lanes + r] = sums[r] / F->z[null];
                 }
                 break;
             }

@@ -1,0 +1,334 @@
+/* check.h: is a loaded analysis or factor one that this library could have made? */
+#ifndef SLI_SAVE_CHECK_H
+#define SLI_SAVE_CHECK_H
+
+#include "format.h"
+
+/* Everything that the other parts take for granted is checked here, in one pass over each array
+ * and without memory: the bytes may come from anybody. The numbers of L, D and the weights may be
+ * anything. */
+
+/* Is perm a permutation and iperm its inverse? If iperm[perm[k]] = k for all k, no two perm[k] are
+ * equal. */
+static int sli_check_perm(const sl_symbolic *S) {
+    sl_int k;
+    for (k = 0; k < S->n; k++) {
+        const sl_int i = S->perm[k];
+        if (i < 0 || i >= S->n || S->iperm[i] != k) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Do the supernodes divide the columns, and are their trees numbered in postorder? In a postorder
+ * the children of s are s - 1, then the supernode before the first descendant of s - 1, and so on.
+ * Each supernode is visited from its parent once. */
+static int sli_check_supers(const sl_symbolic *S) {
+    sl_int s, c, k = 0, children = 0, visited = 0;
+    if (S->super_first[0] != 0 || S->super_first[S->n_supers] != S->n) {
+        return 0;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int up = S->super_parent[s], first = S->first_descendant[s];
+        if (S->super_first[s + 1] <= k || S->super_first[s + 1] > S->n ||
+            (up != -1 && (up <= s || up >= S->n_supers)) || first < 0 || first > s) {
+            return 0;
+        }
+        for (; k < S->super_first[s + 1]; k++) {
+            if (S->super_of[k] != s) {
+                return 0;
+            }
+        }
+        children += up != -1;
+        for (c = s - 1; c >= first; c = S->first_descendant[c] - 1) {
+            if (S->super_parent[c] != s) {
+                return 0;
+            }
+            visited++;
+        }
+        if (c != first - 1) {
+            return 0;
+        }
+    }
+    return visited == children;
+}
+
+/* Is the elimination tree that of the supernodes? The parent of a column is in its supernode, but
+ * that of the last column is the first row below, or -1. */
+static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
+    sl_off nnz_l = 0;
+    sl_int k, roots = 0;
+    for (k = 0; k < S->n; k++) {
+        const sl_int s = S->super_of[k], end = S->super_first[s + 1], up = S->parent[k];
+        const sl_int first_below = S->steps[s].below > 0 ? S->rows[S->rows_begin[s]] : -1;
+        if (k + 1 < end ? up <= k || up >= end : up != first_below) {
+            return 0;
+        }
+        if (S->counts[k] < 1 || S->counts[k] > end - k + S->steps[s].below) {
+            return 0;
+        }
+        roots += up == -1;
+        nnz_l += S->counts[k];
+    }
+    return roots == a->components && nnz_l == a->nnz_l;
+}
+
+/* Do the row lists, the panels and the steps agree, and is every front contained in its parent's?
+ * Reads the rows of a parent, which may come later, only where their number is known to be right:
+ * rows_begin is checked before. */
+static int sli_check_front(const sl_symbolic *S, sl_int s) {
+    const sl_int first = S->super_first[s], end = S->super_first[s + 1], up = S->super_parent[s];
+    const sl_int *rows = S->rows + S->rows_begin[s], *local = S->relative + S->rows_begin[s];
+    const sli_step *step = &S->steps[s];
+    sl_int k, last = end - 1, up_first, up_width, up_below;
+    const sl_int *up_rows;
+    if (step->panel != S->panel_begin[s] || step->column != first || step->base != first ||
+        step->width != end - first || step->first_tile != 0 || step->up != up ||
+        step->below != S->rows_begin[s + 1] - S->rows_begin[s] ||
+        (step->below == 0) != (up == -1)) {
+        return 0;
+    }
+    if (up == -1) {
+        return 1;
+    }
+    up_first = S->super_first[up];
+    up_width = S->super_first[up + 1] - up_first;
+    up_below = (sl_int)(S->rows_begin[up + 1] - S->rows_begin[up]);
+    up_rows = S->rows + S->rows_begin[up];
+    for (k = 0; k < step->below; k++) {
+        const sl_int row = rows[k], at = local[k];
+        if (row <= last || row >= S->n || at < 0 || at >= up_width + up_below ||
+            row != (at < up_width ? up_first + at : up_rows[at - up_width])) {
+            return 0;
+        }
+        last = row;
+    }
+    return S->super_of[rows[0]] == up;
+}
+
+static int sli_check_structure(const sl_symbolic *S) {
+    sl_int s, tallest = 0, widest = 0;
+    if (S->rows_begin[0] != 0 || S->panel_begin[0] != 0) {
+        return 0;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int width = S->super_first[s + 1] - S->super_first[s];
+        const sl_off below = S->rows_begin[s + 1] - S->rows_begin[s];
+        if (S->rows_begin[s + 1] < S->rows_begin[s] || below > S->n - S->super_first[s + 1] ||
+            S->panel_begin[s + 1] != S->panel_begin[s] + sli_panel_size(width, (sl_int)below)) {
+            return 0;
+        }
+        widest = sli_max(widest, width);
+        tallest = sli_max(tallest, width + (sl_int)below);
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        if (!sli_check_front(S, s)) {
+            return 0;
+        }
+    }
+    return tallest == S->tallest && widest == S->widest;
+}
+
+/* Does the scatter map go from entries of A to entries of L, with the rows of each supernode
+ * ascending? */
+static int sli_check_scatter(const sl_symbolic *S) {
+    sl_int s;
+    sl_off m;
+    if (S->scatter_begin[0] != 0) {
+        return 0;
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int width = S->steps[s].width, height = width + S->steps[s].below;
+        const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+        sl_off begin = 0, end = sli_tile_offset(width, 1); /* of the tile */
+        sl_int tile = 0, last = 0;
+        if (S->scatter_begin[s + 1] < S->scatter_begin[s] ||
+            S->scatter_begin[s + 1] > S->scatter_begin[S->n_supers]) {
+            return 0;
+        }
+        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+            const sl_off at = S->scatter_to[m] - S->panel_begin[s];
+            sl_int row, column;
+            if (S->scatter_from[m] < 0 || S->scatter_from[m] >= S->nnz_input ||
+                S->scatter_to[m] < S->panel_begin[s] || at >= size) {
+                return 0;
+            }
+            while (at >= end) {
+                tile++;
+                begin = end;
+                end = sli_tile_offset(width, tile + 1);
+            }
+            row = SLI_TILE * tile + (sl_int)(at % SLI_TILE);
+            column = (sl_int)((at - begin) / SLI_TILE);
+            if (at < begin || row < last || row >= height || row < column) {
+                return 0;
+            }
+            last = row;
+        }
+    }
+    return 1;
+}
+
+static int sli_check_nodes(const sl_symbolic *S) {
+    sl_int k;
+    for (k = 0; k < S->n && S->n_nodes > 0; k++) {
+        if (S->node_of[k] < 0 || S->node_of[k] >= S->n_nodes) {
+            return 0;
+        }
+    }
+    for (k = S->n_nodes - 1; k >= 0; k--) {
+        const sl_int up = S->node_parent[k];
+        if (up != -1 && (up <= k || up >= S->n_nodes)) {
+            return 0;
+        }
+        if (S->node_level[k] != (up == -1 ? 0 : S->node_level[up] + 1)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Are the 2x2 pivots two columns of one supernode and of one tile? */
+static int sli_check_pairs(const sl_symbolic *S) {
+    sl_int k, count = 0;
+    for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+        const sl_int s = S->super_of[k];
+        if (S->pairs[k] == SLI_PAIR_NONE) {
+            continue;
+        }
+        if (S->pairs[k] != SLI_PAIR_FIRST || (k - S->super_first[s]) % SLI_TILE == SLI_TILE - 1 ||
+            k + 1 == S->super_first[s + 1] || S->pairs[k + 1] != SLI_PAIR_SECOND) {
+            return 0;
+        }
+        count++;
+        k++;
+    }
+    return count == S->n_pairs;
+}
+
+static int sli_check_analysis(const sl_symbolic *S, const sli_saved_analysis *a) {
+    sl_symbolic same;
+    if (!sli_check_perm(S) || !sli_check_supers(S) || !sli_check_structure(S) ||
+        !sli_check_tree(S, a) || !sli_check_scatter(S) || !sli_check_pairs(S) ||
+        !sli_check_nodes(S)) {
+        return 0;
+    }
+    same = *S;
+    sli_fill_identity(&same, S->stats.symbolic.triangle);
+    return sli_hash_equals(same.identity, S->identity);
+}
+
+/* Are these ascending columns? */
+static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
+    sl_off k;
+    for (k = 0; k < count; k++) {
+        if (columns[k] < (k > 0 ? columns[k - 1] + 1 : 0) || columns[k] >= n) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Are the anchors null pivots, at most one in a tree? */
+static int sli_check_anchors(const sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sl_int k, m = 0, root = -1;
+    if (!sli_check_columns(F->anchors, F->n_anchors, S->n)) {
+        return 0;
+    }
+    for (k = 0; k < S->n && m < F->n_anchors; k++) {
+        if (S->parent[k] == -1) {
+            const sl_int anchor = F->anchors[m];
+            m += anchor > root && anchor <= k;
+            root = k;
+            if (m < F->n_anchors && F->anchors[m] <= k) {
+                return 0;
+            }
+        }
+    }
+    for (m = 0; m < F->n_anchors; m++) {
+        const sl_int at = sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m]);
+        if (at == F->n_nulls || F->nulls[at] != F->anchors[m]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Is what each supernode contributes to pivot growth that of one of its pivots? */
+static int sli_check_extents(const sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        const sli_extent *e = &F->extents[s];
+        const sl_int least = e->magnitude > 0.0 ? S->super_first[s] : -1,
+                     most = e->magnitude > 0.0 ? S->super_first[s + 1] - 1 : -1;
+        if (!(e->entry >= 0.0) || !sli_is_finite(e->entry) || !(e->magnitude >= 0.0) ||
+            e->pivot < least || e->pivot > most || e->zero != 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Are the blocks of 2x2 pivots finite, and 0 elsewhere? */
+static int sli_check_blocks(const sl_factor *F) {
+    sl_int k;
+    for (k = 0; k < F->S->n && F->E != NULL; k++) {
+        if (F->S->pairs[k] == SLI_PAIR_FIRST ? !sli_is_finite(F->E[k]) : F->E[k] != 0.0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Do the pivots have the counted signs, and is each null or regularized one listed? 2x2 pivots have
+ * any signs: those of their eigenvalues depend on rounding if one is almost 0. */
+static int sli_check_factor(const sl_factor *F) {
+    const sl_factor_info *info = &F->stats.factor;
+    const sl_int n = F->S->n;
+    sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;
+    if (!sli_check_columns(F->nulls, F->n_nulls, n) ||
+        !sli_check_columns(F->regularized, info->regularized, n) ||
+        (F->is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
+        !sli_check_blocks(F)) {
+        return 0;
+    }
+    for (k = 0; k < n; k++) {
+        const double d = F->D[k];
+        if (!sli_is_finite(d)) {
+            return 0;
+        }
+        if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
+            (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK)) {
+            return 0;
+        }
+        if (sli_is_skipped(F, k)) {
+            if (nulls == F->n_nulls || F->nulls[nulls++] != k) {
+                return 0;
+            }
+            continue;
+        }
+        if (sli_is_regularized(F, k) &&
+            (shifted == info->regularized || F->regularized[shifted++] != k)) {
+            return 0;
+        }
+        if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
+            blocks++;
+        } else {
+            positive += d > 0.0;
+            negative += d < 0.0;
+        }
+    }
+    for (k = 0; k < n && F->rule.regularization != 0.0 && F->rule.signs != NULL; k++) {
+        if (F->rule.signs[k] < -1 || F->rule.signs[k] > 1) {
+            return 0;
+        }
+    }
+    return nulls == F->n_nulls && shifted == info->regularized && info->positive >= positive &&
+           info->negative >= negative &&
+           info->positive - positive + (info->negative - negative) <= blocks;
+}
+
+#endif

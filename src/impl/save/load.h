@@ -1,0 +1,361 @@
+/* load.h: creates an analysis and a factor from saved bytes, as copies or in place */
+#ifndef SLI_SAVE_LOAD_H
+#define SLI_SAVE_LOAD_H
+
+#include "check.h"
+#include "decode.h"
+
+/* Saved objects that are being read, from the first byte to the last. */
+typedef struct sli_reading {
+    const unsigned char *memory; /* all bytes; NULL: they are read from the file */
+    FILE *file;
+    uint64_t size, at; /* bytes in all, and read so far */
+    int is_mapped;     /* the objects use the memory itself */
+    int swapped;       /* the bytes have the other order */
+    sl_load_checks checks;
+    const sl_options *opt;
+    sl_allocator allocator;
+    sli_saved saved; /* with the table that was read */
+    sl_symbolic S;   /* drafts of the objects */
+    sl_factor F;
+    int has_factor;
+} sli_reading;
+
+/* Copies the next bytes. */
+static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
+    if (bytes > r->size - r->at) {
+        return SL_ERR_IO;
+    }
+    if (r->memory != NULL) {
+        memcpy(to, r->memory + r->at, (size_t)bytes);
+    } else if (fread(to, 1, (size_t)bytes, r->file) != (size_t)bytes) {
+        return SL_ERR_IO;
+    }
+    r->at += bytes;
+    return SL_OK;
+}
+
+/* Reads and verifies the header and the table. */
+static sl_status sli_read_table(sli_reading *r) {
+    unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
+    sli_saved_header *h = &r->saved.header;
+    sl_status status = sli_get(r, prefix, sizeof *h);
+    size_t size;
+    uint32_t k;
+    if (status != SL_OK) {
+        return status;
+    }
+    memcpy(h, prefix, sizeof *h);
+    status = sli_decode_header(h, &r->swapped);
+    if (status != SL_OK) {
+        return status;
+    }
+    size = (size_t)sli_saved_prefix(&r->saved);
+    status = h->bytes == r->size ? sli_get(r, prefix + sizeof *h, size - sizeof *h) : SL_ERR_IO;
+    if (status != SL_OK || sli_prefix_checksum(prefix, size) != h->checksum) {
+        return SL_ERR_IO;
+    }
+    memcpy(r->saved.table, prefix + sizeof *h, h->sections * sizeof(sli_section));
+    for (k = 0; k < h->sections && r->swapped; k++) {
+        sli_swap_words(&r->saved.table[k].id, 4, 8);
+        sli_swap_words(&r->saved.table[k].offset, 8, 24);
+    }
+    return SL_OK;
+}
+
+/* Is the table the one that objects of these sizes have? All sections follow each other. Those of
+ * a later version come last. */
+static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) {
+    const uint32_t known = expected->header.sections;
+    uint64_t at = sli_saved_prefix(f);
+    uint32_t k;
+    if (f->header.sections < known ||
+        (f->header.sections > known && f->header.write_version <= SLI_WRITE_VERSION)) {
+        return 0;
+    }
+    for (k = 0; k < f->header.sections; k++) {
+        const sli_section *s = &f->table[k], *e = &expected->table[k];
+        if (s->offset != at || s->bytes > f->header.bytes - at ||
+            (k < known && (s->id != e->id || s->word != e->word || s->bytes != e->bytes))) {
+            return 0;
+        }
+        at += sli_round_up(s->bytes);
+        if (at > f->header.bytes) {
+            return 0;
+        }
+    }
+    return at == f->header.bytes;
+}
+
+/* Checks the checksum of section k if `always` or if all are requested, and gives its words the
+ * byte order of this processor. */
+static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
+    const sli_section *section = &r->saved.table[k];
+    if (always || r->checks == SL_LOAD_VERIFIED) {
+        sli_checksum sum = sli_checksum_begin();
+        sli_checksum_add(&sum, data, (size_t)sli_round_up(section->bytes));
+        if (sli_checksum_end(&sum) != section->checksum) {
+            return 0;
+        }
+    }
+    if (r->swapped) {
+        sli_swap_words(data, section->word, section->bytes);
+    }
+    return 1;
+}
+
+/* Reads the numbers of an object, section k. They are few, and always verified. */
+static sl_status sli_read_numbers(sli_reading *r, sl_int k, void *numbers, size_t bytes) {
+    const sli_section *section = &r->saved.table[k];
+    sl_status status = SL_ERR_IO;
+    if (section->bytes == bytes && section->offset == r->at && section->word == 8) {
+        status = sli_get(r, numbers, bytes);
+    }
+    return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? SL_ERR_IO : status;
+}
+
+/* Reads everything before the arrays: afterwards all sizes are known, and each array is inside the
+ * file. */
+static sl_status sli_read_front(sli_reading *r) {
+    sli_saved expected, *f = &r->saved;
+    sl_status status = sli_read_table(r);
+    if (status == SL_OK && f->header.sections < 2) {
+        return SL_ERR_IO;
+    }
+    status = status == SL_OK ? sli_read_numbers(r, 0, &f->analysis, sizeof f->analysis) : status;
+    if (status != SL_OK || !sli_decode_analysis(&f->analysis, &r->S)) {
+        return status != SL_OK ? status : SL_ERR_IO;
+    }
+    r->has_factor = f->table[1].bytes > 0;
+    if (r->has_factor) {
+        status = sli_read_numbers(r, 1, &f->factor, sizeof f->factor);
+        if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
+            return status != SL_OK ? status : SL_ERR_IO;
+        }
+    }
+    memset(&expected, 0, sizeof expected);
+    expected.analysis = f->analysis;
+    expected.factor = f->factor;
+    if (!sli_saved_table(&expected, &r->S, &r->F, r->has_factor) ||
+        !sli_table_is_expected(f, &expected)) {
+        return SL_ERR_IO;
+    }
+    f->first_array = expected.first_array;
+    f->first_number = expected.first_number;
+    return SL_OK;
+}
+
+/* The arrays of one object: sections first .. last-1, contiguous in the file and in memory. */
+typedef struct sli_image {
+    sl_int first, last;
+    size_t head, bytes;   /* of the object's struct, and of the arrays */
+    unsigned char *block; /* the struct, and the arrays unless they are mapped */
+    unsigned char *arrays;
+} sli_image;
+
+/* Allocates an object and reads its arrays, or finds them in the mapped memory. */
+static sl_status sli_read_image(sli_reading *r, sli_image *m) {
+    sl_status status = SL_OK;
+    sl_int k;
+    m->head = (size_t)sli_round_up(m->head);
+    m->block = (unsigned char *)sli_alloc(&r->allocator, m->head + (r->is_mapped ? 0 : m->bytes));
+    if (m->block == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    m->arrays = m->block + m->head;
+    if (r->is_mapped) {
+        m->arrays = (unsigned char *)(uintptr_t)(r->memory + r->at);
+        r->at += m->bytes;
+    } else {
+        status = sli_get(r, m->arrays, m->bytes);
+    }
+    for (k = m->first; k < m->last && status == SL_OK; k++) {
+        unsigned char *data =
+            m->arrays + (r->saved.table[k].offset - r->saved.table[m->first].offset);
+        status = sli_section_accept(r, k, data, 0) ? SL_OK : SL_ERR_IO;
+    }
+    if (status != SL_OK) {
+        sli_free(&r->allocator, m->block);
+    }
+    return status;
+}
+
+/* Creates the analysis. */
+static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
+    const sli_saved_analysis *a = &r->saved.analysis;
+    sl_symbolic *S = &r->S;
+    sli_block b = {NULL, 0, 0};
+    sli_image m;
+    sl_status status;
+    sli_symbolic_layout(S, &b, a->rows, a->entries);
+    m.first = r->saved.first_array;
+    m.last = r->saved.first_number;
+    m.head = sizeof *S;
+    m.bytes = b.used;
+    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) {
+        return SL_ERR_TOO_LARGE;
+    }
+    status = sli_read_image(r, &m);
+    if (status != SL_OK) {
+        return status;
+    }
+    b.base = m.arrays;
+    b.used = 0;
+    sli_symbolic_layout(S, &b, a->rows, a->entries);
+    S->allocator = r->allocator;
+    S->stats.symbolic.bytes = m.head + m.bytes;
+    S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
+    if (S->rows_begin[S->n_supers] != a->rows || S->panel_begin[S->n_supers] != a->panels ||
+        S->scatter_begin[S->n_supers] != a->entries ||
+        (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
+        sli_free(&r->allocator, m.block);
+        return SL_ERR_IO;
+    }
+    *out = (sl_symbolic *)(void *)m.block;
+    **out = *S;
+    return SL_OK;
+}
+
+/* Creates the factor over an analysis. */
+static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor **out) {
+    const sli_saved_factor *g = &r->saved.factor;
+    sl_factor *F = &r->F;
+    sli_block b = {NULL, 0, 0};
+    sli_image m;
+    sl_status status;
+    F->S = S;
+    F->allocator = r->allocator;
+    F->is_immutable = r->is_mapped || S->is_partial;
+    status = sli_factor_use(F, r->opt);
+    sli_factor_layout(F, &b, (int)g->has_mass);
+    m.first = r->saved.first_number;
+    m.last = m.first + SLI_FACTOR_SECTIONS;
+    m.head = sizeof *F;
+    m.bytes = b.used;
+    if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {
+        status = SL_ERR_TOO_LARGE;
+    }
+    status = status == SL_OK ? sli_read_image(r, &m) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    b.base = m.arrays;
+    b.used = 0;
+    sli_factor_layout(F, &b, (int)g->has_mass);
+    F->rule.signs = g->has_signs ? F->rule.signs : NULL;
+    F->stats.factor.bytes = m.head + m.bytes;
+    if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
+        sli_free(&r->allocator, m.block);
+        return SL_ERR_IO;
+    }
+    *out = (sl_factor *)(void *)m.block;
+    **out = *F;
+    return SL_OK;
+}
+
+/* Reads both objects. */
+static sl_status sli_read(sli_reading *r, sl_symbolic **S, sl_factor **F) {
+    sl_symbolic *found = NULL;
+    sl_status status = sli_read_front(r);
+    if (status == SL_OK && r->is_mapped && r->swapped) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    status = status == SL_OK ? sli_read_analysis(r, &found) : status;
+    if (status == SL_OK && F != NULL && r->has_factor) {
+        status = sli_read_factor(r, found, F);
+    }
+    if (status == SL_OK) {
+        *S = found;
+    } else {
+        sl_symbolic_free(found);
+    }
+    return status;
+}
+
+/* Checks the arguments that all calls have, and begins. */
+static sl_status sli_read_begin(sli_reading *r, sl_symbolic **S, sl_factor **F,
+                                sl_load_checks checks, const sl_options *opt) {
+    memset(r, 0, sizeof *r);
+    if (F != NULL) {
+        *F = NULL;
+    }
+    if (S == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *S = NULL;
+    if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
+        !sli_options_are_valid(opt, SLI_READS_ISA)) {
+        return SL_ERR_ARGUMENT;
+    }
+    r->checks = checks;
+    r->opt = opt;
+    r->allocator = sli_allocator(opt);
+    return SL_OK;
+}
+
+static sl_status sli_read_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                                 sl_load_checks checks, const sl_options *opt, int is_mapped) {
+    sli_reading r;
+    const sl_status status = sli_read_begin(&r, S, F, checks, opt);
+    if (status != SL_OK || memory == NULL || (is_mapped && (uintptr_t)memory % SLI_ALIGN != 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.memory = (const unsigned char *)memory;
+    r.size = bytes;
+    r.is_mapped = is_mapped;
+    return sli_read(&r, S, F);
+}
+
+SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                                sl_load_checks checks, const sl_options *opt) {
+    return sli_read_memory(S, F, memory, bytes, checks, opt, 0);
+}
+
+SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                               sl_load_checks checks, const sl_options *opt) {
+    return sli_read_memory(S, F, memory, bytes, checks, opt, 1);
+}
+
+SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+                              sl_load_checks checks, const sl_options *opt) {
+    const int saved = errno;
+    sli_reading r;
+    sl_status status = sli_read_begin(&r, S, F, checks, opt);
+    if (status != SL_OK || path == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.file = fopen(path, "rb");
+    if (r.file == NULL) {
+        status = SL_ERR_IO;
+    } else {
+        r.size = sli_file_size(r.file);
+        status = sli_read(&r, S, F);
+        fclose(r.file);
+    }
+    errno = saved;
+    return status;
+}
+
+SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+                             sl_load_checks checks, const sl_options *opt) {
+    const int saved = errno;
+    sli_mapping map;
+    sli_reading r;
+    sl_status status = sli_read_begin(&r, S, F, checks, opt);
+    if (status != SL_OK || path == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_map(path, &map);
+    if (status == SL_OK) {
+        status = sli_read_memory(S, F, map.bytes, map.size, checks, opt, 1);
+        if (status == SL_OK) {
+            (*S)->mapping = map;
+        } else {
+            sli_unmap(&map);
+        }
+    }
+    errno = saved;
+    return status;
+}
+
+#endif

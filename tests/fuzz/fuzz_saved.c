@@ -1,0 +1,257 @@
+/* fuzz_saved.c: loads, maps and uses saved factors that are arbitrary bytes, or damaged in a few
+ * words with checksums that agree */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sparse_local.h"
+#include "tests/lib/saved_format.h"
+
+#define PROMISE(condition) ((condition) ? (void)0 : abort())
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { SIDE = 4, MOST = SIDE * SIDE, BASES = 10 };
+
+/* ---- memory: loads take no more than the saved bytes ---- */
+
+static size_t limit; /* of the next allocation; 0: none */
+
+static void *allocate(void *context, size_t bytes) {
+    (void)context;
+    PROMISE(limit == 0 || bytes <= limit);
+    return malloc(bytes);
+}
+
+static void release(void *context, void *block) {
+    (void)context;
+    free(block);
+}
+
+/* ---- files to damage: grids and paths, with every treatment of null pivots ---- */
+
+typedef struct matrix_t {
+    sl_int n, p[MOST + 1], i[4 * MOST];
+    double x[4 * MOST];
+} matrix_t;
+
+static matrix_t matrix_make(int base) {
+    matrix_t A;
+    const int is_singular = base % 5 == 1 || base % 5 == 2, is_path = base >= 5;
+    memset(&A, 0, sizeof A);
+    A.n = is_path ? 11 : MOST;
+    for (sl_int j = 0, at = 0; j < A.n; j++) {
+        const sl_int right = is_path || j % SIDE < SIDE - 1 ? j + 1 : A.n,
+                     below = is_path ? A.n : j + SIDE;
+        A.i[at++] = j; /* the diagonal, filled in below */
+        if (right < A.n && !(is_path && j == 4)) {
+            A.i[at++] = right;
+        }
+        if (below < A.n) {
+            A.i[at++] = below;
+        }
+        A.p[j + 1] = at;
+    }
+    for (sl_int j = 0; j < A.n; j++) {
+        A.x[A.p[j]] += is_singular ? 0 : 1;
+        for (sl_int p = A.p[j] + 1; p < A.p[j + 1]; p++) {
+            A.x[p] = -1;
+            A.x[A.p[j]] += 1;
+            A.x[A.p[A.i[p]]] += 1;
+        }
+    }
+    return A;
+}
+
+static sl_csc view_of(const matrix_t *A) {
+    sl_csc view;
+    view.n_rows = view.n_cols = A->n;
+    view.p = A->p;
+    view.i = A->i;
+    view.x = A->x;
+    return view;
+}
+
+/* Saves base k in new memory. */
+static unsigned char *base_make(int base, size_t *size) {
+    const matrix_t A = matrix_make(base);
+    const sl_csc view = view_of(&A);
+    double mass[MOST];
+    sl_int signs[MOST];
+    sl_options opt;
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    memset(&opt, 0, sizeof opt);
+    for (int k = 0; k < MOST; k++) {
+        mass[k] = 1 + k;
+        signs[k] = k % 4 == 3 ? -1 : 1;
+    }
+    opt.null_pivots = base % 5 == 1 || base % 5 == 2 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    opt.mass = base % 5 == 2 ? mass : NULL;
+    opt.regularization = base % 5 >= 3 ? 1e-8 : 0.0;
+    opt.signs = base % 5 == 4 ? signs : NULL;
+    PROMISE(sl_symbolic_create(&S, &view, NULL, NULL) == SL_OK);
+    PROMISE(sl_factor_create(&F, S, &view, &opt, NULL) == SL_OK);
+    PROMISE(sl_save_bytes(size, S, F) == SL_OK);
+    unsigned char *bytes = (unsigned char *)malloc(*size);
+    PROMISE(bytes != NULL && sl_save_memory(bytes, *size, S, F) == SL_OK);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    return bytes;
+}
+
+/* ---- use ---- */
+
+/* Every kind of call, on a factor whose structure was checked: any answer, but an end. */
+static void use(const sl_symbolic *S, sl_factor *F) {
+    const sl_int n = sl_symbolic_view(S).n, set[3] = {0, n / 2, n - 1};
+    const sl_int count = n > 0 ? 3 : 0;
+    const size_t ld = (size_t)n + 3;
+    const matrix_t M = matrix_make(0);
+    const sl_csc A = view_of(&M);
+    double *b = (double *)calloc(9 * ld, sizeof(double)),
+           *x = (double *)calloc(9 * ld, sizeof(double));
+    double log_abs, sign;
+    sl_plan *P = NULL, *Q = NULL;
+    sl_selected *Z = NULL;
+    sl_region *R = NULL;
+    sl_factor *G = NULL;
+    sl_matrix *L = NULL;
+    sl_options opt;
+    int status = 0;
+    PROMISE(b != NULL && x != NULL);
+    for (size_t k = 0; k < 9 * ld; k++) {
+        b[k] = 1.0 + (double)(k % 5);
+    }
+    status |= sl_factor_solve(F, x, ld, b, ld, 9, NULL);
+    status |= sl_factor_solve(F, x, ld, b, ld, 1, NULL);
+    status |= sl_local_solve(F, set, count, set, count, x, ld, b, ld, 1, NULL, NULL);
+    if (sl_plan_create(&P, S, set, count, set, count > 0 ? 1 : 0, NULL, NULL) == SL_OK) {
+        status |= sl_plan_solve(P, F, x, ld, b, ld, 2, NULL);
+        status |= sl_plan_solve_refined(P, F, x, ld, b, ld, 1, 1, NULL, NULL);
+    }
+    status |= sl_inverse_diagonal(F, x, NULL, 0, NULL, NULL);
+    status |= sl_factor_defects(F, x, ld, b, ld, 1, NULL);
+    status |= sl_factor_logdet(F, &log_abs, &sign);
+    status |= sl_factor_lower(&L, F, NULL);
+    if (sl_selected_create(&Z, F, NULL, 0, NULL, NULL) == SL_OK) {
+        status |= sl_selected_diagonal(Z, x, NULL, 0, NULL);
+    }
+    if (sl_region_create(&R, F, set, count, NULL, NULL, NULL) == SL_OK) {
+        memset(&opt, 0, sizeof opt);
+        opt.region = R;
+        if (sl_plan_create(&Q, S, set, count, set, count, &opt, NULL) == SL_OK) {
+            status |= sl_plan_solve(Q, F, x, ld, b, ld, 1, NULL);
+        }
+    }
+    status |= sl_factor_create(&G, S, &A, NULL, NULL);
+    status |= sl_factor_refactor(F, &A, NULL);
+    (void)status;
+    sl_factor_free(G);
+    sl_plan_free(Q);
+    sl_region_free(R);
+    sl_selected_free(Z);
+    sl_plan_free(P);
+    sl_matrix_free(L);
+    free(b);
+    free(x);
+}
+
+static void load(const unsigned char *bytes, size_t size, int is_mapped, sl_load_checks checks) {
+    sl_options opt;
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    memset(&opt, 0, sizeof opt);
+    opt.allocator.allocate = allocate;
+    opt.allocator.release = release;
+    limit = size + 4096;
+    const sl_status status = is_mapped ? sl_map_memory(&S, &F, bytes, size, checks, &opt)
+                                       : sl_load_memory(&S, &F, bytes, size, checks, &opt);
+    limit = 0;
+    PROMISE((S != NULL) == (status == SL_OK) && (S != NULL || F == NULL));
+    if (F != NULL && checks != SL_LOAD_TRUSTED) {
+        use(S, F);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* Loads and maps an aligned copy. */
+static void try_bytes(const unsigned char *bytes, size_t size) {
+    unsigned char *block = (unsigned char *)malloc(size + 63), *aligned;
+    PROMISE(block != NULL);
+    aligned = block + (64 - (uintptr_t)block % 64) % 64;
+    memcpy(aligned, bytes, size);
+    load(aligned, size, 1, SL_LOAD_TRUSTED);
+    load(aligned, size, 1, SL_LOAD_CHECKED);
+    load(aligned, size, 0, SL_LOAD_CHECKED);
+    load(aligned, size, 0, SL_LOAD_VERIFIED);
+    free(block);
+}
+
+/* Damages a file: edits of 4 bytes, of which two name a word of it. */
+static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t count) {
+    for (; count >= 4; data += 4, count -= 4) {
+        unsigned char *at = file + 4 * ((data[0] + 256u * data[1]) % (size / 4));
+        const uint32_t value = data[3], old = saved_u32(at);
+        switch (data[2] % 8) {
+        case 0:
+            saved_put32(at, value);
+            break;
+        case 1:
+            saved_put32(at, old + value);
+            break;
+        case 2:
+            saved_put32(at, old - value);
+            break;
+        case 3:
+            saved_put32(at, old ^ 1u << value % 32);
+            break;
+        case 4:
+            saved_put32(at, (uint32_t)INT32_MAX - value);
+            break;
+        case 5:
+            saved_put32(at, 0u - value);
+            break;
+        case 6: /* the word of another place */
+            saved_put32(at, saved_u32(file + 4 * ((at - file) / 4 + value < (ptrdiff_t)(size / 4)
+                                                      ? (size_t)(at - file) / 4 + value
+                                                      : 0)));
+            break;
+        default:
+            saved_reverse(at, 4);
+        }
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static unsigned char *bases[BASES];
+    static size_t sizes[BASES];
+    if (size >= 8 && data[0] == 0x89) { /* a file */
+        try_bytes(data, size);
+        unsigned char *copy = (unsigned char *)malloc(size);
+        PROMISE(copy != NULL);
+        memcpy(copy, data, size);
+        saved_repair(copy, size);
+        try_bytes(copy, size);
+        free(copy);
+    } else if (size >= 2) { /* a base, a flag and edits */
+        const int base = data[0] % BASES;
+        if (bases[base] == NULL) {
+            bases[base] = base_make(base, &sizes[base]);
+        }
+        unsigned char *copy = (unsigned char *)malloc(sizes[base]);
+        PROMISE(copy != NULL);
+        memcpy(copy, bases[base], sizes[base]);
+        if (data[1] & 1) {
+            saved_change_order(copy);
+        }
+        edit(copy, sizes[base], data + 2, size - 2);
+        if (!(data[1] & 1)) {
+            saved_repair(copy, sizes[base]);
+        }
+        try_bytes(copy, sizes[base]);
+        free(copy);
+    }
+    return 0;
+}

@@ -1,0 +1,142 @@
+/* saved.h: saved factors in aligned memory, and whether two factors answer with the same bits */
+#ifndef SL_TEST_SAVED_H
+#define SL_TEST_SAVED_H
+
+#include "factored.h"
+#include "graph_laplacian.h"
+
+typedef struct saved_t {
+    void *block;          /* to be freed */
+    unsigned char *bytes; /* aligned to 64 bytes */
+    size_t size;
+} saved_t;
+
+static inline saved_t saved_of_size(size_t size) {
+    saved_t m = {test_array(size + 64, 1), NULL, size};
+    m.bytes = (unsigned char *)m.block;
+    m.bytes += (64 - (uintptr_t)m.bytes % 64) % 64;
+    return m;
+}
+
+static inline saved_t saved_make(const sl_symbolic *S, const sl_factor *F) {
+    size_t size = 1;
+    SL_CHECK(sl_save_bytes(&size, S, F));
+    assert_int_equal(size % 64, 0);
+    saved_t m = saved_of_size(size);
+    memset(m.bytes, 0xA5, size);
+    SL_CHECK(sl_save_memory(m.bytes, size, S, F));
+    return m;
+}
+
+static inline void saved_free(saved_t *m) {
+    free(m->block);
+}
+
+/* A way to create objects from saved bytes. */
+typedef sl_status (*saved_call_t)(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                                  sl_load_checks checks, const sl_options *opt);
+
+/* The ways in which a factor may treat null pivots, each with a matrix that shows it. */
+enum { SAVED_DEFINITE, SAVED_SKIPPED, SAVED_WEIGHTED, SAVED_REGULARIZED, SAVED_SIGNED, SAVED_WAYS };
+
+typedef struct saved_case_t {
+    factored_t y;
+    double *mass;
+    sl_int *signs;
+    sl_options opt; /* of the factor */
+} saved_case_t;
+
+static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size, int style,
+                                           const sl_options *from) {
+    saved_case_t c;
+    sl_int components;
+    memset(&c, 0, sizeof c);
+    c.opt = options_for_factor(from);
+    if (way == SAVED_SKIPPED || way == SAVED_WEIGHTED) {
+        c.y.M = laplacian(kind, size, style, &components);
+    } else {
+        gen_list_t t = gen_make(kind, size, 1, 42);
+        c.y.M = gen_store(&t, gen_style(style), 1);
+        gen_list_free(&t);
+    }
+    sl_int n = c.y.M.view.n_rows;
+    c.mass = test_reals((size_t)n);
+    c.signs = test_ints((size_t)n);
+    for (sl_int k = 0; k < n; k++) {
+        c.mass[k] = 1 + k % 7;
+        c.signs[k] = k % 5 == 0 ? -1 : k % 3 == 0 ? 0 : 1;
+    }
+    if (way == SAVED_SKIPPED || way == SAVED_WEIGHTED) {
+        c.opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        c.opt.mass = way == SAVED_WEIGHTED ? c.mass : NULL;
+        c.opt.consistency_tolerance = -1;
+    } else if (way != SAVED_DEFINITE) {
+        c.opt.regularization = 1e-8;
+        c.opt.signs = way == SAVED_SIGNED ? c.signs : NULL;
+    }
+    SL_CHECK(sl_symbolic_create(&c.y.S, &c.y.M.view, FOR_ANALYSIS(from), NULL));
+    SL_CHECK(sl_factor_create(&c.y.F, c.y.S, &c.y.M.view, &c.opt, NULL));
+    return c;
+}
+
+static inline void saved_case_free(saved_case_t *c) {
+    factored_free(&c->y);
+    free(c->mass);
+    free(c->signs);
+}
+
+/* Every kind of query gives the same bits with both factors. */
+static inline void assert_same_answers(const sl_factor *F, const sl_factor *G) {
+    const sl_symbolic *S = sl_factor_view(F).symbolic, *T = sl_factor_view(G).symbolic;
+    const sl_int n = sl_symbolic_view(S).n, nb = n < 9 ? n : 9, nx = n < 7 ? n : 7;
+    const size_t ld = n > 0 ? (size_t)n : 1;
+    double *B = test_reals(9 * ld), *X = test_reals(9 * ld), *Y = test_reals(9 * ld);
+    sl_int *bset = test_ints((size_t)n), *xset = test_ints((size_t)n);
+    sl_plan *P = NULL, *Q = NULL;
+    sl_region *R = NULL;
+    sl_factor_arrays g = sl_factor_view(G);
+    gen_reals(B, 9 * ld, 5);
+    gen_set(bset, nb, n, 3);
+    gen_set(xset, nx, n, 4);
+    assert_same_bits(F, G);
+    assert_true((uintptr_t)g.L % 64 == 0 && (uintptr_t)g.D % 64 == 0);
+    SL_CHECK(sl_factor_solve(F, X, ld, B, ld, 9, NULL));
+    SL_CHECK(sl_factor_solve(G, Y, ld, B, ld, 9, NULL));
+    assert_memory_equal(X, Y, 9 * ld * sizeof *X);
+    for (sl_int nrhs = 1; nrhs <= 3; nrhs++) {
+        SL_CHECK(sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL));
+        SL_CHECK(sl_plan_create(&Q, T, bset, nb, xset, nx, NULL, NULL));
+        SL_CHECK(sl_plan_solve(P, F, X, ld, B, ld, nrhs, NULL));
+        SL_CHECK(sl_plan_solve(Q, G, Y, ld, B, ld, nrhs, NULL));
+        assert_memory_equal(X, Y, 9 * ld * sizeof *X);
+        sl_status refined = sl_plan_solve_refined(P, F, X, ld, B, ld, nrhs, 2, NULL, NULL);
+        assert_true(refined == SL_OK || refined == SL_ERR_ARGUMENT); /* not all rows in the sets */
+        SL_EXPECT(refined, sl_plan_solve_refined(Q, G, Y, ld, B, ld, nrhs, 2, NULL, NULL));
+        assert_memory_equal(X, Y, 9 * ld * sizeof *X);
+        if (S != T) {
+            SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, G, Y, ld, B, ld, nrhs, NULL));
+        }
+        sl_plan_free(P);
+        sl_plan_free(Q);
+    }
+    SL_CHECK(sl_inverse_diagonal(F, X, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_inverse_diagonal(G, Y, NULL, 0, NULL, NULL));
+    assert_memory_equal(X, Y, 9 * ld * sizeof *X);
+    sl_status status = sl_region_create(&R, G, bset, nb, NULL, NULL, NULL);
+    assert_true(status == SL_OK || status == SL_ERR_UNSUPPORTED);
+    if (R != NULL) {
+        sl_options opt = options_none();
+        opt.region = R;
+        SL_CHECK(sl_plan_create(&Q, T, bset, nb, bset, nb, &opt, NULL));
+        SL_CHECK(sl_plan_solve(Q, G, Y, ld, B, ld, 1, NULL));
+        sl_plan_free(Q);
+        sl_region_free(R);
+    }
+    free(B);
+    free(X);
+    free(Y);
+    free(bset);
+    free(xset);
+}
+
+#endif
