@@ -106,8 +106,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
- *  Returns, Cost    as sl_factor_create, but never SL_ERR_UNSUPPORTED; SL_ERR_STATE: a mapped factor
- *                   (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
+ *  Returns, Cost    as sl_factor_create, but never SL_ERR_UNSUPPORTED; SL_ERR_STATE: a mapped
+ *                   factor (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
  *                   refactorization of a loaded factor (sl_load_file), which allocates its fronts.
  *  Threads          exclusive use of F.
  *  Example          tests/core/test_factor.c

@@ -97,8 +97,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, co
  *
  *  F        [in,out]  any factor, also one of sl_factor_create. After errors as in
  *                     sl_factor_refactor.
- *  Returns, Cost      as sl_factor_create_combination, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
- *                     SL_ERR_UNSUPPORTED.
+ *  Returns, Cost      as sl_factor_create_combination, but never SL_ERR_UNSUPPORTED; mapped and
+ *                     loaded factors as in sl_factor_refactor.
  *  Threads            exclusive use of F.
  *  Example            tests/core/test_combination.c
  */

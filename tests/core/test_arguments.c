@@ -102,6 +102,20 @@ static sl_status null_rows(arguments_t *a) {
     return sl_factor_null_rows(a->F, rows, 1, &count);
 }
 
+static sl_status save_bytes(arguments_t *a) {
+    size_t bytes = 0;
+    return sl_save_bytes(&bytes, a->S, a->F);
+}
+
+static sl_status save_memory(arguments_t *a) {
+    size_t bytes = 0;
+    const sl_status status = sl_save_bytes(&bytes, o->good.S, o->good.F);
+    void *memory = test_array(bytes, 1);
+    const sl_status saved = sl_save_memory(memory, bytes, a->S, a->F);
+    free(memory);
+    return status == SL_OK ? saved : status;
+}
+
 static sl_status batch_diagonal(arguments_t *a) {
     const sl_factor *F = a->F;
     return sl_batch_diagonal(&F, 1, a->X, a->ldx, a->xset, a->nx, NULL, NULL, NULL, &a->stats);
@@ -124,14 +138,8 @@ CALL(changed, sl_factor_refactor_changed(a->F, a->A, a->xset, a->nx, &a->stats))
 CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
 CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
-#if defined(_WIN32)
-#define NOWHERE "NUL"
-#elif defined(__wasi__)
-#define NOWHERE "build/nowhere.mtx" /* there are no devices */
-#else
-#define NOWHERE "/dev/null"
-#endif
 CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
+CALL(save_file, sl_save_file(NOWHERE, a->S, a->F, NULL))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_solve, sl_plan_solve(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_refined, sl_plan_solve_refined(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps,
@@ -201,6 +209,9 @@ static const struct {
     {"sl_selected_entries", selected_entries, Z_ | X_ | LIST_},
     {"sl_region_create", region, F_ | FAILED_ | XSET_},
     {"sl_region_refactor", region_refactor, F_ | FAILED_ | OTHER_ | R_},
+    {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},
+    {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
+    {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
     {"sl_batch_diagonal", batch_diagonal, F_ | FAILED_ | X_ | LDX_ | XSET_},
     {"sl_work_reserve_factor", reserve_factor, W_ | F_ | NRHS_},

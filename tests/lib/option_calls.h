@@ -111,7 +111,7 @@ static inline sl_status option_load(option_fixture_t *f, const sl_options *opt) 
 }
 
 static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) {
-    return sl_save_file("/dev/null", f->pair.S, f->F, opt);
+    return sl_save_file(NOWHERE, f->pair.S, f->F, opt);
 }
 
 static inline sl_status option_triangle(option_fixture_t *f, const sl_options *opt) {

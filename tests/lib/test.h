@@ -31,6 +31,15 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 #define SL_CHECK(call) test_status((call), SL_OK, #call, __FILE__, __LINE__)
 #define SL_EXPECT(status, call) test_status((call), (status), #call, __FILE__, __LINE__)
 
+/* A file that may be written at any time. */
+#if defined(_WIN32)
+#define NOWHERE "NUL"
+#elif defined(__wasi__)
+#define NOWHERE "build/nowhere" /* there are no devices */
+#else
+#define NOWHERE "/dev/null"
+#endif
+
 /* ---- memory: an allocator that counts, fails on demand and detects writes outside a block ---- */
 
 typedef struct counter_t {

@@ -115,7 +115,7 @@ gives 0 'positive, 0 negative, 0 null, 0 regularized' info "$dir/f.slf"
 printf '# heat from 5\n\n5;1;12,5\r\n5,12;1,0;12,5\n0-2;1,2,3;all' >"$dir/questions"
 for checks in --flush --trusted --verify; do
     "$program" query "$dir/f.slf" $checks <"$dir/questions" >"$dir/out" 2>"$dir/err" &&
-        [ "$(wc -l <"$dir/out")" -eq 3 ] && [ "$(awk -F, 'NR == 3 { print NF }' "$dir/out")" -eq 162 ]
+        [ "$(awk -F, '{ printf "%d ", NF }' "$dir/out")" = '2 2 162 ' ]
     record $? "query $checks answers each question in a line"
 done
 [ "$(sed -n 1p "$dir/out")" = "$(sed -n 2p "$dir/out")" ] && [ -s "$dir/out" ]
