@@ -3,6 +3,7 @@
 #define SLI_SAVE_FORMAT_H
 
 #include "../../public/save.h"
+#include "../analysis/symbolic.h"
 #include "../factor/factor_setup.h"
 
 /* src/FORMAT.md specifies the format. A change of it changes SLI_READ_VERSION if older libraries
