@@ -24,6 +24,8 @@ static void assert_same_analysis(const sl_symbolic *S, const sl_symbolic *T) {
     SAME(rows_begin, s.n_supers + 1);
     SAME(rows, s.rows_begin[s.n_supers]);
     SAME(panel_begin, s.n_supers + 1);
+    assert_true((s.pairs == NULL) == (t.pairs == NULL));
+    SAME(pairs, s.pairs != NULL ? s.n : 0);
     SAME(node_of, s.n_nodes > 0 ? s.n : 0);
     SAME(node_parent, s.n_nodes);
     SAME(node_level, s.n_nodes);
@@ -118,6 +120,24 @@ static void every_ordering_and_relaxation_is_kept(void **state) {
                 way_for_all_matrices(SAVED_WEIGHTED, &from);
             }
         }
+    }
+}
+
+/* The bytes of these cases have 2x2 pivots, null vectors and regularized pivots at all. */
+static void every_way_has_what_it_stands_for(void **state) {
+    (void)state;
+    for (int way = 0; way < SAVED_WAYS; way++) {
+        saved_case_t c = saved_case_make(way, GEN_GRID2, 144, 0, NULL);
+        sl_stats stats;
+        sl_symbolic_stats(c.y.S, &stats);
+        sl_factor_stats(c.y.F, &stats);
+        const int is_pivoted = way >= SAVED_PIVOTED;
+        const int skips = way == SAVED_SKIPPED || way == SAVED_WEIGHTED;
+        assert_true((stats.symbolic.pairs > 10) == is_pivoted);
+        assert_true(stats.factor.negative > 10 || !is_pivoted);
+        assert_true((stats.factor.null > 0) == skips);
+        assert_true(stats.factor.growth >= 1.0 && stats.factor.entry_max > 0.0);
+        saved_case_free(&c);
     }
 }
 
@@ -263,6 +283,75 @@ static void a_mapped_factor_is_immutable(void **state) {
     factored_free(&y);
 }
 
+/* ---- limits ---- */
+
+/* A 2 x 2 matrix whose growth is about 1 / a. */
+static void the_growth_limit_is_kept(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    double x[3] = {1.0, 1.0, 3.0};
+    const sl_csc A = {2, 2, p, i, x};
+    const sl_int first = 0;
+    sl_symbolic *S = NULL, *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    sl_options opt = options_none();
+    sl_stats stats;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    opt = options_none();
+    opt.growth_limit = 1e5;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    saved_t m = saved_make(S, F);
+    for (int changed = 0; changed < 2; changed++) {
+        SL_CHECK(sl_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        for (int k = 0; k < 2; k++) {
+            const sl_status expected = k == 0 ? SL_OK : SL_ERR_INACCURATE;
+            x[0] = k == 0 ? 1e-4 : 1e-6;
+            SL_EXPECT(expected, changed ? sl_factor_refactor_changed(G, &A, &first, 1, &stats)
+                                        : sl_factor_refactor(G, &A, &stats));
+            assert_true(stats.factor.growth > (k == 0 ? 1e3 : 1e5));
+        }
+        sl_factor_free(G);
+        sl_symbolic_free(T);
+    }
+    saved_free(&m);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* A refinement with the factor of another matrix ends above every limit but none. */
+static void the_error_limit_is_kept(void **state) {
+    (void)state;
+    enum { N = 100 };
+    double b[N], x[N], y[N];
+    saved_call_t calls[2] = {sl_load_memory, sl_map_memory};
+    for (int limited = 0; limited < 2; limited++) {
+        sl_options opt = options_none();
+        opt.error_limit = limited ? 0.0 : -1.0;
+        factored_t f = factored_make(GEN_GRID2, N, 1, 0, &opt);
+        const sl_status expected = limited ? SL_ERR_INACCURATE : SL_OK;
+        saved_t m = saved_make(f.S, f.F);
+        gen_reals(b, N, 5);
+        for (sl_int p = 0; p < f.M.p[N]; p++) {
+            f.M.x[p] *= 1000.0;
+        }
+        memset(x, 0, sizeof x);
+        SL_EXPECT(expected, sl_factor_refine(f.F, &f.M.view, x, N, b, N, 1, 3, NULL, NULL));
+        for (int k = 0; k < 2; k++) {
+            sl_symbolic *S = NULL;
+            sl_factor *F = NULL;
+            memset(y, 0, sizeof y);
+            SL_CHECK(calls[k](&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+            SL_EXPECT(expected, sl_factor_refine(F, &f.M.view, y, N, b, N, 1, 3, NULL, NULL));
+            assert_memory_equal(x, y, sizeof x);
+            sl_factor_free(F);
+            sl_symbolic_free(S);
+        }
+        saved_free(&m);
+        factored_free(&f);
+    }
+}
+
 /* The numbers have the identity of the saved ones: what was made from a factor does not fit the
  * factor at the same address that was loaded later. */
 static void batches_refactor_loaded_factors(void **state) {
@@ -399,11 +488,14 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_variant_answers_with_the_same_bits),
         cmocka_unit_test(every_ordering_and_relaxation_is_kept),
+        cmocka_unit_test(every_way_has_what_it_stands_for),
         cmocka_unit_test(the_same_matrix_gives_the_same_bytes),
         cmocka_unit_test(an_analysis_is_saved_without_a_factor),
         cmocka_unit_test(two_loads_are_independent),
         cmocka_unit_test(a_loaded_factor_can_be_refactored),
         cmocka_unit_test(a_mapped_factor_is_immutable),
+        cmocka_unit_test(the_growth_limit_is_kept),
+        cmocka_unit_test(the_error_limit_is_kept),
         cmocka_unit_test(batches_refactor_loaded_factors),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(allocations_may_fail),

@@ -11,7 +11,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { SIDE = 4, MOST = SIDE * SIDE, BASES = 10 };
+enum { SIDE = 4, MOST = SIDE * SIDE, WAYS = 6, BASES = 2 * WAYS };
 
 /* ---- memory: loads take no more than the saved bytes ---- */
 
@@ -30,6 +30,9 @@ static void release(void *context, void *block) {
 
 /* ---- files to damage: grids and paths, with every treatment of null pivots ---- */
 
+/* Of which kind base k is; those from WAYS on are paths. */
+enum { REGULAR, SKIPPED, WEIGHTED, REGULARIZED, SIGNED, PIVOTED };
+
 typedef struct matrix_t {
     sl_int n, p[MOST + 1], i[4 * MOST];
     double x[4 * MOST];
@@ -37,7 +40,8 @@ typedef struct matrix_t {
 
 static matrix_t matrix_make(int base) {
     matrix_t A;
-    const int is_singular = base % 5 == 1 || base % 5 == 2, is_path = base >= 5;
+    const int way = base % WAYS, is_path = base >= WAYS;
+    const int is_singular = way == SKIPPED || way == WEIGHTED;
     memset(&A, 0, sizeof A);
     A.n = is_path ? 11 : MOST;
     for (sl_int j = 0, at = 0; j < A.n; j++) {
@@ -60,6 +64,9 @@ static matrix_t matrix_make(int base) {
             A.x[A.p[A.i[p]]] += 1;
         }
     }
+    for (sl_int j = 0; j < A.n && way == PIVOTED; j++) { /* needs 2x2 pivots */
+        A.x[A.p[j]] *= j % 3 == 0 ? 1e-3 : -0.125;
+    }
     return A;
 }
 
@@ -75,6 +82,7 @@ static sl_csc view_of(const matrix_t *A) {
 /* Saves base k in new memory. */
 static unsigned char *base_make(int base, size_t *size) {
     const matrix_t A = matrix_make(base);
+    const int way = base % WAYS;
     const sl_csc view = view_of(&A);
     double mass[MOST];
     sl_int signs[MOST];
@@ -86,11 +94,15 @@ static unsigned char *base_make(int base, size_t *size) {
         mass[k] = 1 + k;
         signs[k] = k % 4 == 3 ? -1 : 1;
     }
-    opt.null_pivots = base % 5 == 1 || base % 5 == 2 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
-    opt.mass = base % 5 == 2 ? mass : NULL;
-    opt.regularization = base % 5 >= 3 ? 1e-8 : 0.0;
-    opt.signs = base % 5 == 4 ? signs : NULL;
-    PROMISE(sl_symbolic_create(&S, &view, NULL, NULL) == SL_OK);
+    opt.null_pivots = way == SKIPPED || way == WEIGHTED ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+    opt.mass = way == WEIGHTED ? mass : NULL;
+    opt.regularization = way >= REGULARIZED ? 1e-8 : 0.0;
+    opt.signs = way == SIGNED ? signs : NULL;
+    if (way == PIVOTED) {
+        PROMISE(sl_symbolic_create_pivoted(&S, &view, NULL, NULL) == SL_OK);
+    } else {
+        PROMISE(sl_symbolic_create(&S, &view, NULL, NULL) == SL_OK);
+    }
     PROMISE(sl_factor_create(&F, S, &view, &opt, NULL) == SL_OK);
     PROMISE(sl_save_bytes(size, S, F) == SL_OK);
     unsigned char *bytes = (unsigned char *)malloc(*size);

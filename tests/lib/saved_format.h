@@ -5,7 +5,10 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { SAVED_HEADER = 64, SAVED_ENTRY = 32, SAVED_KNOWN = 36 };
+enum { SAVED_HEADER = 64, SAVED_ENTRY = 32, SAVED_KNOWN = 39 };
+
+/* Bytes of the sections with numbers. */
+enum { SAVED_ANALYSIS_BYTES = 192, SAVED_FACTOR_BYTES = 256 };
 
 /* Offsets in the header, and in an entry of the table. */
 enum { SAVED_READ = 12, SAVED_WRITE = 16, SAVED_SECTIONS = 20, SAVED_BYTES = 24, SAVED_SUM = 32 };
@@ -113,8 +116,11 @@ static inline void saved_change_order(unsigned char *file) {
         unsigned char *data = file + saved_u64(entry + SAVED_OFFSET);
         const uint64_t length = saved_u64(entry + SAVED_LENGTH);
         for (uint64_t at = 0; at < length; at += word) {
-            saved_reverse(data + at, word == 32 ? 8 : (int)word);
-            for (int part = 8; word == 32 && part < 32; part += 4) {
+            saved_reverse(data + at, word > 8 ? 8 : (int)word);
+            if (word == 24) {
+                saved_reverse(data + at + 8, 8);
+            }
+            for (uint32_t part = word == 24 ? 16 : 8; part < word; part += 4) {
                 saved_reverse(data + at + part, 4);
             }
         }

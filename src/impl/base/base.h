@@ -104,16 +104,14 @@ typedef unsigned long long sli_windows_size;
 #else
 typedef unsigned long sli_windows_size;
 #endif
-struct _SECURITY_ATTRIBUTES;
-union _LARGE_INTEGER;
+typedef struct _SECURITY_ATTRIBUTES *sli_windows_security;
+typedef union _LARGE_INTEGER *sli_windows_number;
 __declspec(dllimport) void *__stdcall CreateFileA(const char *path, unsigned long access,
-                                                  unsigned long share,
-                                                  struct _SECURITY_ATTRIBUTES *security,
+                                                  unsigned long share, sli_windows_security s,
                                                   unsigned long disposition, unsigned long flags,
                                                   void *model);
-__declspec(dllimport) int __stdcall GetFileSizeEx(void *file, union _LARGE_INTEGER *size);
-__declspec(dllimport) void *__stdcall CreateFileMappingA(void *file,
-                                                         struct _SECURITY_ATTRIBUTES *security,
+__declspec(dllimport) int __stdcall GetFileSizeEx(void *file, sli_windows_number size);
+__declspec(dllimport) void *__stdcall CreateFileMappingA(void *file, sli_windows_security s,
                                                          unsigned long protection,
                                                          unsigned long size_high,
                                                          unsigned long size_low, const char *name);

@@ -46,7 +46,7 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
         if ((intptr_t)file == -1) { /* INVALID_HANDLE_VALUE */
             return SL_ERR_IO;
         }
-        if (GetFileSizeEx(file, (union _LARGE_INTEGER *)(void *)&size) && size > 0) {
+        if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
             status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
         }
         section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);

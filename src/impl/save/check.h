@@ -54,21 +54,30 @@ static int sli_check_supers(const sl_symbolic *S) {
     return visited == children;
 }
 
-/* Is the elimination tree that of the supernodes? The parent of a column is in its supernode, but
- * that of the last column is the first row below, or -1. */
+/* Is `up` the parent of column k? It is in the supernode of k, but that of the last column is the
+ * first row below, or -1. The tree is that without 2x2 pivots: these only add rows to columns. */
+static int sli_check_parent(const sl_symbolic *S, sl_int k, sl_int up) {
+    const sl_int s = S->super_of[k], end = S->super_first[s + 1];
+    if (S->n_pairs > 0) {
+        return up == -1 || (up > k && up < S->n);
+    }
+    if (k + 1 < end) {
+        return up > k && up < end;
+    }
+    return up == (S->steps[s].below > 0 ? S->rows[S->rows_begin[s]] : -1);
+}
+
+/* Is the elimination tree that of the supernodes, and do the counts fit into them? */
 static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
     sl_off nnz_l = 0;
     sl_int k, roots = 0;
     for (k = 0; k < S->n; k++) {
-        const sl_int s = S->super_of[k], end = S->super_first[s + 1], up = S->parent[k];
-        const sl_int first_below = S->steps[s].below > 0 ? S->rows[S->rows_begin[s]] : -1;
-        if (k + 1 < end ? up <= k || up >= end : up != first_below) {
+        const sl_int s = S->super_of[k], end = S->super_first[s + 1];
+        if (!sli_check_parent(S, k, S->parent[k]) || S->counts[k] < 1 ||
+            S->counts[k] > end - k + S->steps[s].below) {
             return 0;
         }
-        if (S->counts[k] < 1 || S->counts[k] > end - k + S->steps[s].below) {
-            return 0;
-        }
-        roots += up == -1;
+        roots += S->parent[k] == -1;
         nnz_l += S->counts[k];
     }
     return roots == a->components && nnz_l == a->nnz_l;
