@@ -38,7 +38,7 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
             const double *l = &F->L[step->panel + sli_panel_at(step->width, r, j)];
             const sl_int c = step->column + j;
             double size = fabs(*l * F->D[c] * *l);
-            if (S->pairs != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
+            if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
                 size += 2.0 * fabs(l[0] * F->E[c] * l[SLI_TILE]);
             }
             if (size > most) {
