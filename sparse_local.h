@@ -1,64 +1,67 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0b41764cf1c69f5b
+ * FNV-1a of the lines after this comment, without the license: e9bfa97f7747e771
  *
  * Contents
  * (what a user reads)
- *     66 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    131 config.h     macros that a user may define before the include, the version, and the integer types
- *    208 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    336 options.h    options of all calls, threads, and the allocator
- *    464 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    588 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    732 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    851 factor.h     the numerical factorization P A P' = L D L'
- *   1053 solve.h      full solves, and the workspace of all solves
- *   1163 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1257 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1366 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1502 batch.h      many independent solves by one call, distributed over threads
- *   1552 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1728 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1847 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *     69 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    134 config.h     macros that a user may define before the include, the version, and the integer types
+ *    213 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    342 options.h    options of all calls, threads, and the allocator
+ *    471 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    595 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    739 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    858 factor.h     the numerical factorization P A P' = L D L'
+ *   1061 solve.h      full solves, and the workspace of all solves
+ *   1171 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1265 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1374 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1510 batch.h      many independent solves by one call, distributed over threads
+ *   1560 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1737 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1856 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   1959 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   1960 base.h   2154 status.h   2217 options.h   2277 alloc.h   2401 hash.h   2504 sort.h
- *   2574 parallel.h
+ *   2104 base.h   2350 status.h   2413 options.h   2475 alloc.h   2599 hash.h   2743 file_map.h
+ *   2844 sort.h   2914 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2612 panel.h   2644 step.h   2701 pivot_rule.h   2786 front.h   2863 pairs.h
- *   3081 inverse_front.h   3173 table.h   3194 simd.h   3288 simd_scalar.h   3407 simd_avx2.h
- *   3601 simd_avx512.h   3707 simd_neon.h   3887 dispatch.h
+ *   2952 panel.h   2984 step.h   3041 pivot_rule.h   3126 front.h   3203 pairs.h
+ *   3421 inverse_front.h   3513 table.h   3534 simd.h   3628 simd_scalar.h   3747 simd_avx2.h
+ *   3941 simd_avx512.h   4047 simd_neon.h   4227 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   3969 csc.h   4083 csc_build.h   4222 csc_triangle.h   4293 csc_products.h   4417 permute.h
- *   4486 sum.h   4571 output_file.h   4741 matrix_market.h
+ *   4309 csc.h   4423 csc_build.h   4562 csc_triangle.h   4633 csc_products.h   4757 permute.h
+ *   4826 sum.h   4911 output_file.h   5137 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5220 graph.h   5386 coarsen.h   5663 labels.h   5875 subgraph.h   6086 heap.h   6149 bisect.h
- *   6399 separator.h   6690 mindeg.h   6886 dissect.h   7236 levelset.h   7366 geometric.h
- *   7577 septree.h   7642 metis.h   7799 metis_refined.h   7925 nd.h   8132 compress.h
- *   8261 quotient.h   8672 order.h
+ *   5616 graph.h   5782 coarsen.h   6059 labels.h   6271 subgraph.h   6482 heap.h   6545 bisect.h
+ *   6795 separator.h   7086 mindeg.h   7282 dissect.h   7632 levelset.h   7762 geometric.h
+ *   7973 septree.h   8038 metis.h   8195 metis_refined.h   8321 nd.h   8528 compress.h
+ *   8657 quotient.h   9068 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   8894 symbolic_types.h   8937 etree.h   9017 counts.h   9087 supernodes.h   9348 structure.h
- *   9489 schedule.h   9704 symbolic.h  10083 reach.h
+ *   9290 symbolic_types.h   9335 etree.h   9415 counts.h   9485 supernodes.h   9746 structure.h
+ *   9887 schedule.h  10102 symbolic.h  10483 reach.h
  * (factor: the numbers of L and D)
- *  10394 factor_types.h  10732 pivot_search.h  11103 pivoted.h  11172 scatter.h  11345 uplooking.h
- *  11422 null_vectors.h  11714 multifrontal.h  11976 nullspace.h  12227 growth.h
- *  12315 factor_setup.h  12541 factor.h  12751 leftlooking.h  12937 factor_query.h
- *  13073 combination.h
+ *  10794 factor_types.h  11142 pivot_search.h  11513 pivoted.h  11582 scatter.h  11755 uplooking.h
+ *  11832 null_vectors.h  12127 multifrontal.h  12389 nullspace.h  12640 growth.h
+ *  12734 factor_setup.h  13004 factor.h  13215 leftlooking.h  13402 factor_query.h
+ *  13538 combination.h
  * (solve: full and local solves)
- *  13134 region_types.h  13252 work.h  13359 query.h  13560 singular.h  13791 backward.h
- *  13826 sweep.h  14001 compile.h  14210 plan.h  14317 local.h  14475 refine.h
- *  14658 refine_local.h  14883 rcond.h  15053 defects.h
+ *  13600 region_types.h  13718 work.h  13825 query.h  14026 singular.h  14257 backward.h
+ *  14292 sweep.h  14467 compile.h  14676 plan.h  14783 local.h  14941 refine.h
+ *  15124 refine_local.h  15349 rcond.h  15519 defects.h
  * (inverse: entries of the inverse, regions)
- *  15110 traversal.h  15388 traversal_run.h  15569 row_sets.h  15600 unit_vectors.h
- *  15859 bilinear.h  16047 entries.h  16350 block.h  16608 reserve.h  16819 selected.h
- *  17030 selected_query.h  17138 region_choose.h  17390 region.h
+ *  15576 traversal.h  15854 traversal_run.h  16035 row_sets.h  16066 unit_vectors.h
+ *  16325 bilinear.h  16513 entries.h  16816 block.h  17074 reserve.h  17285 selected.h
+ *  17496 selected_query.h  17604 region_choose.h  17856 region.h
+ * (save: factors in files)
+ *  18103 format.h  18319 decode.h  18467 check.h  18805 write.h  19011 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  17637 batch_solve.h  17865 batch_factor.h  18066 batch_diagonal.h
+ *  19367 batch_solve.h  19595 batch_factor.h  19809 batch_diagonal.h
  * (last: undefine every internal macro)
- *  18214 undef.h
+ *  19957 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  18332 multi_rhs.inl.h  18706 kernel_set.inl.h  18710 unit_triangle.inl.h  18751 two_rhs.inl.h
- *  18923 product.inl.h  19064 front.inl.h  19291 inverse_front.inl.h  19596 small_supernode.inl.h
- *  19764 single_rhs.inl.h
+ *  20088 multi_rhs.inl.h  20462 kernel_set.inl.h  20466 unit_triangle.inl.h  20507 two_rhs.inl.h
+ *  20679 product.inl.h  20820 front.inl.h  21047 inverse_front.inl.h  21352 small_supernode.inl.h
+ *  21520 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -146,6 +149,8 @@
  *  SL_NO_AVX512                  leaves out the AVX-512 kernels: AVX2 is then the best on x86.
  *  SL_NO_CLOCK                   makes all times in the statistics 0, for systems without clock();
  *                                set automatically for WASI.
+ *  SL_NO_MMAP                    leaves out sl_map_file, and with it the headers of the system that
+ *                                map files.
  *  SL_API                        linkage of the public functions, for a shared library: for example
  *                                __declspec(dllexport), or __attribute__((visibility("default"))).
  *  SL_HEADER                     name of this header, default "sparse_local.h". The implementation
@@ -232,7 +237,8 @@ typedef enum sl_status {
     SL_ERR_IO,
     /* METIS failed */
     SL_ERR_ORDERING,
-    /* a failed factor, or objects that do not belong together */
+    /* a failed factor, a mapped one that would have to change, or objects that do not belong
+     * together */
     SL_ERR_STATE,
     /* a singular system whose right-hand side has no solution */
     SL_ERR_INCONSISTENT,
@@ -371,6 +377,7 @@ typedef struct sl_allocator {
  *  |   sl_batch_factor                          | null_vector .. error_limit               |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
+ *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
  *  | sl_plan_create                             | region                                   |
  *  | sl_region_create                           | region_bytes                             |
  *
@@ -951,8 +958,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *                   refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
- *  Returns, Cost    as sl_factor_create, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
- *                   SL_ERR_UNSUPPORTED.
+ *  Returns, Cost    as sl_factor_create, but never SL_ERR_UNSUPPORTED; SL_ERR_STATE: a mapped
+ *                   factor (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
+ *                   refactorization of a loaded factor (sl_load_file), which allocates its fronts.
  *  Threads          exclusive use of F.
  *  Example          tests/core/test_factor.c
  */
@@ -974,7 +982,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
  *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
- *           F has no numbers.
+ *           F has no numbers, or is mapped.
  *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
  *           bytes per entry of the columns, 4 per row of A, of which only those reached are
  *           touched, and 4 per row of the largest front. With null pivots, one complete
@@ -1643,8 +1651,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, co
  *
  *  F        [in,out]  any factor, also one of sl_factor_create. After errors as in
  *                     sl_factor_refactor.
- *  Returns, Cost      as sl_factor_create_combination, but never SL_ERR_MEMORY, SL_ERR_TOO_LARGE or
- *                     SL_ERR_UNSUPPORTED.
+ *  Returns, Cost      as sl_factor_create_combination, but never SL_ERR_UNSUPPORTED; mapped and
+ *                     loaded factors as in sl_factor_refactor.
  *  Threads            exclusive use of F.
  *  Example            tests/core/test_combination.c
  */
@@ -1688,8 +1696,9 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *                      own use these, one after the other.
  *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if a factor is NULL or given twice; SL_ERR_STATE: factors
- *           of several analyses. After these two no factor has changed. Else the status of the
- *           first factor that failed.
+ *           of several analyses, or a mapped one; SL_ERR_MEMORY and SL_ERR_TOO_LARGE: only with
+ *           the first refactorization of a loaded factor. After these no factor has changed. Else
+ *           the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
  *  Example  tests/core/test_batch_factor.c
  */
@@ -1947,6 +1956,141 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
                                                        const sl_factor *F);
 
+/* src/public/save.h: a factor in a file or in memory: saved, loaded, and mapped without a copy */
+
+/* A saved factor outlives its process, and any number of processes can map one file and share one
+ * copy of it in memory. The format is that of the arrays in memory: src/FORMAT.md specifies it. It
+ * is the same for every instruction set and for 32 and 64 bits. Files of processors of the other
+ * byte order are loaded, but not mapped. The same analysis and factor give the same bytes; times
+ * are not saved.
+ *
+ * A loaded or mapped factor solves like the saved one, with the same bits on the same instruction
+ * set. It works with plans, regions and selected inverses that are made over the analysis that came
+ * with it. A plan of another analysis is refused (SL_ERR_STATE), also if both were loaded from one
+ * file.
+ *
+ * A loaded factor can be refactored; the first refactorization allocates the memory of its fronts.
+ * A mapped one is immutable, so that refactorizations give SL_ERR_STATE. */
+
+/** How a saved factor is checked before it is used. The header and the table of sections are always
+ *  checked, with their checksums. */
+typedef enum sl_load_checks {
+    /* every index is in range and every structure consistent: with any bytes whatsoever, later
+     * calls stay inside the memory of the objects and terminate. Numbers may be wrong */
+    SL_LOAD_CHECKED = 0,
+    /* nothing else is checked: for files that nobody else can write. A forged or damaged file may
+     * crash later calls */
+    SL_LOAD_TRUSTED,
+    /* as SL_LOAD_CHECKED, and the checksums of all sections: no byte has changed by accident */
+    SL_LOAD_VERIFIED
+} sl_load_checks;
+
+/** The bytes that an analysis and a factor take when they are saved.
+ *
+ *  bytes  [out]  a multiple of 64.
+ *  S      [in]   the analysis.
+ *  F      [in]   a factor over S, or NULL: the analysis alone.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, one over another analysis, or
+ *           objects from a file that a newer version has written and this one reads in part;
+ *           SL_ERR_TOO_LARGE: more than size_t holds.
+ *  Cost     O(1).
+ *  Threads  reads S and F.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S,
+                                              const sl_factor *F);
+
+/** Saves an analysis and a factor in the caller's memory.
+ *
+ *  memory  [out]  of `bytes` bytes, at least those of sl_save_bytes; the rest is not written. For
+ *                 sl_map_memory it must be aligned to 64 bytes.
+ *  bytes   [in]   the size of memory.
+ *  S, F    [in]   as in sl_save_bytes.
+ *  Returns  as sl_save_bytes; SL_ERR_ARGUMENT: also if memory is too small.
+ *  Cost     reads S and F twice.
+ *  Threads  reads S and F.
+ *  Example  tests/core/test_save.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
+                                               const sl_factor *F);
+
+/** Saves an analysis and a factor in a file.
+ *
+ *  The file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
+ *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
+ *  the old file keep it. On Linux, a process that is killed leaves no temporary file on most file
+ *  systems. A device or a symbolic link is written in place.
+ *
+ *  path  [in]  the name of the file.
+ *  S, F  [in]  as in sl_save_bytes.
+ *  opt   [in]  allocator; may be NULL.
+ *  Returns  as sl_save_bytes; SL_ERR_IO; SL_ERR_MEMORY.
+ *  Cost     reads S and F twice; waits until the file is on its device.
+ *  Threads  reads S and F.
+ *  Example  tests/core/test_save_file.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_symbolic *S,
+                                             const sl_factor *F, const sl_options *opt);
+
+/** Creates the analysis and the factor that memory holds, as copies.
+ *
+ *  S       [out]  the analysis, or NULL on error; release with sl_symbolic_free, after the factor.
+ *  F       [out]  the factor, NULL on error and if none was saved; release with sl_factor_free. If
+ *                 F is NULL, the analysis alone is loaded.
+ *  memory  [in]   what sl_save_memory or sl_save_file wrote, of any alignment.
+ *  bytes   [in]   the size that was saved, exactly.
+ *  checks  [in]   see sl_load_checks.
+ *  opt     [in]   allocator, threads, isa; may be NULL. threads are those of refactorizations.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
+ *           cannot read, or the isa; SL_ERR_IO: incomplete, damaged or inconsistent;
+ *           SL_ERR_TOO_LARGE: sizes do not fit size_t; SL_ERR_MEMORY.
+ *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A). Never allocates
+ *           more than `bytes` and the size of the two objects, whatever the memory contains.
+ *  Threads  any number of calls at once.
+ *  Example  tests/core/test_save.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory,
+                                               size_t bytes, sl_load_checks checks,
+                                               const sl_options *opt);
+
+/** sl_load_memory from a file, which is closed when the call returns.
+ *
+ *  path  [in]  the file.
+ *  Arguments, status, cost and threads otherwise as in sl_load_memory; SL_ERR_IO: also if the file
+ *  cannot be read.
+ *  Example  tests/core/test_save_file.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+                                             sl_load_checks checks, const sl_options *opt);
+
+/** Creates an analysis and a factor whose arrays are those in memory, without a copy.
+ *
+ *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive both objects and
+ *                not change.
+ *  S, F, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
+ *  Returns  as sl_load_memory; SL_ERR_ARGUMENT: also if memory is not aligned; SL_ERR_UNSUPPORTED:
+ *           also if the byte order is not that of this processor.
+ *  Cost     the checks; with SL_LOAD_TRUSTED O(1). Keeps less than 4 KB.
+ *  Threads  any number of calls at once.
+ *  Example  tests/core/test_save.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory,
+                                              size_t bytes, sl_load_checks checks,
+                                              const sl_options *opt);
+
+/** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
+ *
+ *  The file is unmapped by sl_symbolic_free. Replace it by sl_save_file or by renaming: the system
+ *  stops a process that reads a part of a mapped file that was cut off, and changes show in the
+ *  factor. Pages are read when they are first needed.
+ *
+ *  path  [in]  the file.
+ *  Arguments, status, cost and threads otherwise as in sl_map_memory; SL_ERR_IO: the file cannot be
+ *  read; SL_ERR_UNSUPPORTED: also with SL_NO_MMAP, and on systems other than POSIX and Windows.
+ *  Example  tests/core/test_save_file.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+                                            sl_load_checks checks, const sl_options *opt);
+
 #ifdef __cplusplus
 }
 #endif
@@ -2013,28 +2157,70 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_regi
 #endif
 #endif
 
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#define SLI_BIG_ENDIAN 1
+#endif
+
 /* Functions of Linux under names of this library, because -std=c99 hides their declarations. */
 #if defined(__linux__) && defined(__GNUC__)
 #define SLI_HUGE_PAGES 14
 extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise");
+#define SLI_FSYNC 1
 extern ptrdiff_t sli_readlink(const char *path, char *to, size_t size) __asm__("readlink");
+extern int sli_fsync(int file) __asm__("fsync");
+extern int sli_fileno(FILE *file) __asm__("fileno");
+extern FILE *sli_fdopen(int file, const char *mode) __asm__("fdopen");
+extern int sli_linkat(int from_folder, const char *from, int to_folder, const char *to,
+            int flags) __asm__("linkat");
 #endif
 
 /* POSIX systems: what a path is and who may read it. */
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
+#if !defined(SL_NO_MMAP)
+#define SLI_MMAP 1
+#include <sys/mman.h>
+#endif
 #endif
 
 /* Functions of Windows, as <windows.h> declares them; that header defines too many macros. */
 #if defined(_WIN32)
 #define SLI_WINDOWS 1
+#include <io.h>
 #if defined(__cplusplus)
 extern "C" {
 #endif
 __declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
                         unsigned long flags);
 __declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
+#if !defined(SL_NO_MMAP)
+#define SLI_MAP_VIEW 1
+#if defined(_WIN64)
+typedef unsigned long long sli_windows_size;
+#else
+typedef unsigned long sli_windows_size;
+#endif
+typedef struct _SECURITY_ATTRIBUTES *sli_windows_security;
+typedef union _LARGE_INTEGER *sli_windows_number;
+__declspec(dllimport) void *__stdcall CreateFileA(const char *path, unsigned long access,
+                          unsigned long share, sli_windows_security s,
+                          unsigned long disposition, unsigned long flags,
+                          void *model);
+__declspec(dllimport) int __stdcall GetFileSizeEx(void *file, sli_windows_number size);
+__declspec(dllimport) void *__stdcall CreateFileMappingA(void *file, sli_windows_security s,
+                             unsigned long protection,
+                             unsigned long size_high,
+                             unsigned long size_low, const char *name);
+__declspec(dllimport) void *__stdcall MapViewOfFile(void *section, unsigned long access,
+                          unsigned long offset_high,
+                          unsigned long offset_low,
+                          sli_windows_size bytes);
+__declspec(dllimport) int __stdcall UnmapViewOfFile(const void *bytes);
+__declspec(dllimport) int __stdcall CloseHandle(void *handle);
+#endif
 #if defined(__cplusplus)
 }
 #endif
@@ -2121,6 +2307,16 @@ SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
 SLI_INLINE int sli_is_finite(double a) {
   return a - a == 0.0;
 }
+
+#if defined(__APPLE__)
+#define SLI_FSYNC 1
+SLI_INLINE int sli_fsync(int file) {
+  return fsync(file);
+}
+SLI_INLINE int sli_fileno(FILE *file) {
+  return fileno(file);
+}
+#endif
 
 #if defined(SLI_POSIX) || defined(SLI_WINDOWS)
 /* Whether path is a symbolic link. Not noticed where the headers hide lstat. */
@@ -2223,7 +2419,8 @@ enum {
   SLI_READS_ANALYSIS = 2, /* the ordering and the options that orderings read */
   SLI_READS_FACTOR = 4,
   SLI_READS_REGION = 8,
-  SLI_READS_REGION_BYTES = 16
+  SLI_READS_REGION_BYTES = 16,
+  SLI_READS_ISA = 32
 };
 
 SL_API void sl_options_init(sl_options *opt, size_t size) {
@@ -2239,13 +2436,14 @@ static int sli_options_set(const sl_options *opt) {
   const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
              opt->metis_options != NULL || opt->coordinates != NULL ||
              opt->dimensions != 0 || opt->block_size != 0 || opt->purpose != 0;
-  const int factor = opt->isa != 0 || opt->method != 0 || opt->null_pivots != 0 ||
-             opt->null_tolerance != 0.0 || opt->mass != NULL ||
-             opt->consistency_tolerance != 0.0 || opt->regularization != 0.0 ||
-             opt->signs != NULL || opt->null_vector != NULL ||
-             opt->growth_limit != 0.0 || opt->error_limit != 0.0;
-  return (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) | (analysis ? SLI_READS_ANALYSIS : 0) |
-       (factor ? SLI_READS_FACTOR : 0) | (opt->region != NULL ? SLI_READS_REGION : 0) |
+  const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
+             opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
+             opt->regularization != 0.0 || opt->signs != NULL ||
+             opt->null_vector != NULL || opt->growth_limit != 0.0 ||
+             opt->error_limit != 0.0;
+  return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
+       (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
+       (opt->region != NULL ? SLI_READS_REGION : 0) |
        (opt->region_bytes != 0 ? SLI_READS_REGION_BYTES : 0);
 }
 #endif
@@ -2432,59 +2630,98 @@ SLI_INLINE uint64_t sli_fold(uint64_t x, uint64_t y) {
 #endif
 }
 
-SLI_INLINE uint64_t sli_word(const void *bytes) {
+/* What an array consists of. Its hash does not depend on the byte order of the processor: words are
+ * read as a little-endian processor reads them. */
+typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_REALS, SLI_HASH_BYTES } sli_hashed;
+
+SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
   uint64_t word;
   memcpy(&word, bytes, sizeof word);
+#if defined(SLI_BIG_ENDIAN)
+  word = kind == SLI_HASH_REALS  ? word
+       : kind == SLI_HASH_INTS ? word << 32 | word >> 32
+                   : __builtin_bswap64(word);
+#else
+  (void)kind;
+#endif
   return word;
 }
 
 /* Hashes one stripe. A 31-bit half of a word that reaches 2^31 - `room`, and one with its highest
  * bit set, sets bit 31 or 63 of the result. */
 SLI_ALWAYS_INLINE uint64_t sli_hash_stripe(uint64_t *chain, const unsigned char *bytes,
-                       uint64_t room) {
+                       sli_hashed kind, uint64_t room) {
   uint64_t beyond = 0;
   int c;
   SLI_UNROLL
   for (c = 0; c < 4; c++) {
-    const uint64_t x = sli_word(bytes + 16 * c), y = sli_word(bytes + 16 * c + 8);
+    const uint64_t x = sli_word(bytes + 16 * c, kind), y = sli_word(bytes + 16 * c + 8, kind);
     chain[c] = sli_fold(x ^ SLI_HASH_1, y ^ chain[c]);
     beyond |= (x + room) | x | (y + room) | y;
   }
   return beyond;
 }
 
-/* Mixes an array into h. The chains are independent, because the multiplications of one chain wait
- * for each other: 12 bytes a cycle. */
-SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t bytes,
-                      uint64_t room, uint64_t *beyond) {
-  uint64_t chain[4], found = 0;
-  const unsigned char *at = (const unsigned char *)data;
-  size_t left = bytes;
+/* The chains of an array that is mixed into h. They are independent, because the multiplications of
+ * one chain wait for each other: 12 bytes a cycle. */
+SLI_INLINE void sli_hash_begin(sli_hash h, uint64_t *chain) {
   chain[0] = h.a ^ SLI_HASH_2;
   chain[1] = h.b ^ SLI_HASH_3;
   chain[2] = h.a + SLI_HASH_4;
   chain[3] = h.b + SLI_HASH_1;
-  for (; left >= SLI_HASH_STRIPE; left -= SLI_HASH_STRIPE, at += SLI_HASH_STRIPE) {
-    found |= sli_hash_stripe(chain, at, room);
-  }
-  if (left > 0) {
-    unsigned char last[SLI_HASH_STRIPE] = {0};
-    memcpy(last, at, left);
-    found |= sli_hash_stripe(chain, last, room);
-  }
+}
+
+SLI_INLINE sli_hash sli_hash_end(const uint64_t *chain, uint64_t bytes) {
+  sli_hash h;
   h.a = sli_fold(chain[0] ^ bytes, chain[1] ^ SLI_HASH_2) ^
       sli_fold(chain[2] ^ SLI_HASH_3, chain[3] ^ SLI_HASH_4);
   h.b = sli_fold(chain[0] ^ SLI_HASH_4, chain[2] ^ SLI_HASH_1) +
       sli_fold(chain[1] ^ SLI_HASH_3, chain[3] ^ SLI_HASH_2);
-  *beyond = found;
   return h;
+}
+
+/* Hashes bytes in stripes; the last one is filled up with zeros. */
+SLI_ALWAYS_INLINE uint64_t sli_hash_stripes(uint64_t *chain, const void *data, size_t bytes,
+                      sli_hashed kind, uint64_t room) {
+  uint64_t found = 0;
+  const unsigned char *at = (const unsigned char *)data;
+  size_t left = bytes;
+  for (; left >= SLI_HASH_STRIPE; left -= SLI_HASH_STRIPE, at += SLI_HASH_STRIPE) {
+    found |= sli_hash_stripe(chain, at, kind, room);
+  }
+  if (left > 0) {
+    unsigned char last[SLI_HASH_STRIPE] = {0};
+    memcpy(last, at, left);
+    found |= sli_hash_stripe(chain, last, kind, room);
+  }
+  return found;
+}
+
+/* Mixes an array into h. */
+SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t bytes,
+                      sli_hashed kind, uint64_t room, uint64_t *beyond) {
+  uint64_t chain[4];
+  sli_hash_begin(h, chain);
+  *beyond = sli_hash_stripes(chain, data, bytes, kind, room);
+  return sli_hash_end(chain, bytes);
 }
 
 static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
   uint64_t unused;
-  return sli_hash_checked(h, data, bytes, 0, &unused);
+  return sli_hash_checked(h, data, bytes, SLI_HASH_BYTES, 0, &unused);
 }
 
+#if defined(SLI_BIG_ENDIAN)
+static sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
+  uint64_t unused;
+  return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, 0, &unused);
+}
+
+static sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
+  uint64_t unused;
+  return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_REALS, 0, &unused);
+}
+#else
 SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
   return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
@@ -2492,13 +2729,116 @@ SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
 SLI_INLINE sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
   return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
+#endif
 
 /* Mixes indices into *h; returns whether all of them are in 0..n-1. */
 static int sli_hash_indices(sli_hash *h, const sl_int *a, sl_int count, sl_int n) {
   const uint64_t room = ((uint64_t)1 << 31) - (uint64_t)n;
   uint64_t beyond;
-  *h = sli_hash_checked(*h, a, (size_t)count * sizeof *a, room << 32 | room, &beyond);
+  *h = sli_hash_checked(*h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, room << 32 | room,
+              &beyond);
   return count == 0 || (beyond & 0x8000000080000000u) == 0;
+}
+
+/* src/impl/base/file_map.h: files mapped into memory, read-only, and the size of a file */
+
+typedef struct sli_mapping {
+  const void *bytes; /* NULL: nothing is mapped */
+  size_t size;
+} sli_mapping;
+
+/* Maps a file. An empty file cannot be mapped, and gives SL_ERR_IO like one that cannot be read. */
+static sl_status sli_map(const char *path, sli_mapping *out) {
+  sl_status status = SL_ERR_IO;
+  out->bytes = NULL;
+  out->size = 0;
+#if defined(SLI_MMAP)
+  {
+    const int file = open(path, O_RDONLY);
+    struct stat found;
+    void *bytes;
+    if (file < 0) {
+      return SL_ERR_IO;
+    }
+    if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
+      status = (uint64_t)found.st_size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+    }
+    if (status == SL_OK) {
+      bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
+      if (bytes == MAP_FAILED) {
+        status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
+      } else {
+        out->bytes = bytes;
+        out->size = (size_t)found.st_size;
+      }
+    }
+    close(file);
+  }
+#elif defined(SLI_MAP_VIEW)
+  {
+    /* GENERIC_READ; FILE_SHARE_READ and FILE_SHARE_DELETE; OPEN_EXISTING; an ordinary file */
+    void *const file = CreateFileA(path, 0x80000000u, 1 | 4, NULL, 3, 0x80, NULL);
+    void *section;
+    int64_t size = 0;
+    if ((intptr_t)file == -1) { /* INVALID_HANDLE_VALUE */
+      return SL_ERR_IO;
+    }
+    if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
+      status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+    }
+    section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
+    if (section != NULL) { /* 2: PAGE_READONLY, 4: FILE_MAP_READ */
+      out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
+      CloseHandle(section);
+    }
+    if (status == SL_OK && out->bytes == NULL) {
+      status = SL_ERR_IO;
+    } else if (status == SL_OK) {
+      out->size = (size_t)size;
+    }
+    CloseHandle(file);
+  }
+#else
+  (void)path;
+  status = SL_ERR_UNSUPPORTED;
+#endif
+  return status;
+}
+
+static void sli_unmap(const sli_mapping *map) {
+  if (map->bytes != NULL) {
+#if defined(SLI_MMAP)
+    munmap((void *)(uintptr_t)map->bytes, map->size);
+#elif defined(SLI_MAP_VIEW)
+    UnmapViewOfFile(map->bytes);
+#endif
+  }
+}
+
+/* The bytes of an open file, which is left at its start; 0 if it has no size, as a pipe. */
+static uint64_t sli_file_size(FILE *file) {
+#if defined(_WIN32)
+  const int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : 0;
+#else
+  const int64_t size = fseek(file, 0, SEEK_END) == 0 ? (int64_t)ftell(file) : 0;
+#endif
+  rewind(file);
+  return size > 0 ? (uint64_t)size : 0;
+}
+
+/* Writes what was written to a file so far to its device, where the system can. Returns whether
+ * that succeeded. */
+static int sli_flush(FILE *file) {
+  if (fflush(file) != 0) {
+    return 0;
+  }
+#if defined(SLI_FSYNC)
+  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* a device */
+#elif defined(_WIN32)
+  return _commit(_fileno(file)) == 0;
+#else
+  return 1;
+#endif
 }
 
 /* src/impl/base/sort.h: sorts pairs (key, value): insertion sort for few, radix sort for many; binary search */
@@ -4573,10 +4913,19 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
 #define SLI_TEMPORARY_NAMES 100 /* tried beside a file: path.tmp00 to path.tmp99 */
 #define SLI_TEMPORARY_SUFFIX 16 /* bytes of ".tmp" and any int, as compilers count them */
 
+/* Files without a name, and how they get one: of Linux, where the headers show the constant. */
+#if defined(SLI_FSYNC) && defined(__linux__) && defined(__O_TMPFILE)
+#define SLI_UNNAMED_FILES 1
+#define SLI_FILE_NAME_MAX 32 /* of /proc/self/fd/ and any int */
+#define SLI_HERE (-100)      /* AT_FDCWD */
+#define SLI_FOLLOW 0x400     /* AT_SYMLINK_FOLLOW */
+#endif
+
 typedef struct sli_output {
   FILE *file;
   const char *path;
   char *temporary; /* name of the file that is renamed to path; NULL: path itself is written */
+  int is_unnamed;  /* the file gets the temporary name only when it is complete */
 } sli_output;
 
 #if defined(SLI_POSIX)
@@ -4652,12 +5001,53 @@ static FILE *sli_create_new(const char *name) {
 #endif
 }
 
+#if defined(SLI_UNNAMED_FILES)
+/* Opens a file without a name in the folder of o->path, which vanishes if the process is killed.
+ * o->temporary is used to name the folder. Returns 0, without a file, where the file system has no
+ * such files or this one could not take the place of path. */
+static int sli_create_unnamed(sli_output *o, int exists) {
+  const char *slash = strrchr(o->path, '/');
+  const size_t length = slash == NULL ? 0 : (size_t)(slash - o->path) + 1;
+  char name[SLI_FILE_NAME_MAX];
+  int file;
+  memcpy(o->temporary, o->path, length);
+  memcpy(o->temporary + length, ".", 2);
+  file = open(o->temporary, __O_TMPFILE | O_WRONLY, 0666);
+  if (file < 0) {
+    return 0;
+  }
+  snprintf(name, sizeof name, "/proc/self/fd/%d", file);
+  o->file = !exists || sli_take_attributes(name, o->path) ? sli_fdopen(file, "wb") : NULL;
+  if (o->file == NULL) {
+    close(file);
+  }
+  return o->file != NULL;
+}
+
+/* Gives an unnamed file the first temporary name that is free. Returns whether it has one. */
+static int sli_name_unnamed(sli_output *o) {
+  const size_t length = strlen(o->path);
+  char name[SLI_FILE_NAME_MAX];
+  int k, is_named = 0;
+  snprintf(name, sizeof name, "/proc/self/fd/%d", sli_fileno(o->file));
+  memcpy(o->temporary, o->path, length);
+  for (k = 0; k < SLI_TEMPORARY_NAMES && !is_named; k++) {
+    snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
+    is_named = sli_linkat(SLI_HERE, name, SLI_HERE, o->temporary, SLI_FOLLOW) == 0;
+  }
+  return is_named;
+}
+#endif
+
 /* Creates the file o->temporary. Returns 0, without a file, if it could not take the place of path,
  * so that path itself must be written. Returns 1 with the file, or with o->file NULL if there is no
  * space for it or no name. */
 static int sli_create_beside(sli_output *o, int exists) {
   const size_t length = strlen(o->path);
   int k;
+#if defined(SLI_UNNAMED_FILES)
+  o->is_unnamed = sli_create_unnamed(o, exists);
+#endif
   memcpy(o->temporary, o->path, length);
   for (k = 0; k < SLI_TEMPORARY_NAMES && o->file == NULL; k++) {
     snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
@@ -4667,7 +5057,7 @@ static int sli_create_beside(sli_output *o, int exists) {
     return errno != EACCES && errno != EPERM && errno != EROFS && errno != ENAMETOOLONG;
   }
 #if defined(SLI_POSIX)
-  if (exists && !sli_take_attributes(o->temporary, o->path)) {
+  if (exists && !o->is_unnamed && !sli_take_attributes(o->temporary, o->path)) {
     fclose(o->file);
     o->file = NULL;
     remove(o->temporary);
@@ -4685,6 +5075,7 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
   o->path = path;
   o->temporary = NULL;
   o->file = NULL;
+  o->is_unnamed = 0;
   if (sli_is_replaceable(path, &exists)) {
     o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
     if (o->temporary == NULL) {
@@ -4727,10 +5118,15 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
 
 /* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
 static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
-  int ok = fclose(o->file) == 0 && complete, is_only_copy = 0;
+  int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
+#if defined(SLI_UNNAMED_FILES)
+  has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
+  ok = ok && has_name;
+#endif
+  ok = fclose(o->file) == 0 && ok;
   if (o->temporary != NULL) {
     ok = ok && sli_replace(o, &is_only_copy);
-    if (!ok && !is_only_copy) {
+    if (!ok && has_name && !is_only_copy) {
       remove(o->temporary);
     }
     sli_free(a, o->temporary);
@@ -8932,6 +9328,8 @@ struct sl_symbolic {
   sl_int n_nodes;                   /* nodes of the separator tree; 0: the ordering has none */
   sl_int *node_of;                  /* n: the node of each column */
   sl_int *node_parent, *node_level; /* n_nodes */
+  sli_mapping mapping;              /* the mapped file that holds the arrays; empty: none */
+  int is_partial;                   /* made from a file that has more than this library reads */
 };
 
 /* src/impl/analysis/etree.h: elimination tree, postorder, and renumbering of the columns */
@@ -9752,9 +10150,9 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
 }
 
+/* All arrays. A saved analysis has them in this order (save/format.h). */
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-  (void)sli_take(b, 1, sizeof(sl_symbolic));
   S->perm = SLI_TAKE(b, sl_int, n);
   S->iperm = SLI_TAKE(b, sl_int, n);
   S->parent = SLI_TAKE(b, sl_int, n);
@@ -9966,6 +10364,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     rows += w->amalgamation.below[s];
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(&draft, &b, rows, stats->symbolic.nnz_a);
     stats->symbolic.bytes = b.used;
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
@@ -10044,6 +10443,7 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
 SL_API void sl_symbolic_free(sl_symbolic *S) {
   if (S != NULL) {
     const sl_allocator a = S->allocator;
+    sli_unmap(&S->mapping);
     sli_free(&a, S);
   }
 }
@@ -10414,10 +10814,10 @@ typedef struct sli_failure {
 
 /* Row k of A z in pivot order. A cache line holds two: the product visits rows at random. */
 typedef struct sli_null_row {
-  double z;       /* the assumed null vectors of all components */
-  double product; /* scratch: (A z)(k) */
-  double size;    /* scratch: (|A| |z|)(k) */
-  sl_int entries; /* scratch: entries of the row */
+  double z;
+  double product; /* (A z)(k) */
+  double size;    /* (|A| |z|)(k) */
+  sl_int entries; /* entries of the row */
   sl_int last;    /* the last pivot of the component of the row */
 } sli_null_row;
 /* What a supernode contributes to pivot growth (growth.h). */
@@ -10425,6 +10825,7 @@ typedef struct sli_extent {
   double entry;     /* the largest |a| in its columns */
   double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
   sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
+  sl_int zero;      /* instead of padding: saved factors have no undefined bytes */
 } sli_extent;
 
 struct sl_factor {
@@ -10436,6 +10837,8 @@ struct sl_factor {
   sl_null_pivots null_pivots;
   sl_method method;
   int is_valid;     /* L and D hold a factor */
+  int is_immutable; /* L, D and the other arrays are those of a mapped file */
+  void *scratch;    /* the block of all scratch arrays; NULL: not allocated yet */
   sl_status status; /* of the last factorization */
   /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
    * numbers keeps it */
@@ -10461,8 +10864,9 @@ struct sl_factor {
   /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
   sl_int *anchors;
   double *mass;       /* n: the weights m in pivot order; NULL: none */
-  sli_null_row *rows; /* n */
-  double *rounding;   /* n: for the rule */
+  double *z;          /* n: the assumed null vectors of all components */
+  sli_null_row *rows; /* n: scratch */
+  double *rounding;   /* n: scratch for the rule */
   /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h); before
    * a column of L is computed, z or 0 */
   double *g;
@@ -10525,6 +10929,11 @@ SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_
 /* Entries of the inverse are computed with a diagonal D only. */
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
   return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+/* May the numbers of F change, and is its analysis still there? */
+SLI_INLINE int sli_factor_may_change(const sl_factor *F) {
+  return !F->is_immutable && sli_factor_is_over(F, F->S, F->analysis);
 }
 
 /* Fills in a failure and returns its status. */
@@ -10606,6 +11015,7 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   sl_status status = SL_OK;
   F->extents[s].entry = F->extents[s].magnitude = 0.0;
   F->extents[s].pivot = -1;
+  F->extents[s].zero = 0;
   if (from->A != NULL) {
     return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
   }
@@ -11630,6 +12040,9 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   const double rounding = sli_null_rounding(S->n), *diagonal = F->g;
   sl_int k, refused = -1;
   F->stats.factor.regular = 0;
+  for (k = 0; k < S->n; k++) {
+    F->rows[k].z = F->z[k];
+  }
   sli_null_product(S, from, F->rows, F->g);
   sli_null_components(F->rows, S->n);
   memset(F->rounding, 0, (size_t)S->n * sizeof(double));
@@ -12260,7 +12673,7 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
       const double *l = &F->L[step->panel + sli_panel_at(step->width, r, j)];
       const sl_int c = step->column + j;
       double size = fabs(*l * F->D[c] * *l);
-      if (S->pairs != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
+      if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
         size += 2.0 * fabs(l[0] * F->E[c] * l[SLI_TILE]);
       }
       if (size > most) {
@@ -12272,12 +12685,19 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
   return cause;
 }
 
-/* Refuses the tree of supernodes first .. last, whose magnitudes exceed bound. Row k of the first
- * such magnitude is where the growth shows; it goes back to a pivot that is small. */
-static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double bound,
+/* The growth of the largest magnitude. The sum may overflow, but no term of a finite pivot does. */
+SLI_INLINE double sli_growth(double magnitude, double entry) {
+  return magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+}
+
+/* Refuses the tree of supernodes first .. last, whose growth exceeds the limit. entry: the largest
+ * |a|. Row k of the first such magnitude is where the growth shows; it goes back to a pivot that is
+ * small. */
+static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double entry,
                    sli_failure *failure) {
+  const double bound = F->growth_limit * entry;
   sl_int s = first, k, cause;
-  while (s < last && !(F->extents[s].magnitude > bound)) {
+  while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
     s++;
   }
   k = F->extents[s].pivot;
@@ -12298,12 +12718,11 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
     entry = fmax(entry, F->extents[s].entry);
     magnitude = fmax(magnitude, F->extents[s].magnitude);
     if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
-      /* the sum may overflow, but no term of a finite pivot does */
-      growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+      growth = sli_growth(magnitude, entry);
       info->growth = fmax(info->growth, growth);
       info->entry_max = fmax(info->entry_max, entry);
       if (growth > F->growth_limit && failure->status == SL_OK) {
-        (void)sli_growth_refuse(F, first, s, F->growth_limit * entry, failure);
+        (void)sli_growth_refuse(F, first, s, entry, failure);
       }
       entry = magnitude = 0.0;
       first = s + 1;
@@ -12314,17 +12733,19 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
 
 /* src/impl/factor/factor_setup.h: allocates a factor without numbers from the options, and releases it */
 
-static void sli_factor_layout(sl_factor *F, sli_block *b) {
+/* What a factorization leaves and solves read, and the options that the next one needs. has_mass:
+ * there are weights. A saved factor has these arrays in this order (save/format.h). */
+static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   const sl_symbolic *S = F->S;
-  const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
-  const uint64_t workers = (uint64_t)F->schedule.workers;
-  (void)sli_take(b, 1, sizeof(sl_factor));
+  const size_t n = (size_t)S->n;
   F->D = SLI_TAKE(b, double, n);
   if (S->n_pairs > 0) {
     F->E = SLI_TAKE(b, double, n);
+  }
+  if (S->n_pairs > 0 || has_mass) {
     F->divisors = SLI_TAKE(b, double, n);
   }
-  F->extents = SLI_TAKE(b, sli_extent, supers);
+  F->extents = SLI_TAKE(b, sli_extent, S->n_supers);
   if (F->rule.regularization != 0.0) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.shifts = SLI_TAKE(b, double, n);
@@ -12332,20 +12753,30 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
   }
   if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
     F->nulls = SLI_TAKE(b, sl_int, n);
-    F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.kinds = SLI_TAKE(b, signed char, n);
-    F->rows = SLI_TAKE(b, sli_null_row, n);
-    F->rounding = SLI_TAKE(b, double, n);
+    F->z = SLI_TAKE(b, double, n);
     F->g = SLI_TAKE(b, double, n);
-    F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
   }
-  if (F->is_centered) {
+  if (has_mass) {
     F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
     F->squares = SLI_TAKE(b, double, S->stats.symbolic.components);
     F->mass = SLI_TAKE(b, double, n);
     F->center = SLI_TAKE(b, double, n);
-    F->divisors = SLI_TAKE(b, double, n);
     F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+  }
+  F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+}
+
+/* The scratch of a factorization. */
+static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
+  const sl_symbolic *S = F->S;
+  const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
+  const uint64_t workers = (uint64_t)F->schedule.workers;
+  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    F->rule.signs = SLI_TAKE(b, signed char, n);
+    F->rows = SLI_TAKE(b, sli_null_row, n);
+    F->rounding = SLI_TAKE(b, double, n);
+    F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
   }
   if (F->method == SL_METHOD_SUPERNODAL) {
     const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
@@ -12363,7 +12794,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b) {
     F->list = SLI_TAKE(b, uint64_t, supers);
     F->list_scratch = SLI_TAKE(b, uint64_t, supers);
   }
-  F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
 }
 
 /* Plans a supernodal factorization: assigns fronts to workers and allocates the update stack. */
@@ -12391,6 +12821,31 @@ static sl_status sli_factor_schedule(sl_factor *F) {
   return status;
 }
 
+/* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
+ * with its first refactorization. */
+static sl_status sli_factor_prepare(sl_factor *F) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  if (F->scratch != NULL) {
+    return SL_OK;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_factor_layout_scratch(F, &b);
+    F->stats.factor.bytes += pass == 0 ? b.used : 0;
+    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    F->scratch = b.base;
+    status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
+  }
+  if (status != SL_OK) {
+    sli_free(&F->allocator, F->scratch);
+    F->scratch = NULL;
+  }
+  return status;
+}
+
 /* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of 1e2 to
  * 1e6 rows it stayed below 60 + n/16 units of rounding, while every pivot of a regular matrix
  * stayed above 1e9 units. */
@@ -12413,7 +12868,8 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
 
 /* Checks all options that a factorization reads. */
 static int sli_factor_options_are_valid(const sl_options *opt) {
-  return sli_options_are_valid(opt, SLI_READS_FACTOR) && sli_factor_choices_are_valid(opt);
+  return sli_options_are_valid(opt, SLI_READS_FACTOR | SLI_READS_ISA) &&
+       sli_factor_choices_are_valid(opt);
 }
 
 /* A limit of the options: 0 is the default, and what is negative is no limit. */
@@ -12459,7 +12915,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
       if (!sli_is_finite(z)) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
       }
-      F->rows[S->iperm[i]].z = z;
+      F->z[S->iperm[i]] = z;
     }
   }
   return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
@@ -12483,8 +12939,25 @@ SL_API void sl_factor_free(sl_factor *F) {
   if (F != NULL) {
     const sl_allocator a = F->allocator;
     sli_free(&a, F->stack);
+    sli_free(&a, F->scratch);
     sli_free(&a, F);
   }
+}
+
+/* Sets the kernels and the threads of a factor that has its analysis and its method. */
+static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
+  F->schedule.workers = 1;
+  if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
+    F->threads = opt->threads;
+    F->schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(F->S->n_supers, 1));
+  }
+  F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+  if (F->kernels == NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  F->stats.factor.isa = F->kernels->isa;
+  F->stats.factor.method = F->method;
+  return SL_OK;
 }
 
 /* Creates a factor with its memory and its schedule, but without numbers. */
@@ -12502,31 +12975,21 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   draft.analysis = S->identity;
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
-  draft.schedule.workers = 1;
-  if (opt != NULL && draft.method == SL_METHOD_SUPERNODAL) {
-    draft.threads = opt->threads;
-    draft.schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(S->n_supers, 1));
-  }
-  draft.kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
-  if (draft.kernels == NULL || (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP)) {
-    return SL_ERR_UNSUPPORTED;
-  }
+  status = S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP ? SL_ERR_UNSUPPORTED
+                                    : sli_factor_use(&draft, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_factor_layout(&draft, &b);
+    (void)sli_take(&b, 1, sizeof(sl_factor));
+    sli_factor_layout(&draft, &b, draft.is_centered);
     draft.stats.factor.bytes = b.used;
     status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
   if (status == SL_OK) {
     sl_factor *F = (sl_factor *)(void *)b.base;
-    draft.stats.factor.isa = draft.kernels->isa;
-    draft.stats.factor.method = draft.method;
     *F = draft;
     if (F->E != NULL) {
       memset(F->E, 0, (size_t)S->n * sizeof(double));
     }
-    if (F->method == SL_METHOD_SUPERNODAL) {
-      status = sli_factor_schedule(F);
-    }
+    status = sli_factor_prepare(F);
     status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
     F->stats.factor.seconds_setup = sli_seconds() - started;
     if (status == SL_OK) {
@@ -12706,7 +13169,8 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
   if (F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+  status = sli_factor_may_change(F) ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+  status = status == SL_OK ? sli_factor_prepare(F) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -12887,7 +13351,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_factor_fits(F, A);
+  status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
   if (status != SL_OK) {
     return status;
   }
@@ -12900,6 +13364,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   if (F->method != SL_METHOD_SUPERNODAL || entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
+  status = sli_factor_prepare(F);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     seeds = SLI_TAKE(&b, uint64_t, entries);
     scratch = SLI_TAKE(&b, uint64_t, entries);
@@ -13119,10 +13584,11 @@ SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coef
   if (F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  if (!sli_factor_is_over(F, F->S, F->analysis)) {
+  if (!sli_factor_may_change(F)) {
     return SL_ERR_STATE;
   }
   status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
+  status = status == SL_OK ? sli_factor_prepare(F) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -13671,7 +14137,7 @@ static void sli_null_products(const sl_factor *F, const sli_reach *R, double *y,
         }
         sli_chains_sum(chains, lanes, sums);
         for (r = 0; r < lanes; r++) {
-          y[(ptrdiff_t)at * lanes + r] = sums[r] / F->rows[null].z;
+          y[(ptrdiff_t)at * lanes + r] = sums[r] / F->z[null];
         }
         break;
       }
@@ -17633,6 +18099,1270 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R) {
   return v;
 }
 
+/* save: factors in files */
+/* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
+
+/* src/FORMAT.md specifies the format. A change of it changes SLI_READ_VERSION if older libraries
+ * must not read the new files, and SLI_WRITE_VERSION in any case. */
+#define SLI_READ_VERSION 1
+#define SLI_WRITE_VERSION 1
+#define SLI_ORDER_MARK 0x01020304u
+#define SLI_ORDER_MARK_SWAPPED 0x04030201u
+#define SLI_SECTIONS_MAX 64 /* of a file of a later version */
+
+typedef struct sli_saved_header {
+  unsigned char magic[8];
+  uint32_t order_mark, read_version, write_version, sections;
+  uint64_t bytes;    /* of the file */
+  uint64_t checksum; /* of header and table, where this field counts as 0 */
+  uint64_t reserved[3];
+} sli_saved_header;
+
+/* An entry of the table. Sections follow each other in the order of the table, each from the next
+ * multiple of 64 bytes on, filled up with zeros. */
+typedef struct sli_section {
+  uint32_t id;
+  uint32_t word; /* bytes of a word: 1, 4 or 8; 24: an sli_extent; 32: an sli_step */
+  uint64_t offset, bytes;
+  uint64_t checksum; /* of the section and the zeros after it */
+} sli_section;
+
+enum {
+  SLI_SECTION_ANALYSIS = 1, /* the numbers of sli_saved_analysis */
+  SLI_SECTION_FACTOR = 2,
+  SLI_SECTION_PERM = 16, /* arrays of an analysis, in the order of sli_symbolic_layout */
+  SLI_SECTION_D = 64,    /* arrays of a factor, in the order of sli_factor_layout */
+  SLI_FACTOR_SECTIONS = 17
+};
+
+/* Words of 8 bytes only, so that any reader can change their byte order. */
+typedef struct sli_saved_analysis {
+  int64_t n, supers, nodes, nnz_input, rows, entries, panels;
+  int64_t tallest, widest, triangle, nnz_l, fundamental, tree_height, components;
+  int64_t is_pivoted, pairs, delayed;
+  uint64_t pattern[2], identity[2];
+  double flops;
+  uint64_t reserved[2];
+} sli_saved_analysis;
+
+typedef struct sli_saved_factor {
+  int64_t method, null_pivots, has_mass, has_signs, checks, is_centered, nulls, anchors;
+  int64_t positive, negative, null, regularized, weak, regular;
+  double pivot_min, pivot_max, entry_max, growth;
+  double null_tolerance, regularization, consistency, growth_limit, error_limit;
+  uint64_t identity[2];
+  uint64_t reserved[7];
+} sli_saved_factor;
+
+/* A file in progress: the header, the table, and where the contents of each section are. */
+typedef struct sli_saved {
+  sli_saved_header header;
+  sli_section table[SLI_SECTIONS_MAX];
+  sli_saved_analysis analysis;
+  sli_saved_factor factor;
+  /* the first `used` bytes of each section, the others are 0; NULL while only sizes are known */
+  const void *data[SLI_SECTIONS_MAX];
+  uint64_t used[SLI_SECTIONS_MAX];
+  sl_int first_array;  /* the section with the first array of the analysis */
+  sl_int first_number; /* the section with the first array of the factor */
+} sli_saved;
+
+static const unsigned char sli_saved_magic[8] = {0x89, 'S', 'L', 'F', 13, 10, 26, 10};
+
+SLI_INLINE uint64_t sli_round_up(uint64_t bytes) {
+  return (bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+}
+
+/* Bytes of the header and the table. */
+SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
+  return sli_round_up(sizeof f->header + f->header.sections * sizeof(sli_section));
+}
+
+/* Appends a section of `count` words, of which `used` have contents. */
+static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
+              uint64_t count, uint64_t used) {
+  const uint32_t k = f->header.sections++;
+  f->table[k].id = id;
+  f->table[k].word = word;
+  f->table[k].bytes = count * word;
+  f->data[k] = data;
+  f->used[k] = used * word;
+}
+
+static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+  const sli_saved_analysis *a = &f->analysis;
+  const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
+           entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
+  uint32_t id = SLI_SECTION_PERM;
+#define SLI_ADD(word, array, count) sli_saved_add(f, id++, word, S->array, count, count)
+  f->first_array = (sl_int)f->header.sections;
+  SLI_ADD(4, perm, n);
+  SLI_ADD(4, iperm, n);
+  SLI_ADD(4, parent, n);
+  SLI_ADD(4, counts, n);
+  SLI_ADD(4, super_of, n);
+  SLI_ADD(4, super_first, supers + 1);
+  SLI_ADD(4, super_parent, supers);
+  SLI_ADD(8, rows_begin, supers + 1);
+  SLI_ADD(4, rows, rows);
+  SLI_ADD(8, panel_begin, supers + 1);
+  SLI_ADD(32, steps, supers);
+  SLI_ADD(4, first_descendant, supers);
+  SLI_ADD(1, pairs, a->pairs > 0 ? n : 0);
+  SLI_ADD(4, relative, rows);
+  SLI_ADD(8, scatter_begin, supers + 1);
+  SLI_ADD(4, scatter_from, entries);
+  SLI_ADD(8, scatter_to, entries);
+  SLI_ADD(4, node_of, nodes > 0 ? n : 0);
+  SLI_ADD(4, node_parent, nodes);
+  SLI_ADD(4, node_level, nodes);
+#undef SLI_ADD
+}
+
+/* Arrays that the factor does not have take no bytes, but have their entry in the table. */
+static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_factor) {
+  const sli_saved_factor *g = &f->factor;
+  const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
+  const uint64_t regularized = g->regularization != 0.0 ? n : 0;
+  const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
+  const uint64_t weighted = g->has_mass ? n : 0;
+  const uint64_t trees = g->has_mass ? (uint64_t)f->analysis.components : 0;
+  const uint64_t anchors = g->is_centered ? (uint64_t)g->anchors : 0;
+  const uint64_t panels = has_factor ? (uint64_t)f->analysis.panels : 0;
+  const uint64_t supers = has_factor ? (uint64_t)f->analysis.supers : 0;
+  const uint64_t paired = f->analysis.pairs > 0 ? n : 0;
+  const uint64_t divisors = paired > 0 ? n : weighted;
+  uint32_t id = SLI_SECTION_D;
+#define SLI_ADD(word, array, count, used) sli_saved_add(f, id++, word, F->array, count, used)
+  f->first_number = (sl_int)f->header.sections;
+  SLI_ADD(8, D, n, n);
+  SLI_ADD(8, E, paired, paired);
+  SLI_ADD(8, divisors, divisors, paired > 0 || g->is_centered ? divisors : 0);
+  SLI_ADD(24, extents, supers, supers);
+  SLI_ADD(1, rule.signs, regularized, g->has_signs ? n : 0);
+  SLI_ADD(8, rule.shifts, regularized, regularized);
+  SLI_ADD(4, regularized, regularized, (uint64_t)g->regularized);
+  SLI_ADD(4, nulls, skipped, (uint64_t)g->nulls);
+  SLI_ADD(1, rule.kinds, skipped, skipped);
+  SLI_ADD(8, z, skipped, skipped);
+  SLI_ADD(8, g, skipped, g->nulls > 0 ? skipped : 0);
+  SLI_ADD(4, anchors, trees, anchors);
+  SLI_ADD(8, squares, trees, anchors);
+  SLI_ADD(8, mass, weighted, weighted);
+  SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
+  SLI_ADD(8, ratios, trees, anchors);
+  SLI_ADD(8, L, panels, panels);
+#undef SLI_ADD
+}
+
+/* Fills the table from the numbers of both objects and, where they are known, their arrays.
+ * Returns 0 if the sizes overflow. */
+static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *F, int has_factor) {
+  const uint64_t limit = UINT64_C(1) << 62;
+  uint64_t at;
+  uint32_t k;
+  f->header.sections = 0;
+  sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
+          sizeof f->analysis / 8);
+  sli_saved_add(f, SLI_SECTION_FACTOR, 8, &f->factor, has_factor ? sizeof f->factor / 8 : 0,
+          has_factor ? sizeof f->factor / 8 : 0);
+  sli_saved_add_analysis(f, S);
+  sli_saved_add_factor(f, F, has_factor);
+  at = sli_saved_prefix(f);
+  for (k = 0; k < f->header.sections; k++) {
+    f->table[k].offset = at;
+    at += sli_round_up(f->table[k].bytes);
+    if (at >= limit) {
+      return 0;
+    }
+  }
+  f->header.bytes = at;
+  return 1;
+}
+
+/* A checksum in progress: that of a sequence of bytes, in which zeros fill up each piece to a
+ * multiple of 64 bytes. */
+typedef struct sli_checksum {
+  uint64_t chain[4];
+  uint64_t bytes;
+} sli_checksum;
+
+static sli_checksum sli_checksum_begin(void) {
+  const sli_hash none = {0, 0};
+  sli_checksum c;
+  sli_hash_begin(none, c.chain);
+  c.bytes = 0;
+  return c;
+}
+
+static void sli_checksum_add(sli_checksum *c, const void *data, size_t bytes) {
+  (void)sli_hash_stripes(c->chain, data, bytes, SLI_HASH_BYTES, 0);
+  c->bytes += sli_round_up(bytes);
+}
+
+static uint64_t sli_checksum_end(const sli_checksum *c) {
+  const sli_hash h = sli_hash_end(c->chain, c->bytes);
+  return h.a ^ h.b;
+}
+
+/* The checksum of the header and the table, whose bytes are given. */
+static uint64_t sli_prefix_checksum(const unsigned char *prefix, size_t bytes) {
+  sli_checksum c = sli_checksum_begin();
+  sli_saved_header header;
+  memcpy(&header, prefix, sizeof header);
+  header.checksum = 0;
+  sli_checksum_add(&c, &header, sizeof header);
+  sli_checksum_add(&c, prefix + sizeof header, bytes - sizeof header);
+  return sli_checksum_end(&c);
+}
+
+/* src/impl/save/decode.h: from the bytes of a header, a table and numbers to what they mean; byte order */
+
+SLI_INLINE void sli_swap(unsigned char *at, int bytes) {
+  int k;
+  for (k = 0; k < bytes / 2; k++) {
+    const unsigned char keep = at[k];
+    at[k] = at[bytes - 1 - k];
+    at[bytes - 1 - k] = keep;
+  }
+}
+
+/* Reverses the byte order of an array of words. */
+static void sli_swap_words(void *data, uint32_t word, uint64_t bytes) {
+  unsigned char *at = (unsigned char *)data, *end = at + bytes;
+  for (; word > 1 && at < end; at += word) {
+    uint32_t k = word == 4 ? 0 : 8; /* where the words of 4 bytes begin */
+    sli_swap(at, word == 4 ? 4 : 8);
+    if (word == 24) { /* an sli_extent: two reals and two numbers; an sli_step: one and six */
+      sli_swap(at + k, 8);
+      k += 8;
+    }
+    for (; word > 8 && k < word; k += 4) {
+      sli_swap(at + k, 4);
+    }
+  }
+}
+
+/* Reads the header: is it that of a file that this library can read? *swapped: it has the other
+ * byte order. */
+static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
+  if (memcmp(h->magic, sli_saved_magic, sizeof sli_saved_magic) != 0 ||
+    (h->order_mark != SLI_ORDER_MARK && h->order_mark != SLI_ORDER_MARK_SWAPPED)) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  *swapped = h->order_mark != SLI_ORDER_MARK;
+  if (*swapped) {
+    sli_swap_words(&h->order_mark, 4, 16);
+    sli_swap_words(&h->bytes, 8, 16);
+  }
+  if (h->read_version < 1 || h->read_version > SLI_READ_VERSION) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  return h->sections <= SLI_SECTIONS_MAX ? SL_OK : SL_ERR_IO;
+}
+
+/* Is a count in 0..most? */
+SLI_INLINE int sli_count_is_valid(int64_t count, int64_t most) {
+  return count >= 0 && count <= most;
+}
+
+/* Numbers of an analysis that no analysis has are refused here, so that sizes can be computed from
+ * them. */
+static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
+  const int64_t many = INT64_C(1) << 58; /* 8 bytes each fit a positive int64_t */
+  sl_symbolic_info *info = &S->stats.symbolic;
+  if (!sli_count_is_valid(a->n, SLI_ROWS_MAX) || !sli_count_is_valid(a->supers, a->n) ||
+    (a->n > 0) != (a->supers > 0) || !sli_count_is_valid(a->nodes, a->n + 1) ||
+    !sli_count_is_valid(a->nnz_input, INT32_MAX) || !sli_count_is_valid(a->rows, many) ||
+    !sli_count_is_valid(a->entries, a->nnz_input) || !sli_count_is_valid(a->panels, many) ||
+    !sli_count_is_valid(a->tallest, a->n) || !sli_count_is_valid(a->widest, a->n) ||
+    !sli_count_is_valid(a->triangle, SL_TRIANGLE_BOTH) || !sli_count_is_valid(a->nnz_l, many) ||
+    !sli_count_is_valid(a->fundamental, a->n) || !sli_count_is_valid(a->tree_height, a->n) ||
+    !sli_count_is_valid(a->components, a->n) || !sli_count_is_valid(a->is_pivoted, 1) ||
+    !sli_count_is_valid(a->pairs, a->is_pivoted ? a->n / 2 : 0) ||
+    !sli_count_is_valid(a->delayed, a->is_pivoted ? INT32_MAX : 0) || !(a->flops >= 0.0) ||
+    !sli_is_finite(a->flops)) {
+    return 0;
+  }
+  S->n = (sl_int)a->n;
+  S->n_supers = (sl_int)a->supers;
+  S->n_nodes = (sl_int)a->nodes;
+  S->nnz_input = (sl_int)a->nnz_input;
+  S->is_pivoted = (int)a->is_pivoted;
+  S->n_pairs = (sl_int)a->pairs;
+  S->tallest = (sl_int)a->tallest;
+  S->widest = (sl_int)a->widest;
+  S->pattern.a = a->pattern[0];
+  S->pattern.b = a->pattern[1];
+  S->identity.a = a->identity[0];
+  S->identity.b = a->identity[1];
+  info->n = S->n;
+  info->triangle = (sl_triangle)a->triangle;
+  info->nnz_a = a->entries;
+  info->nnz_l = a->nnz_l;
+  info->nnz_panels = a->panels;
+  info->flops = a->flops;
+  info->supernodes = S->n_supers;
+  info->supernodes_fundamental = (sl_int)a->fundamental;
+  info->tree_height = (sl_int)a->tree_height;
+  info->components = (sl_int)a->components;
+  info->pairs = S->n_pairs;
+  info->delayed = (sl_int)a->delayed;
+  return 1;
+}
+
+static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl_factor *F) {
+  const int skips = g->null_pivots == SL_NULL_PIVOT_SKIP;
+  const int64_t n = S->n;
+  sl_factor_info *info = &F->stats.factor;
+  if ((g->method != SL_METHOD_UP_LOOKING && g->method != SL_METHOD_SUPERNODAL) ||
+    !sli_count_is_valid(g->null_pivots, SL_NULL_PIVOT_SKIP) ||
+    !sli_count_is_valid(g->has_mass, skips) || !sli_count_is_valid(g->checks, skips) ||
+    !sli_count_is_valid(g->nulls, skips ? n : 0) || g->null != g->nulls ||
+    !sli_count_is_valid(g->is_centered, g->nulls > 0 && g->has_mass) ||
+    !sli_count_is_valid(g->anchors, g->is_centered ? S->stats.symbolic.components : 0) ||
+    !(g->regularization >= 0.0) || !sli_is_finite(g->regularization) ||
+    (skips && (g->regularization != 0.0 || S->is_pivoted)) ||
+    (S->n_pairs > 0 && g->method != SL_METHOD_SUPERNODAL) || !(g->growth_limit > 0.0) ||
+    !(g->error_limit > 0.0) || !(g->growth >= 0.0) || !(g->entry_max >= 0.0) ||
+    !sli_count_is_valid(g->has_signs, g->regularization != 0.0) ||
+    !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
+    !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
+    !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
+    g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
+    return 0;
+  }
+  F->S = S;
+  F->analysis = S->identity;
+  F->method = (sl_method)g->method;
+  F->null_pivots = (sl_null_pivots)g->null_pivots;
+  F->checks = (int)g->checks;
+  F->is_centered = (int)g->is_centered;
+  F->n_nulls = (sl_int)g->nulls;
+  F->n_anchors = (sl_int)g->anchors;
+  F->consistency = g->consistency;
+  F->growth_limit = g->growth_limit;
+  F->error_limit = g->error_limit;
+  F->rule.null_tolerance = g->null_tolerance;
+  F->rule.regularization = g->regularization;
+  F->rule.replaces = skips || g->regularization != 0.0;
+  F->identity.a = g->identity[0];
+  F->identity.b = g->identity[1];
+  F->generation = 1;
+  F->is_valid = 1;
+  F->status = SL_OK;
+  info->positive = (sl_int)g->positive;
+  info->negative = (sl_int)g->negative;
+  info->null = (sl_int)g->null;
+  info->regularized = (sl_int)g->regularized;
+  info->weak = (sl_int)g->weak;
+  info->regular = (sl_int)g->regular;
+  info->pivot_min = g->pivot_min;
+  info->pivot_max = g->pivot_max;
+  info->entry_max = g->entry_max;
+  info->growth = g->growth;
+  return 1;
+}
+
+/* src/impl/save/check.h: is a loaded analysis or factor one that this library could have made? */
+
+/* Everything that the other parts take for granted is checked here, in one pass over each array
+ * and without memory: the bytes may come from anybody. The numbers of L, D and the weights may be
+ * anything. */
+
+/* Is perm a permutation and iperm its inverse? If iperm[perm[k]] = k for all k, no two perm[k] are
+ * equal. */
+static int sli_check_perm(const sl_symbolic *S) {
+  sl_int k;
+  for (k = 0; k < S->n; k++) {
+    const sl_int i = S->perm[k];
+    if (i < 0 || i >= S->n || S->iperm[i] != k) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Do the supernodes divide the columns, and are their trees numbered in postorder? In a postorder
+ * the children of s are s - 1, then the supernode before the first descendant of s - 1, and so on.
+ * Each supernode is visited from its parent once. */
+static int sli_check_supers(const sl_symbolic *S) {
+  sl_int s, c, k = 0, children = 0, visited = 0;
+  if (S->super_first[0] != 0 || S->super_first[S->n_supers] != S->n) {
+    return 0;
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int up = S->super_parent[s], first = S->first_descendant[s];
+    if (S->super_first[s + 1] <= k || S->super_first[s + 1] > S->n ||
+      (up != -1 && (up <= s || up >= S->n_supers)) || first < 0 || first > s) {
+      return 0;
+    }
+    for (; k < S->super_first[s + 1]; k++) {
+      if (S->super_of[k] != s) {
+        return 0;
+      }
+    }
+    children += up != -1;
+    for (c = s - 1; c >= first; c = S->first_descendant[c] - 1) {
+      if (S->super_parent[c] != s) {
+        return 0;
+      }
+      visited++;
+    }
+    if (c != first - 1) {
+      return 0;
+    }
+  }
+  return visited == children;
+}
+
+/* Is `up` the parent of column k? It is in the supernode of k, but that of the last column is the
+ * first row below, or -1. The tree is that without 2x2 pivots: these only add rows to columns. */
+static int sli_check_parent(const sl_symbolic *S, sl_int k, sl_int up) {
+  const sl_int s = S->super_of[k], end = S->super_first[s + 1];
+  if (S->n_pairs > 0) {
+    return up == -1 || (up > k && up < S->n);
+  }
+  if (k + 1 < end) {
+    return up > k && up < end;
+  }
+  return up == (S->steps[s].below > 0 ? S->rows[S->rows_begin[s]] : -1);
+}
+
+/* Is the elimination tree that of the supernodes, and do the counts fit into them? */
+static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
+  sl_off nnz_l = 0;
+  sl_int k, roots = 0;
+  for (k = 0; k < S->n; k++) {
+    const sl_int s = S->super_of[k], end = S->super_first[s + 1];
+    if (!sli_check_parent(S, k, S->parent[k]) || S->counts[k] < 1 ||
+      S->counts[k] > end - k + S->steps[s].below) {
+      return 0;
+    }
+    roots += S->parent[k] == -1;
+    nnz_l += S->counts[k];
+  }
+  return roots == a->components && nnz_l == a->nnz_l;
+}
+
+/* Do the row lists, the panels and the steps agree, and is every front contained in its parent's?
+ * Reads the rows of a parent, which may come later, only where their number is known to be right:
+ * rows_begin is checked before. */
+static int sli_check_front(const sl_symbolic *S, sl_int s) {
+  const sl_int first = S->super_first[s], end = S->super_first[s + 1], up = S->super_parent[s];
+  const sl_int *rows = S->rows + S->rows_begin[s], *local = S->relative + S->rows_begin[s];
+  const sli_step *step = &S->steps[s];
+  sl_int k, last = end - 1, up_first, up_width, up_below;
+  const sl_int *up_rows;
+  if (step->panel != S->panel_begin[s] || step->column != first || step->base != first ||
+    step->width != end - first || step->first_tile != 0 || step->up != up ||
+    step->below != S->rows_begin[s + 1] - S->rows_begin[s] ||
+    (step->below == 0) != (up == -1)) {
+    return 0;
+  }
+  if (up == -1) {
+    return 1;
+  }
+  up_first = S->super_first[up];
+  up_width = S->super_first[up + 1] - up_first;
+  up_below = (sl_int)(S->rows_begin[up + 1] - S->rows_begin[up]);
+  up_rows = S->rows + S->rows_begin[up];
+  for (k = 0; k < step->below; k++) {
+    const sl_int row = rows[k], at = local[k];
+    if (row <= last || row >= S->n || at < 0 || at >= up_width + up_below ||
+      row != (at < up_width ? up_first + at : up_rows[at - up_width])) {
+      return 0;
+    }
+    last = row;
+  }
+  return S->super_of[rows[0]] == up;
+}
+
+static int sli_check_structure(const sl_symbolic *S) {
+  sl_int s, tallest = 0, widest = 0;
+  if (S->rows_begin[0] != 0 || S->panel_begin[0] != 0) {
+    return 0;
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int width = S->super_first[s + 1] - S->super_first[s];
+    const sl_off below = S->rows_begin[s + 1] - S->rows_begin[s];
+    if (S->rows_begin[s + 1] < S->rows_begin[s] || below > S->n - S->super_first[s + 1] ||
+      S->panel_begin[s + 1] != S->panel_begin[s] + sli_panel_size(width, (sl_int)below)) {
+      return 0;
+    }
+    widest = sli_max(widest, width);
+    tallest = sli_max(tallest, width + (sl_int)below);
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    if (!sli_check_front(S, s)) {
+      return 0;
+    }
+  }
+  return tallest == S->tallest && widest == S->widest;
+}
+
+/* Does the scatter map go from entries of A to entries of L, with the rows of each supernode
+ * ascending? */
+static int sli_check_scatter(const sl_symbolic *S) {
+  sl_int s;
+  sl_off m;
+  if (S->scatter_begin[0] != 0) {
+    return 0;
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int width = S->steps[s].width, height = width + S->steps[s].below;
+    const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+    sl_off begin = 0, end = sli_tile_offset(width, 1); /* of the tile */
+    sl_int tile = 0, last = 0;
+    if (S->scatter_begin[s + 1] < S->scatter_begin[s] ||
+      S->scatter_begin[s + 1] > S->scatter_begin[S->n_supers]) {
+      return 0;
+    }
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+      const sl_off at = S->scatter_to[m] - S->panel_begin[s];
+      sl_int row, column;
+      if (S->scatter_from[m] < 0 || S->scatter_from[m] >= S->nnz_input ||
+        S->scatter_to[m] < S->panel_begin[s] || at >= size) {
+        return 0;
+      }
+      while (at >= end) {
+        tile++;
+        begin = end;
+        end = sli_tile_offset(width, tile + 1);
+      }
+      row = SLI_TILE * tile + (sl_int)(at % SLI_TILE);
+      column = (sl_int)((at - begin) / SLI_TILE);
+      if (at < begin || row < last || row >= height || row < column) {
+        return 0;
+      }
+      last = row;
+    }
+  }
+  return 1;
+}
+
+static int sli_check_nodes(const sl_symbolic *S) {
+  sl_int k;
+  for (k = 0; k < S->n && S->n_nodes > 0; k++) {
+    if (S->node_of[k] < 0 || S->node_of[k] >= S->n_nodes) {
+      return 0;
+    }
+  }
+  for (k = S->n_nodes - 1; k >= 0; k--) {
+    const sl_int up = S->node_parent[k];
+    if (up != -1 && (up <= k || up >= S->n_nodes)) {
+      return 0;
+    }
+    if (S->node_level[k] != (up == -1 ? 0 : S->node_level[up] + 1)) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Are the 2x2 pivots two columns of one supernode and of one tile? */
+static int sli_check_pairs(const sl_symbolic *S) {
+  sl_int k, count = 0;
+  for (k = 0; k < S->n && S->n_pairs > 0; k++) {
+    const sl_int s = S->super_of[k];
+    if (S->pairs[k] == SLI_PAIR_NONE) {
+      continue;
+    }
+    if (S->pairs[k] != SLI_PAIR_FIRST || (k - S->super_first[s]) % SLI_TILE == SLI_TILE - 1 ||
+      k + 1 == S->super_first[s + 1] || S->pairs[k + 1] != SLI_PAIR_SECOND) {
+      return 0;
+    }
+    count++;
+    k++;
+  }
+  return count == S->n_pairs;
+}
+
+static int sli_check_analysis(const sl_symbolic *S, const sli_saved_analysis *a) {
+  sl_symbolic same;
+  if (!sli_check_perm(S) || !sli_check_supers(S) || !sli_check_structure(S) ||
+    !sli_check_tree(S, a) || !sli_check_scatter(S) || !sli_check_pairs(S) ||
+    !sli_check_nodes(S)) {
+    return 0;
+  }
+  same = *S;
+  sli_fill_identity(&same, S->stats.symbolic.triangle);
+  return sli_hash_equals(same.identity, S->identity);
+}
+
+/* Are these ascending columns? */
+static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
+  sl_off k;
+  for (k = 0; k < count; k++) {
+    if (columns[k] < (k > 0 ? columns[k - 1] + 1 : 0) || columns[k] >= n) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Are the anchors null pivots, at most one in a tree? */
+static int sli_check_anchors(const sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int k, m = 0, root = -1;
+  if (!sli_check_columns(F->anchors, F->n_anchors, S->n)) {
+    return 0;
+  }
+  for (k = 0; k < S->n && m < F->n_anchors; k++) {
+    if (S->parent[k] == -1) {
+      const sl_int anchor = F->anchors[m];
+      m += anchor > root && anchor <= k;
+      root = k;
+      if (m < F->n_anchors && F->anchors[m] <= k) {
+        return 0;
+      }
+    }
+  }
+  for (m = 0; m < F->n_anchors; m++) {
+    const sl_int at = sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m]);
+    if (at == F->n_nulls || F->nulls[at] != F->anchors[m]) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Is what each supernode contributes to pivot growth that of one of its pivots? */
+static int sli_check_extents(const sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_extent *e = &F->extents[s];
+    const sl_int least = e->magnitude > 0.0 ? S->super_first[s] : -1,
+           most = e->magnitude > 0.0 ? S->super_first[s + 1] - 1 : -1;
+    if (!(e->entry >= 0.0) || !sli_is_finite(e->entry) || !(e->magnitude >= 0.0) ||
+      e->pivot < least || e->pivot > most || e->zero != 0) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Are the blocks of 2x2 pivots finite, and 0 elsewhere? */
+static int sli_check_blocks(const sl_factor *F) {
+  sl_int k;
+  for (k = 0; k < F->S->n && F->E != NULL; k++) {
+    if (F->S->pairs[k] == SLI_PAIR_FIRST ? !sli_is_finite(F->E[k]) : F->E[k] != 0.0) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Do the pivots have the counted signs, and is each null or regularized one listed? 2x2 pivots have
+ * any signs: those of their eigenvalues depend on rounding if one is almost 0. */
+static int sli_check_factor(const sl_factor *F) {
+  const sl_factor_info *info = &F->stats.factor;
+  const sl_int n = F->S->n;
+  sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;
+  if (!sli_check_columns(F->nulls, F->n_nulls, n) ||
+    !sli_check_columns(F->regularized, info->regularized, n) ||
+    (F->is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
+    !sli_check_blocks(F)) {
+    return 0;
+  }
+  for (k = 0; k < n; k++) {
+    const double d = F->D[k];
+    if (!sli_is_finite(d)) {
+      return 0;
+    }
+    if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
+      (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK)) {
+      return 0;
+    }
+    if (sli_is_skipped(F, k)) {
+      if (nulls == F->n_nulls || F->nulls[nulls++] != k) {
+        return 0;
+      }
+      continue;
+    }
+    if (sli_is_regularized(F, k) &&
+      (shifted == info->regularized || F->regularized[shifted++] != k)) {
+      return 0;
+    }
+    if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
+      blocks++;
+    } else {
+      positive += d > 0.0;
+      negative += d < 0.0;
+    }
+  }
+  for (k = 0; k < n && F->rule.regularization != 0.0 && F->rule.signs != NULL; k++) {
+    if (F->rule.signs[k] < -1 || F->rule.signs[k] > 1) {
+      return 0;
+    }
+  }
+  return nulls == F->n_nulls && shifted == info->regularized && info->positive >= positive &&
+       info->negative >= negative &&
+       info->positive - positive + (info->negative - negative) <= blocks;
+}
+
+/* src/impl/save/write.h: sl_save_bytes, sl_save_memory, sl_save_file */
+
+static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
+  const sl_symbolic_info *info = &S->stats.symbolic;
+  sli_saved_analysis a;
+  memset(&a, 0, sizeof a);
+  a.n = S->n;
+  a.supers = S->n_supers;
+  a.nodes = S->n_nodes;
+  a.nnz_input = S->nnz_input;
+  a.rows = S->rows_begin[S->n_supers];
+  a.entries = S->scatter_begin[S->n_supers];
+  a.panels = S->panel_begin[S->n_supers];
+  a.tallest = S->tallest;
+  a.widest = S->widest;
+  a.triangle = info->triangle;
+  a.nnz_l = info->nnz_l;
+  a.fundamental = info->supernodes_fundamental;
+  a.tree_height = info->tree_height;
+  a.components = info->components;
+  a.is_pivoted = S->is_pivoted;
+  a.pairs = S->n_pairs;
+  a.delayed = info->delayed;
+  a.pattern[0] = S->pattern.a;
+  a.pattern[1] = S->pattern.b;
+  a.identity[0] = S->identity.a;
+  a.identity[1] = S->identity.b;
+  a.flops = info->flops;
+  return a;
+}
+
+static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
+  const sl_factor_info *info = &F->stats.factor;
+  sli_saved_factor g;
+  memset(&g, 0, sizeof g);
+  g.method = F->method;
+  g.null_pivots = F->null_pivots;
+  g.has_mass = F->mass != NULL;
+  g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
+  g.checks = F->checks;
+  g.is_centered = F->n_nulls > 0 && F->is_centered;
+  g.nulls = F->n_nulls;
+  g.anchors = g.is_centered ? F->n_anchors : 0;
+  g.positive = info->positive;
+  g.negative = info->negative;
+  g.null = info->null;
+  g.regularized = info->regularized;
+  g.weak = info->weak;
+  g.regular = info->regular;
+  g.pivot_min = info->pivot_min;
+  g.pivot_max = info->pivot_max;
+  g.entry_max = info->entry_max;
+  g.growth = info->growth;
+  g.null_tolerance = F->rule.null_tolerance;
+  g.regularization = F->rule.regularization;
+  g.consistency = F->consistency;
+  g.growth_limit = F->growth_limit;
+  g.error_limit = F->error_limit;
+  g.identity[0] = F->identity.a;
+  g.identity[1] = F->identity.b;
+  return g;
+}
+
+/* Where bytes go: memory or a file. */
+typedef struct sli_sink {
+  unsigned char *memory;
+  FILE *file;
+  int has_failed;
+} sli_sink;
+
+static void sli_put(sli_sink *to, const void *data, size_t bytes) {
+  if (bytes == 0 || to->has_failed) {
+    return;
+  }
+  if (to->file != NULL) {
+    to->has_failed = fwrite(data, 1, bytes, to->file) != bytes;
+  } else {
+    memcpy(to->memory, data, bytes);
+    to->memory += bytes;
+  }
+}
+
+/* Writes `bytes` bytes, of which `used` are data and the others 0. If to is NULL, adds them to a
+ * checksum instead. */
+static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
+               uint64_t bytes) {
+  static const unsigned char zeros[1024] = {0};
+  uint64_t left = bytes - used;
+  if (to == NULL) {
+    sli_checksum_add(sum, data, (size_t)used);
+    left = bytes - sum->bytes;
+  } else {
+    sli_put(to, data, (size_t)used);
+  }
+  while (left > 0) {
+    const size_t piece = left < sizeof zeros ? (size_t)left : sizeof zeros;
+    if (to == NULL) {
+      sli_checksum_add(sum, zeros, piece);
+    } else {
+      sli_put(to, zeros, piece);
+    }
+    left -= piece;
+  }
+}
+
+/* Checks the arguments of a save and fills in everything but the checksums. */
+static sl_status sli_save_prepare(sli_saved *f, const sl_symbolic *S, const sl_factor *F) {
+  sl_factor none;
+  memset(f, 0, sizeof *f);
+  memset(&none, 0, sizeof none);
+  if (S == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (S->is_partial || (F != NULL && (!F->is_valid || !sli_factor_is_over(F, S, S->identity)))) {
+    return SL_ERR_STATE;
+  }
+  memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
+  f->header.order_mark = SLI_ORDER_MARK;
+  f->header.read_version = SLI_READ_VERSION;
+  f->header.write_version = SLI_WRITE_VERSION;
+  f->analysis = sli_saved_analysis_of(S);
+  if (F != NULL) {
+    f->factor = sli_saved_factor_of(F);
+  }
+  return sli_saved_table(f, S, F != NULL ? F : &none, F != NULL) && f->header.bytes <= SIZE_MAX
+         ? SL_OK
+         : SL_ERR_TOO_LARGE;
+}
+
+/* Computes the checksums, then writes everything. */
+static void sli_save_write(sli_saved *f, sli_sink *to) {
+  unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
+  const size_t size = (size_t)sli_saved_prefix(f);
+  uint32_t k;
+  for (k = 0; k < f->header.sections; k++) {
+    sli_checksum sum = sli_checksum_begin();
+    sli_put_filled(NULL, &sum, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+    f->table[k].checksum = sli_checksum_end(&sum);
+  }
+  memset(prefix, 0, sizeof prefix);
+  memcpy(prefix, &f->header, sizeof f->header);
+  memcpy(prefix + sizeof f->header, f->table, f->header.sections * sizeof(sli_section));
+  f->header.checksum = sli_prefix_checksum(prefix, size);
+  memcpy(prefix, &f->header, sizeof f->header);
+  sli_put(to, prefix, size);
+  for (k = 0; k < f->header.sections; k++) {
+    sli_put_filled(to, NULL, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+  }
+}
+
+SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
+  sli_saved f;
+  sl_status status;
+  if (bytes == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_save_prepare(&f, S, F);
+  if (status == SL_OK) {
+    *bytes = (size_t)f.header.bytes;
+  }
+  return status;
+}
+
+SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
+                const sl_factor *F) {
+  sli_saved f;
+  sli_sink to;
+  sl_status status = sli_save_prepare(&f, S, F);
+  if (status == SL_OK && (memory == NULL || bytes < f.header.bytes)) {
+    status = SL_ERR_ARGUMENT;
+  }
+  if (status == SL_OK) {
+    to.memory = (unsigned char *)memory;
+    to.file = NULL;
+    to.has_failed = 0;
+    sli_save_write(&f, &to);
+  }
+  return status;
+}
+
+SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
+                const sl_options *opt) {
+  const int saved = errno;
+  const sl_allocator a = sli_allocator(opt);
+  sli_output output;
+  sli_saved f;
+  sli_sink to;
+  sl_status status;
+  if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_save_prepare(&f, S, F);
+  status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
+  if (status == SL_OK) {
+    int complete;
+    to.memory = NULL;
+    to.file = output.file;
+    to.has_failed = 0;
+    sli_save_write(&f, &to);
+    complete = !to.has_failed && sli_flush(output.file);
+    status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+  }
+  errno = saved;
+  return status;
+}
+
+/* src/impl/save/load.h: creates an analysis and a factor from saved bytes, as copies or in place */
+
+/* Saved objects that are being read, from the first byte to the last. */
+typedef struct sli_reading {
+  const unsigned char *memory; /* all bytes; NULL: they are read from the file */
+  FILE *file;
+  uint64_t size, at; /* bytes in all, and read so far */
+  int is_mapped;     /* the objects use the memory itself */
+  int swapped;       /* the bytes have the other order */
+  sl_load_checks checks;
+  const sl_options *opt;
+  sl_allocator allocator;
+  sli_saved saved; /* with the table that was read */
+  sl_symbolic S;   /* drafts of the objects */
+  sl_factor F;
+  int has_factor;
+} sli_reading;
+
+/* Copies the next bytes. */
+static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
+  if (bytes > r->size - r->at) {
+    return SL_ERR_IO;
+  }
+  if (r->memory != NULL) {
+    memcpy(to, r->memory + r->at, (size_t)bytes);
+  } else if (fread(to, 1, (size_t)bytes, r->file) != (size_t)bytes) {
+    return SL_ERR_IO;
+  }
+  r->at += bytes;
+  return SL_OK;
+}
+
+/* Reads and verifies the header and the table. */
+static sl_status sli_read_table(sli_reading *r) {
+  unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
+  sli_saved_header *h = &r->saved.header;
+  sl_status status = sli_get(r, prefix, sizeof *h);
+  size_t size;
+  uint32_t k;
+  if (status != SL_OK) {
+    return status;
+  }
+  memcpy(h, prefix, sizeof *h);
+  status = sli_decode_header(h, &r->swapped);
+  if (status != SL_OK) {
+    return status;
+  }
+  size = (size_t)sli_saved_prefix(&r->saved);
+  status = h->bytes == r->size ? sli_get(r, prefix + sizeof *h, size - sizeof *h) : SL_ERR_IO;
+  if (status != SL_OK || sli_prefix_checksum(prefix, size) != h->checksum) {
+    return SL_ERR_IO;
+  }
+  memcpy(r->saved.table, prefix + sizeof *h, h->sections * sizeof(sli_section));
+  for (k = 0; k < h->sections && r->swapped; k++) {
+    sli_swap_words(&r->saved.table[k].id, 4, 8);
+    sli_swap_words(&r->saved.table[k].offset, 8, 24);
+  }
+  return SL_OK;
+}
+
+/* Is the table the one that objects of these sizes have? All sections follow each other. Those of
+ * a later version come last. */
+static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) {
+  const uint32_t known = expected->header.sections;
+  uint64_t at = sli_saved_prefix(f);
+  uint32_t k;
+  if (f->header.sections < known ||
+    (f->header.sections > known && f->header.write_version <= SLI_WRITE_VERSION)) {
+    return 0;
+  }
+  for (k = 0; k < f->header.sections; k++) {
+    const sli_section *s = &f->table[k], *e = &expected->table[k];
+    if (s->offset != at || s->bytes > f->header.bytes - at ||
+      (k < known && (s->id != e->id || s->word != e->word || s->bytes != e->bytes))) {
+      return 0;
+    }
+    at += sli_round_up(s->bytes);
+    if (at > f->header.bytes) {
+      return 0;
+    }
+  }
+  return at == f->header.bytes;
+}
+
+/* Checks the checksum of section k if `always` or if all are requested, and gives its words the
+ * byte order of this processor. */
+static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
+  const sli_section *section = &r->saved.table[k];
+  if (always || r->checks == SL_LOAD_VERIFIED) {
+    sli_checksum sum = sli_checksum_begin();
+    sli_checksum_add(&sum, data, (size_t)sli_round_up(section->bytes));
+    if (sli_checksum_end(&sum) != section->checksum) {
+      return 0;
+    }
+  }
+  if (r->swapped) {
+    sli_swap_words(data, section->word, section->bytes);
+  }
+  return 1;
+}
+
+/* Reads the numbers of an object, section k. They are few, and always verified. */
+static sl_status sli_read_numbers(sli_reading *r, sl_int k, void *numbers, size_t bytes) {
+  const sli_section *section = &r->saved.table[k];
+  sl_status status = SL_ERR_IO;
+  if (section->bytes == bytes && section->offset == r->at && section->word == 8) {
+    status = sli_get(r, numbers, bytes);
+  }
+  return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? SL_ERR_IO : status;
+}
+
+/* Reads everything before the arrays: afterwards all sizes are known, and each array is inside the
+ * file. */
+static sl_status sli_read_front(sli_reading *r) {
+  sli_saved expected, *f = &r->saved;
+  sl_status status = sli_read_table(r);
+  if (status == SL_OK && f->header.sections < 2) {
+    return SL_ERR_IO;
+  }
+  status = status == SL_OK ? sli_read_numbers(r, 0, &f->analysis, sizeof f->analysis) : status;
+  if (status != SL_OK || !sli_decode_analysis(&f->analysis, &r->S)) {
+    return status != SL_OK ? status : SL_ERR_IO;
+  }
+  r->has_factor = f->table[1].bytes > 0;
+  if (r->has_factor) {
+    status = sli_read_numbers(r, 1, &f->factor, sizeof f->factor);
+    if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
+      return status != SL_OK ? status : SL_ERR_IO;
+    }
+  }
+  memset(&expected, 0, sizeof expected);
+  expected.analysis = f->analysis;
+  expected.factor = f->factor;
+  if (!sli_saved_table(&expected, &r->S, &r->F, r->has_factor) ||
+    !sli_table_is_expected(f, &expected)) {
+    return SL_ERR_IO;
+  }
+  f->first_array = expected.first_array;
+  f->first_number = expected.first_number;
+  return SL_OK;
+}
+
+/* The arrays of one object: sections first .. last-1, contiguous in the file and in memory. */
+typedef struct sli_image {
+  sl_int first, last;
+  size_t head, bytes;   /* of the object's struct, and of the arrays */
+  unsigned char *block; /* the struct, and the arrays unless they are mapped */
+  unsigned char *arrays;
+} sli_image;
+
+/* Allocates an object and reads its arrays, or finds them in the mapped memory. */
+static sl_status sli_read_image(sli_reading *r, sli_image *m) {
+  sl_status status = SL_OK;
+  sl_int k;
+  m->head = (size_t)sli_round_up(m->head);
+  m->block = (unsigned char *)sli_alloc(&r->allocator, m->head + (r->is_mapped ? 0 : m->bytes));
+  if (m->block == NULL) {
+    return SL_ERR_MEMORY;
+  }
+  m->arrays = m->block + m->head;
+  if (r->is_mapped) {
+    m->arrays = (unsigned char *)(uintptr_t)(r->memory + r->at);
+    r->at += m->bytes;
+  } else {
+    status = sli_get(r, m->arrays, m->bytes);
+  }
+  for (k = m->first; k < m->last && status == SL_OK; k++) {
+    unsigned char *data =
+      m->arrays + (r->saved.table[k].offset - r->saved.table[m->first].offset);
+    status = sli_section_accept(r, k, data, 0) ? SL_OK : SL_ERR_IO;
+  }
+  if (status != SL_OK) {
+    sli_free(&r->allocator, m->block);
+  }
+  return status;
+}
+
+/* Creates the analysis. */
+static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
+  const sli_saved_analysis *a = &r->saved.analysis;
+  sl_symbolic *S = &r->S;
+  sli_block b = {NULL, 0, 0};
+  sli_image m;
+  sl_status status;
+  sli_symbolic_layout(S, &b, a->rows, a->entries);
+  m.first = r->saved.first_array;
+  m.last = r->saved.first_number;
+  m.head = sizeof *S;
+  m.bytes = b.used;
+  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) {
+    return SL_ERR_TOO_LARGE;
+  }
+  status = sli_read_image(r, &m);
+  if (status != SL_OK) {
+    return status;
+  }
+  b.base = m.arrays;
+  b.used = 0;
+  sli_symbolic_layout(S, &b, a->rows, a->entries);
+  S->allocator = r->allocator;
+  S->stats.symbolic.bytes = m.head + m.bytes;
+  S->is_partial = r->saved.header.write_version > SLI_WRITE_VERSION;
+  if (S->rows_begin[S->n_supers] != a->rows || S->panel_begin[S->n_supers] != a->panels ||
+    S->scatter_begin[S->n_supers] != a->entries ||
+    (r->checks != SL_LOAD_TRUSTED && !sli_check_analysis(S, a))) {
+    sli_free(&r->allocator, m.block);
+    return SL_ERR_IO;
+  }
+  *out = (sl_symbolic *)(void *)m.block;
+  **out = *S;
+  return SL_OK;
+}
+
+/* Creates the factor over an analysis. */
+static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor **out) {
+  const sli_saved_factor *g = &r->saved.factor;
+  sl_factor *F = &r->F;
+  sli_block b = {NULL, 0, 0};
+  sli_image m;
+  sl_status status;
+  F->S = S;
+  F->allocator = r->allocator;
+  F->is_immutable = r->is_mapped || S->is_partial;
+  status = sli_factor_use(F, r->opt);
+  sli_factor_layout(F, &b, (int)g->has_mass);
+  m.first = r->saved.first_number;
+  m.last = m.first + SLI_FACTOR_SECTIONS;
+  m.head = sizeof *F;
+  m.bytes = b.used;
+  if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {
+    status = SL_ERR_TOO_LARGE;
+  }
+  status = status == SL_OK ? sli_read_image(r, &m) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  b.base = m.arrays;
+  b.used = 0;
+  sli_factor_layout(F, &b, (int)g->has_mass);
+  F->rule.signs = g->has_signs ? F->rule.signs : NULL;
+  F->stats.factor.bytes = m.head + m.bytes;
+  if (r->checks != SL_LOAD_TRUSTED && !sli_check_factor(F)) {
+    sli_free(&r->allocator, m.block);
+    return SL_ERR_IO;
+  }
+  *out = (sl_factor *)(void *)m.block;
+  **out = *F;
+  return SL_OK;
+}
+
+/* Reads both objects. */
+static sl_status sli_read(sli_reading *r, sl_symbolic **S, sl_factor **F) {
+  sl_symbolic *found = NULL;
+  sl_status status = sli_read_front(r);
+  if (status == SL_OK && r->is_mapped && r->swapped) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  status = status == SL_OK ? sli_read_analysis(r, &found) : status;
+  if (status == SL_OK && F != NULL && r->has_factor) {
+    status = sli_read_factor(r, found, F);
+  }
+  if (status == SL_OK) {
+    *S = found;
+  } else {
+    sl_symbolic_free(found);
+  }
+  return status;
+}
+
+/* Checks the arguments that all calls have, and begins. */
+static sl_status sli_read_begin(sli_reading *r, sl_symbolic **S, sl_factor **F,
+                sl_load_checks checks, const sl_options *opt) {
+  memset(r, 0, sizeof *r);
+  if (F != NULL) {
+    *F = NULL;
+  }
+  if (S == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *S = NULL;
+  if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
+    !sli_options_are_valid(opt, SLI_READS_ISA)) {
+    return SL_ERR_ARGUMENT;
+  }
+  r->checks = checks;
+  r->opt = opt;
+  r->allocator = sli_allocator(opt);
+  return SL_OK;
+}
+
+static sl_status sli_read_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                 sl_load_checks checks, const sl_options *opt, int is_mapped) {
+  sli_reading r;
+  const sl_status status = sli_read_begin(&r, S, F, checks, opt);
+  if (status != SL_OK || memory == NULL || (is_mapped && (uintptr_t)memory % SLI_ALIGN != 0)) {
+    return SL_ERR_ARGUMENT;
+  }
+  r.memory = (const unsigned char *)memory;
+  r.size = bytes;
+  r.is_mapped = is_mapped;
+  return sli_read(&r, S, F);
+}
+
+SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                sl_load_checks checks, const sl_options *opt) {
+  return sli_read_memory(S, F, memory, bytes, checks, opt, 0);
+}
+
+SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                 sl_load_checks checks, const sl_options *opt) {
+  return sli_read_memory(S, F, memory, bytes, checks, opt, 1);
+}
+
+SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+                sl_load_checks checks, const sl_options *opt) {
+  const int saved = errno;
+  sli_reading r;
+  sl_status status = sli_read_begin(&r, S, F, checks, opt);
+  if (status != SL_OK || path == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  r.file = fopen(path, "rb");
+  if (r.file == NULL) {
+    status = SL_ERR_IO;
+  } else {
+    r.size = sli_file_size(r.file);
+    status = sli_read(&r, S, F);
+    fclose(r.file);
+  }
+  errno = saved;
+  return status;
+}
+
+SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+               sl_load_checks checks, const sl_options *opt) {
+  const int saved = errno;
+  sli_mapping map;
+  sli_reading r;
+  sl_status status = sli_read_begin(&r, S, F, checks, opt);
+  if (status != SL_OK || path == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_map(path, &map);
+  if (status == SL_OK) {
+    status = sli_read_memory(S, F, map.bytes, map.size, checks, opt, 1);
+    if (status == SL_OK) {
+      (*S)->mapping = map;
+    } else {
+      sli_unmap(&map);
+    }
+  }
+  errno = saved;
+  return status;
+}
+
 /* batch: many solves, factors and diagonals by one call */
 /* src/impl/batch/batch_solve.h: many independent solves, shared among workers by the entries of L they read */
 
@@ -18019,12 +19749,24 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
         return SL_ERR_ARGUMENT;
       }
     }
-    if (!sli_factor_is_over(factors[k], factors[0]->S, factors[0]->analysis)) {
+    if (!sli_factor_is_over(factors[k], factors[0]->S, factors[0]->analysis) ||
+      factors[k]->is_immutable) {
       return SL_ERR_STATE;
     }
   }
   *at = -1;
   return SL_OK;
+}
+
+/* Gives loaded factors their scratch. *at: the one at fault; -1 for none. */
+static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int count, sl_int *at) {
+  sl_status status = SL_OK;
+  sl_int k;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status = sli_factor_prepare(factors[k]);
+    *at = status == SL_OK ? -1 : k;
+  }
+  return status;
 }
 
 SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
@@ -18049,6 +19791,7 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
   if (status == SL_OK && count > 0) {
     status = sli_source_of_sum(factors[0]->S, coefficients, values, terms, &f.source);
   }
+  status = status == SL_OK ? sli_factor_batch_prepare(factors, count, &at) : status;
   if (status == SL_OK && count > 0) {
     f.factors = factors;
     f.count = count;
@@ -18238,6 +19981,15 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_ALIGN
 #undef SLI_HUGE_PAGES
 #undef SLI_POSIX
+#undef SLI_BIG_ENDIAN
+#undef SLI_MMAP
+#undef SLI_MAP_VIEW
+#undef SLI_FSYNC
+#undef SLI_READ_VERSION
+#undef SLI_WRITE_VERSION
+#undef SLI_ORDER_MARK
+#undef SLI_ORDER_MARK_SWAPPED
+#undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
 #undef SLI_TAKE
@@ -18276,6 +20028,10 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_ROWS_AHEAD
 #undef SLI_TEMPORARY_NAMES
 #undef SLI_TEMPORARY_SUFFIX
+#undef SLI_UNNAMED_FILES
+#undef SLI_FILE_NAME_MAX
+#undef SLI_HERE
+#undef SLI_FOLLOW
 #undef SLI_TOKEN_MAX
 #undef SLI_LINE_MAX
 #undef SLI_ENTRIES_FIRST
