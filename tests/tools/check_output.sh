@@ -53,6 +53,19 @@ lost='sparse-local: standard output could not be written completely'
 commands=$("$program" --help | sed -n 's/^  \([a-z]*\) .*/\1/p')
 [ -n "$commands" ]
 record $? "there are commands"
+"$program" save sphere:2 --out "$dir/kept/sphere.slf" >/dev/null 2>"$dir/err"
+record $? "save writes a file"
+echo '0;1;1' >"$dir/kept/question" # b is 1 in row 0; x is wanted in row 1
+
+# run COMMAND: with operands that suit it.
+run() {
+    case $1 in
+    save) "$program" save sphere:2 --out saved.slf ;;
+    query) "$program" query "$dir/kept/sphere.slf" <"$dir/kept/question" ;;
+    *) "$program" "$1" sphere:2 ;;
+    esac
+}
+
 if [ -c /dev/full ]; then
     "$program" --help >/dev/full 2>"$dir/err"
     status=$?
@@ -61,7 +74,7 @@ if [ -c /dev/full ]; then
         "$program" "$command" --help >/dev/full 2>"$dir/err"
         status=$?
         expect 1 "$lost" "$command --help on a full disk"
-        "$program" "$command" sphere:2 >/dev/full 2>"$dir/err"
+        run "$command" >/dev/full 2>"$dir/err"
         status=$?
         expect 1 "$lost" "$command on a full disk"
     done
@@ -76,7 +89,7 @@ for command in $commands; do
     "$program" "$command" --help >&- 2>"$dir/err"
     status=$?
     expect 1 "$lost" "$command --help on a closed standard output"
-    "$program" "$command" sphere:2 >&- 2>"$dir/err"
+    run "$command" >&- 2>"$dir/err"
     status=$?
     expect 1 "$lost" "$command on a closed standard output"
 done
