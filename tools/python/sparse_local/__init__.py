@@ -10,12 +10,13 @@
 
 sparse_local.h contains the method and the contracts of all calls.
 """
-from ._errors import (ArgumentError, Error, InconsistentError, NotFiniteError, OutOfMemoryError,
-                      PatternError, PivotError, StateError, TooLargeError, UnsupportedError)
+from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, NotFiniteError,
+                      OutOfMemoryError, PatternError, PivotError, StateError, TooLargeError,
+                      UnsupportedError)
 from ._factor import Factor, Plan, Region
 from ._library import library_path, version
 
 __version__ = version()
 __all__ = ["Factor", "Plan", "Region", "Error", "ArgumentError", "PatternError", "PivotError",
-           "NotFiniteError", "InconsistentError", "StateError", "TooLargeError",
-           "UnsupportedError", "OutOfMemoryError", "library_path", "version"]
+           "NotFiniteError", "InconsistentError", "InaccurateError", "StateError",
+           "TooLargeError", "UnsupportedError", "OutOfMemoryError", "library_path", "version"]

@@ -35,6 +35,10 @@ class InconsistentError(Error, ArithmeticError):
     """A singular system whose right-hand side has no solution."""
 
 
+class InaccurateError(Error, ArithmeticError):
+    """Pivot growth, or the backward error after refinement, is above its limit."""
+
+
 class StateError(Error, RuntimeError):
     """A failed factor, or objects that do not belong together."""
 
@@ -53,4 +57,5 @@ class OutOfMemoryError(Error, MemoryError):
 
 # in the order of sl_status, from 1 on
 BY_STATUS = (ArgumentError, OutOfMemoryError, PatternError, PivotError, NotFiniteError,
-             TooLargeError, UnsupportedError, Error, Error, StateError, InconsistentError)
+             TooLargeError, UnsupportedError, Error, Error, StateError, InconsistentError,
+             InaccurateError)

@@ -8,7 +8,8 @@ from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._library import Handle, Stats, check, lib, new_options
 
-_ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4}
+_ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4,
+              "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
 
 
@@ -19,8 +20,8 @@ class Factor:
               values are not copied. A matrix that stores both triangles has to be symmetric, which
               is checked.
     triangle  'lower' or 'upper': reads this triangle only, and ignores the other.
-    ordering  'nd' (nested dissection), 'natural', 'given' (perm), 'metis' and 'metis-refined' if
-              the library was compiled with METIS.
+    ordering  'nd' (nested dissection), 'mindeg' (approximate minimum degree), 'natural', 'given'
+              (perm), 'metis' and 'metis-refined' if the library was compiled with METIS.
     perm      n row numbers: perm[k] is pivot k; implies 'given'.
     coordinates     n x 2 or n x 3 positions of the rows in space, which improve 'nd'.
     block_size      rows of one node, such as 3 for x, y and z.
@@ -125,7 +126,10 @@ class Factor:
 
     def refine(self, A, X, B, steps=2):
         """Improves X, a solution of A X = B, by at most steps corrections; returns a new X and the
-        backward error that remains."""
+        backward error that remains.
+
+        InaccurateError: it remains above 1e-8.
+        """
         matrix = arrays.Matrix(A)
         start = arrays.Dense(X, self.n, self.n)
         right = arrays.Dense(B, self.n, self.n)

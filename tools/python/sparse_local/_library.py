@@ -26,10 +26,11 @@ class Options(ctypes.Structure):
         ("thread_count", _INT), ("thread_run", _PTR), ("thread_context", _PTR),
         ("ordering", _ENUM), ("relaxation", _ENUM), ("triangle", _ENUM), ("perm", _PTR),
         ("metis_options", _PTR), ("coordinates", _PTR), ("dimensions", _INT), ("block_size", _INT),
-        ("isa", _ENUM), ("method", _ENUM), ("null_pivots", _ENUM), ("null_tolerance", _REAL),
-        ("mass", _PTR), ("consistency_tolerance", _REAL), ("regularization", _REAL),
-        ("signs", _PTR), ("region", _PTR), ("region_bytes", _SIZE), ("null_vector", _PTR),
-        ("reserved", _PTR * 7)]
+        ("purpose", _ENUM), ("isa", _ENUM), ("method", _ENUM), ("null_pivots", _ENUM),
+        ("null_tolerance", _REAL), ("mass", _PTR), ("consistency_tolerance", _REAL),
+        ("regularization", _REAL), ("signs", _PTR), ("region", _PTR), ("region_bytes", _SIZE),
+        ("null_vector", _PTR),
+        ("growth_limit", _REAL), ("error_limit", _REAL), ("reserved", _PTR * 4)]
 
 
 def _struct(name, fields):
@@ -40,13 +41,15 @@ _Error = _struct("_Error", [("row", _INT), ("column", _INT), ("line", _OFF), ("v
 _Symbolic = _struct("_Symbolic", [
     ("n", _INT), ("triangle", _ENUM), ("nnz_a", _OFF), ("nnz_l", _OFF), ("nnz_panels", _OFF),
     ("flops", _REAL), ("supernodes", _INT), ("supernodes_fundamental", _INT),
-    ("tree_height", _INT), ("components", _INT), ("seconds_order", _REAL),
+    ("tree_height", _INT), ("components", _INT), ("pairs", _INT), ("delayed", _INT),
+    ("seconds_order", _REAL),
     ("seconds_analyze", _REAL), ("seconds_tree", _REAL), ("seconds_structure", _REAL),
     ("bytes", _SIZE)])
 _FactorInfo = _struct("_FactorInfo", [
     ("isa", _ENUM), ("method", _ENUM), ("positive", _INT), ("negative", _INT), ("null", _INT),
     ("regularized", _INT), ("weak", _INT), ("regular", _INT), ("pivot_min", _REAL),
-    ("pivot_max", _REAL), ("seconds_setup", _REAL), ("seconds", _REAL), ("bytes", _SIZE)])
+    ("pivot_max", _REAL), ("entry_max", _REAL), ("growth", _REAL), ("seconds_setup", _REAL),
+    ("seconds", _REAL), ("bytes", _SIZE)])
 _PlanInfo = _struct("_PlanInfo", [
     ("b_supernodes", _INT), ("b_columns", _INT), ("b_entries", _OFF), ("x_supernodes", _INT),
     ("x_columns", _INT), ("x_entries", _OFF), ("in_region", ctypes.c_int),
@@ -66,14 +69,14 @@ class Stats(ctypes.Structure):
     """sl_stats"""
     _fields_ = [("error", _Error), ("symbolic", _Symbolic), ("factor", _FactorInfo),
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
-                ("region", _RegionInfo), ("refine", _RefineInfo), ("reserved", _OFF * 31)]
+                ("region", _RegionInfo), ("refine", _RefineInfo), ("reserved", _OFF * 28)]
 
 
 class SymbolicArrays(ctypes.Structure):
     """sl_symbolic_arrays"""
     _fields_ = [("n", _INT), ("n_supers", _INT)] + [(name, _PTR) for name in (
         "perm", "iperm", "parent", "counts", "super_first", "super_of", "super_parent",
-        "rows_begin", "rows", "panel_begin")] + [("n_nodes", _INT)] + [
+        "rows_begin", "rows", "panel_begin", "pairs")] + [("n_nodes", _INT)] + [
             (name, _PTR) for name in ("node_of", "node_parent", "node_level")]
 
 
