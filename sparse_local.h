@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e9bfa97f7747e771
+ * FNV-1a of the lines after this comment, without the license: e7a1a7b376924377
  *
  * Contents
  * (what a user reads)
@@ -17,51 +17,51 @@
  *   1374 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
  *   1510 batch.h      many independent solves by one call, distributed over threads
  *   1560 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1737 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1856 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   1959 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   1738 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1857 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   1960 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2104 base.h   2350 status.h   2413 options.h   2475 alloc.h   2599 hash.h   2743 file_map.h
- *   2844 sort.h   2914 parallel.h
+ *   2105 base.h   2351 status.h   2414 options.h   2476 alloc.h   2600 hash.h   2744 file_map.h
+ *   2845 sort.h   2915 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2952 panel.h   2984 step.h   3041 pivot_rule.h   3126 front.h   3203 pairs.h
- *   3421 inverse_front.h   3513 table.h   3534 simd.h   3628 simd_scalar.h   3747 simd_avx2.h
- *   3941 simd_avx512.h   4047 simd_neon.h   4227 dispatch.h
+ *   2953 panel.h   2985 step.h   3042 pivot_rule.h   3127 front.h   3204 pairs.h
+ *   3422 inverse_front.h   3514 table.h   3535 simd.h   3629 simd_scalar.h   3748 simd_avx2.h
+ *   3942 simd_avx512.h   4048 simd_neon.h   4228 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4309 csc.h   4423 csc_build.h   4562 csc_triangle.h   4633 csc_products.h   4757 permute.h
- *   4826 sum.h   4911 output_file.h   5137 matrix_market.h
+ *   4310 csc.h   4424 csc_build.h   4563 csc_triangle.h   4634 csc_products.h   4758 permute.h
+ *   4827 sum.h   4912 output_file.h   5138 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5616 graph.h   5782 coarsen.h   6059 labels.h   6271 subgraph.h   6482 heap.h   6545 bisect.h
- *   6795 separator.h   7086 mindeg.h   7282 dissect.h   7632 levelset.h   7762 geometric.h
- *   7973 septree.h   8038 metis.h   8195 metis_refined.h   8321 nd.h   8528 compress.h
- *   8657 quotient.h   9068 order.h
+ *   5617 graph.h   5783 coarsen.h   6060 labels.h   6272 subgraph.h   6483 heap.h   6546 bisect.h
+ *   6796 separator.h   7087 mindeg.h   7283 dissect.h   7633 levelset.h   7763 geometric.h
+ *   7974 septree.h   8039 metis.h   8196 metis_refined.h   8322 nd.h   8529 compress.h
+ *   8658 quotient.h   9069 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9290 symbolic_types.h   9335 etree.h   9415 counts.h   9485 supernodes.h   9746 structure.h
- *   9887 schedule.h  10102 symbolic.h  10483 reach.h
+ *   9291 symbolic_types.h   9336 etree.h   9416 counts.h   9486 supernodes.h   9747 structure.h
+ *   9888 schedule.h  10103 symbolic.h  10484 reach.h
  * (factor: the numbers of L and D)
- *  10794 factor_types.h  11142 pivot_search.h  11513 pivoted.h  11582 scatter.h  11755 uplooking.h
- *  11832 null_vectors.h  12127 multifrontal.h  12389 nullspace.h  12640 growth.h
- *  12734 factor_setup.h  13004 factor.h  13215 leftlooking.h  13402 factor_query.h
- *  13538 combination.h
+ *  10795 factor_types.h  11143 pivot_search.h  11514 pivoted.h  11583 scatter.h  11756 uplooking.h
+ *  11833 null_vectors.h  12128 multifrontal.h  12390 nullspace.h  12641 growth.h
+ *  12735 factor_setup.h  13005 factor.h  13216 leftlooking.h  13403 factor_query.h
+ *  13539 combination.h
  * (solve: full and local solves)
- *  13600 region_types.h  13718 work.h  13825 query.h  14026 singular.h  14257 backward.h
- *  14292 sweep.h  14467 compile.h  14676 plan.h  14783 local.h  14941 refine.h
- *  15124 refine_local.h  15349 rcond.h  15519 defects.h
+ *  13601 region_types.h  13719 work.h  13826 query.h  14027 singular.h  14258 backward.h
+ *  14293 sweep.h  14468 compile.h  14677 plan.h  14784 local.h  14942 refine.h
+ *  15125 refine_local.h  15350 rcond.h  15520 defects.h
  * (inverse: entries of the inverse, regions)
- *  15576 traversal.h  15854 traversal_run.h  16035 row_sets.h  16066 unit_vectors.h
- *  16325 bilinear.h  16513 entries.h  16816 block.h  17074 reserve.h  17285 selected.h
- *  17496 selected_query.h  17604 region_choose.h  17856 region.h
+ *  15577 traversal.h  15855 traversal_run.h  16036 row_sets.h  16067 unit_vectors.h
+ *  16326 bilinear.h  16514 entries.h  16817 block.h  17075 reserve.h  17286 selected.h
+ *  17497 selected_query.h  17605 region_choose.h  17857 region.h
  * (save: factors in files)
- *  18103 format.h  18319 decode.h  18467 check.h  18805 write.h  19011 load.h
+ *  18104 format.h  18320 decode.h  18468 check.h  18806 write.h  19012 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  19367 batch_solve.h  19595 batch_factor.h  19809 batch_diagonal.h
+ *  19368 batch_solve.h  19596 batch_factor.h  19810 batch_diagonal.h
  * (last: undefine every internal macro)
- *  19957 undef.h
+ *  19958 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  20088 multi_rhs.inl.h  20462 kernel_set.inl.h  20466 unit_triangle.inl.h  20507 two_rhs.inl.h
- *  20679 product.inl.h  20820 front.inl.h  21047 inverse_front.inl.h  21352 small_supernode.inl.h
- *  21520 single_rhs.inl.h
+ *  20089 multi_rhs.inl.h  20463 kernel_set.inl.h  20467 unit_triangle.inl.h  20508 two_rhs.inl.h
+ *  20680 product.inl.h  20821 front.inl.h  21048 inverse_front.inl.h  21353 small_supernode.inl.h
+ *  21521 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1627,7 +1627,8 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
 /** Factors A = coefficients[0] values[0] + .. + coefficients[terms-1] values[terms-1].
  *
  *  The same bits as sl_factor_create for a matrix without duplicates whose entries are these sums;
- *  each product is rounded, then added in this order, starting from 0.
+ *  each product is rounded, then added in this order, starting from 0. A compiler that contracts
+ *  a * b + c (gcc without -std=c99, for processors with FMA) does not round the products.
  *
  *  out           [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S             [in]   the analysis; borrowed, must outlive the factor.

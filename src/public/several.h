@@ -73,7 +73,8 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
 /** Factors A = coefficients[0] values[0] + .. + coefficients[terms-1] values[terms-1].
  *
  *  The same bits as sl_factor_create for a matrix without duplicates whose entries are these sums;
- *  each product is rounded, then added in this order, starting from 0.
+ *  each product is rounded, then added in this order, starting from 0. A compiler that contracts
+ *  a * b + c (gcc without -std=c99, for processors with FMA) does not round the products.
  *
  *  out           [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S             [in]   the analysis; borrowed, must outlive the factor.
