@@ -1,5 +1,7 @@
-/* test_signalling_nans.c: no call computes with memory that nobody has set: blocks, workspaces and
- * results start as signalling NaNs, and invalid operations trap */
+/* test_signalling_nans.c: no call computes with memory that nobody has set, divides by zero or
+ * overflows on good input: blocks, workspaces and results start as signalling NaNs, and each such
+ * operation traps. clang computes what a branch may discard unless it is told that operations can
+ * trap (-ffp-exception-behavior=maytrap), so that the tests are left out there. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* feenableexcept */
 #endif
@@ -8,9 +10,9 @@
 #include "tests/lib/factored.h"
 #include "tests/lib/graph_laplacian.h"
 
-#if defined(__GLIBC__) && defined(FE_INVALID)
+#if defined(__GLIBC__) && defined(FE_INVALID) && !defined(__clang__)
 
-enum { MOST_RHS = 9 };
+enum { MOST_RHS = 9, TRAPS = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
 
 static void fill_signalling(void *block, size_t bytes) {
     const uint64_t nan = UINT64_C(0x7ff4dead7ff4dead); /* two floats that signal, too */
@@ -73,7 +75,20 @@ static void solve_all(buffers_t *y, const sl_csc *A, const sl_symbolic *S, const
     sl_work_free(W);
 }
 
-static void invert_all(buffers_t *y, const sl_factor *F) {
+/* Plans of a region. */
+static void solve_in_region(buffers_t *y, const sl_symbolic *S, const sl_factor *F,
+                            const sl_region *R, sl_work *W) {
+    sl_plan *P = NULL;
+    sl_options opt = y->opt;
+    opt.region = R;
+    SL_CHECK(sl_plan_create(&P, S, y->bset, y->nb, y->bset, y->nb, &opt, NULL));
+    for (sl_int nrhs = 1; nrhs <= MOST_RHS; nrhs++) {
+        SL_CHECK(sl_plan_solve(P, F, signalling(y), (size_t)y->n, y->B, (size_t)y->n, nrhs, W));
+    }
+    sl_plan_free(P);
+}
+
+static void invert_all(buffers_t *y, const sl_symbolic *S, const sl_factor *F) {
     const size_t n = (size_t)y->n;
     sl_work *W = NULL;
     sl_region *R = NULL;
@@ -92,6 +107,9 @@ static void invert_all(buffers_t *y, const sl_factor *F) {
     if (stats.factor.null == 0) {
         const sl_status status = sl_region_create(&R, F, y->bset, y->nb, NULL, &y->opt, &stats);
         assert_true(status == SL_OK || status == SL_ERR_UNSUPPORTED);
+        if (status == SL_OK) {
+            solve_in_region(y, S, F, R, W);
+        }
         sl_region_free(R);
     }
     sl_work_free(W);
@@ -118,15 +136,15 @@ static void run(gen_matrix_t *M, sl_options *for_factor) {
     y.B = test_reals((size_t)(y.n + 1) * MOST_RHS);
     gen_reals(y.B, (size_t)y.n * MOST_RHS, 3);
     (void)feclearexcept(FE_ALL_EXCEPT);
-    (void)feenableexcept(FE_INVALID);
+    (void)feenableexcept(TRAPS);
     SL_CHECK(sl_symbolic_create(&S, &M->view, &y.opt, NULL));
     SL_CHECK(sl_factor_create(&F, S, &M->view, for_factor, NULL));
     SL_CHECK(sl_factor_refactor(F, &M->view, NULL));
     const sl_int changed = 0;
     SL_CHECK(sl_factor_refactor_changed(F, &M->view, &changed, y.n > 0, NULL));
     solve_all(&y, &M->view, S, F);
-    invert_all(&y, F);
-    (void)fedisableexcept(FE_INVALID);
+    invert_all(&y, S, F);
+    (void)fedisableexcept(TRAPS);
     sl_factor_free(F);
     sl_symbolic_free(S);
     free(y.bset);
@@ -195,7 +213,7 @@ int main(void) {
 #else
 
 int main(void) {
-    (void)printf("no floating-point traps: skipped\n");
+    (void)printf("no floating-point traps here: skipped\n");
     return 0;
 }
 
