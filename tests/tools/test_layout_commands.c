@@ -113,10 +113,7 @@ static void layouts_lower_their_energy(void **state) {
         assert_true(number_after(output, ends[k]) < 0.2 * number_after(output, "harmonic "));
         free(output);
     }
-    char *output = output_of(command_arap, "arap --iterations 3 hills:30x30");
-    assert_non_null(strstr(output, "after 3"));
-    assert_null(strstr(output, "after 4"));
-    free(output);
+    command_says(command_arap, "arap --iterations 3 hills:30x30", 1, "not converged after 3 it");
 }
 
 static void geodesic_writes_distances_and_cells(void **state) {
@@ -214,9 +211,9 @@ static void help_is_shown_and_bad_input_refused(void **state) {
                  "distances  of 5 vertices");
     command_says(command_geodesic, expand_paths("geodesic @fan.obj --from 5"), 0,
                  "distances  of 1 vertices");
-    /* One face without area: it is laid out somehow, without a crash. */
-    command_says(command_param, expand_paths("param @point.obj"), 0, "patch      3 vertices");
-    command_says(command_arap, expand_paths("arap @point.obj"), 0, "energy");
+    /* One face without area: its layout is arbitrary. */
+    command_says(command_param, expand_paths("param @point.obj"), 1, "3 vertices have no weights");
+    command_says(command_arap, expand_paths("arap @point.obj"), 0, "no area");
 }
 
 int main(void) {

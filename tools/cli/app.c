@@ -18,6 +18,17 @@ static void print_error(const char *format, va_list list) {
     (void)fprintf(stderr, "\n");
 }
 
+void app_warn(const char *format, ...) {
+    char text[512];
+    va_list list;
+    (void)fflush(stdout); /* in order, if both go to the same file */
+    va_start(list, format);
+    (void)vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    app_progress_end();
+    (void)fprintf(stderr, "sparse-local: warning: %s\n", text);
+}
+
 void app_die(const char *format, ...) {
     va_list list;
     va_start(list, format);

@@ -29,6 +29,9 @@ APP_NORETURN APP_PRINTF void app_die(const char *format, ...);
  *  wrong. */
 APP_NORETURN APP_PRINTF void app_die_usage(const char *format, ...);
 
+/** Prints "sparse-local: warning: ..." to standard error: the results may be of no use. */
+APP_PRINTF void app_warn(const char *format, ...);
+
 /** Dies unless status is SL_OK. The message names the operation `what` and, if stats is not NULL
  *  and has it, the row at which it failed. */
 void app_must(sl_status status, const char *what, const sl_stats *stats);
@@ -79,20 +82,20 @@ typedef struct app_output {
 } app_output;
 
 /** Rows of an option table for the fields of an app_output. */
-#define APP_OUTPUT_OPTIONS(o)                                                                      \
-    {OPTION_TEXT, "out", &(o)->out, "FILE",                                                        \
-     "write the mesh with the results at its vertices: .ply or .obj, optionally .gz"},             \
-        {OPTION_TEXT, "csv", &(o)->csv, "FILE", "write the results as a table"},                   \
+#define APP_OUTPUT_OPTIONS(o) \
+    {OPTION_TEXT, "out", &(o)->out, "FILE", \
+     "write the mesh with the results at its vertices: .ply or .obj, optionally .gz"}, \
+        {OPTION_TEXT, "csv", &(o)->csv, "FILE", "write the results as a table"}, \
         APP_PICTURE_OPTIONS(o)
 
-#define APP_PICTURE_OPTIONS(o)                                                                     \
-    {OPTION_TEXT, "png", &(o)->png, "FILE", "draw the result as a picture"},                       \
-        {OPTION_TEXT, "size", &(o)->size, "WxH", "size of the picture in pixels (800x600)"},       \
-        {OPTION_TEXT, "view", &(o)->view, "A,E",                                                   \
+#define APP_PICTURE_OPTIONS(o) \
+    {OPTION_TEXT, "png", &(o)->png, "FILE", "draw the result as a picture"}, \
+        {OPTION_TEXT, "size", &(o)->size, "WxH", "size of the picture in pixels (800x600)"}, \
+        {OPTION_TEXT, "view", &(o)->view, "A,E", \
          "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
-         "the patch are, else 30,20; a flat mesh is seen from above)"},                            \
-    {                                                                                              \
-        OPTION_TEXT, "up", &(o)->up, "x|y|z", "axis that points upward in the picture (y)"         \
+         "the patch are, else 30,20; a flat mesh is seen from above)"}, \
+    { \
+        OPTION_TEXT, "up", &(o)->up, "x|y|z", "axis that points upward in the picture (y)" \
     }
 
 /** Describes the operand MESH, for the help texts. */

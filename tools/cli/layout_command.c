@@ -54,8 +54,9 @@ static sl_int first_vertex(const layout_command *job) {
 /* Takes the patch from a list of vertices or grows it. */
 static void find_patch(layout_command *job) {
     char message[512] = "";
-    sl_int n = job->m.n_vertices, seam = 0;
+    sl_int n = job->m.n_vertices;
     bool ok;
+    job->seam = 0;
     if (job->list != NULL || job->list_file != NULL) {
         sl_int count;
         if (job->list != NULL && job->list_file != NULL) {
@@ -71,7 +72,7 @@ static void find_patch(layout_command *job) {
             size = n / 4 < LAYOUT_SIZE ? n / 4 : LAYOUT_SIZE;
             size = size < 3 ? 3 : size;
         }
-        ok = disk_patch_grow(&job->d, &job->inc, start, size, &seam, message, sizeof message);
+        ok = disk_patch_grow(&job->d, &job->inc, start, size, &job->seam, message, sizeof message);
         if (ok && job->d.p.m.n_vertices < size) {
             printf("the disk around vertex %d cannot grow beyond %d vertices\n", (int)start,
                    (int)job->d.p.m.n_vertices);
@@ -80,8 +81,8 @@ static void find_patch(layout_command *job) {
     if (!ok) {
         app_die("%s", message);
     }
-    if (seam > 0) {
-        printf("the patch meets itself: %d faces are omitted as a seam\n", (int)seam);
+    if (job->seam > 0) {
+        printf("the patch meets itself: %d faces are omitted as a seam\n", (int)job->seam);
     }
 }
 
@@ -120,7 +121,7 @@ void layout_command_regrow(layout_command *job, sl_int size) {
     char message[512] = "";
     patch_solver_free(&job->s);
     disk_patch_free(&job->d);
-    if (!disk_patch_grow(&job->d, &job->inc, first_vertex(job), size, NULL, message,
+    if (!disk_patch_grow(&job->d, &job->inc, first_vertex(job), size, &job->seam, message,
                          sizeof message)) {
         app_die("%s", message);
     }
@@ -177,22 +178,9 @@ double *layout_command_flux(const layout_command *job, const double *boundary) {
     return B;
 }
 
-double *layout_command_harmonic(layout_command *job) {
-    sl_int n = job->d.p.m.n_vertices;
-    double *boundary = layout_command_boundary(job), *X = layout_command_flux(job, boundary);
-    double *uv = app_alloc(2 * (size_t)n, sizeof *uv);
-    app_must(patch_solver_solve_mesh(&job->s, X, X, 2), "harmonic layout", NULL);
-    layout_from_columns(uv, X, n);
-    distortion_normalize(&job->d.p.m, uv);
-    layout_to_columns(X, uv, n);
-    free(uv);
-    free(boundary);
-    return X;
-}
-
 void layout_command_report_head(void) {
-    printf("%-34s %10s %10s %10s %10s %8s\n", "layout", "conformal", "angles", "lengths", "areas",
-           "flipped"); /* explained by LAYOUT_OUTPUT */
+    printf("%-34s %10s %10s %10s %10s %8s %6s\n", "layout", "conformal", "angles", "lengths",
+           "areas", "flipped", "flat"); /* explained by LAYOUT_OUTPUT */
 }
 
 distortion layout_command_report(const layout_command *job, const char *name, const double *X) {
@@ -201,8 +189,8 @@ distortion layout_command_report(const layout_command *job, const char *name, co
     layout_from_columns(uv, X, n);
     distortion_normalize(&job->d.p.m, uv);
     distortion q = distortion_of(&job->d.p.m, uv);
-    printf("%-34s %10.3g %10.4f %10.3g %10.3g %8d\n", name, q.conformal, q.angle, q.isometric,
-           q.area_spread, (int)q.flipped);
+    printf("%-34s %10.3g %10.4f %10.3g %10.3g %8d %6d\n", name, q.conformal, q.angle, q.isometric,
+           q.area_spread, (int)q.flipped, (int)q.degenerate);
     free(uv);
     return q;
 }

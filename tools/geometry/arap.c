@@ -99,6 +99,22 @@ static void gather(arap *a) {
     }
 }
 
+double arap_residual(arap *a, const double *X, const patch_solver *s) {
+    size_t n = (size_t)a->p->m.n_vertices;
+    double rest = 0, size = 0;
+    gather(a);
+    if (patch_solver_apply(s, a->correction, X, 2) != SL_OK) {
+        return INFINITY;
+    }
+    for (size_t k = 0; k < 2 * n; k++) {
+        double r = a->rhs[k] - a->correction[k];
+        rest += r * r;
+        size += a->rhs[k] * a->rhs[k];
+    }
+    double relative = size > 0 ? sqrt(rest / size) : sqrt(rest);
+    return isfinite(relative) ? relative : INFINITY;
+}
+
 sl_status arap_global_step(arap *a, double *X, patch_solver *s, int solves) {
     size_t n = (size_t)a->p->m.n_vertices;
     gather(a);

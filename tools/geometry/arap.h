@@ -49,6 +49,11 @@ void arap_free(arap *a);
  *  energy E divided by half the area of the patch. */
 double arap_local_step(arap *a, const double *X);
 
+/** ||b(R) - N u|| / ||b(R)|| for the rotations of the last local step: the gradient of E at the
+ *  layout X (n x 2, column-major), relative to the forces that balance there. INFINITY if it is not
+ *  finite. Uses a->rhs and a->correction. */
+double arap_residual(arap *a, const double *X, const patch_solver *s);
+
 /** The global step, on the factor of the whole mesh.
  *
  *  X       [in,out]  n x 2, column-major.

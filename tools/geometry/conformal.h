@@ -9,7 +9,8 @@
  * (the Laplacian of the patch's own faces, once for each coordinate) minus the boundary terms of
  * eq. (3) in [HDA17]. It is 0 if all angles are preserved and positive otherwise. C is 2n x 2n,
  * because the area couples the first coordinate of a boundary vertex to the second one of its
- * neighbors.
+ * neighbors. A face without weights (laplacian.h) is left out of both: with its area alone the
+ * energy would be indefinite. The sum over the other faces is semi-definite face by face.
  *
  * The spectral layout [MTAD08] has the least energy among all layouts with sum of |u|^2 = 1 and sum
  * of u = 0 over the boundary: it is the eigenvector of C u = lambda B u with the smallest
@@ -55,9 +56,13 @@ typedef struct conformal {
     sl_work *work;
     double *y; /* 2 n, interleaved: rows 2v and 2v+1 are the coordinates of vertex v */
     double shift;
+    double
+        change; /* sine of the angle between the last two iterates, up to rotations in the plane */
+    sl_int negative; /* negative pivots: rounding errors make the energy indefinite */
 } conformal;
 
-/** Assembles and factors C + shift B.
+/** Assembles and factors C + shift B. The shift grows until no pivot is negative, up to 1e-7 of the
+ *  largest entry of N.
  *
  *  out  [out]  release with conformal_free; all zero on error.
  *  d    [in]   borrowed, must outlive out.
@@ -68,6 +73,16 @@ sl_status conformal_create(conformal *out, const disk_patch *d, const sl_matrix 
 
 /** Releases everything and sets c to all zero. */
 void conformal_free(conformal *c);
+
+/** ||C x - lambda B x|| / ||B x||: an eigenvalue of the pencil (C, B) is about this near to lambda.
+ *
+ *  s       [in]   solver of the patch d->p.
+ *  X       [in]   n x 2, column-major.
+ *  work    [out]  scratch, 2 n doubles.
+ *  Returns  the residual; INFINITY if it is not finite.
+ */
+double conformal_residual(const patch_solver *s, const disk_patch *d, const double *X,
+                          double lambda, double *work);
 
 /** One inverse iteration: X := (C + shift B)^-1 B X, then subtracts the mean over the boundary and
  *  scales to a sum of |u|^2 of 1 over the boundary.

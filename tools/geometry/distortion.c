@@ -4,16 +4,21 @@
 #include <math.h>
 #include <string.h>
 
+#include "laplacian.h"
 #include "planar_triangle.h"
 
-/* The map of face f, and its area in space. False: the face is degenerate. */
+/* The map of face f, and its area in space. False: the face is degenerate, as in the Laplacian: the
+ * singular values of its map are rounding errors. */
 static bool map_of(planar_map *map, double *area, const mesh *patch, const double *uv, sl_int f) {
     const sl_int *face = patch->faces + 3 * (size_t)f;
     const double *const to[3] = {uv + 2 * (size_t)face[0], uv + 2 * (size_t)face[1],
                                  uv + 2 * (size_t)face[2]};
     planar_triangle flat = planar_triangle_of(patch, face);
+    laplacian_face measure = laplacian_of_face(patch, face);
     *area = 0.5 * flat.x[1][0] * flat.x[2][1];
-    return *area > 0 && planar_map_of(map, &flat, to);
+    return *area > 0 &&
+           (measure.weight[0] != 0 || measure.weight[1] != 0 || measure.weight[2] != 0) &&
+           planar_map_of(map, &flat, to);
 }
 
 distortion distortion_of(const mesh *patch, const double *uv) {
@@ -45,10 +50,10 @@ distortion distortion_of(const mesh *patch, const double *uv) {
             kept += area;
         }
     }
-    d.conformal = bent / d.area_flat;
-    d.angle /= kept;
-    d.isometric /= d.area;
-    d.area_spread = sqrt(fmax(0, squares / kept - logs / kept * (logs / kept)));
+    d.conformal = bent == 0 ? 0 : d.area_flat > 0 ? bent / d.area_flat : INFINITY;
+    d.angle = kept > 0 ? d.angle / kept : INFINITY;
+    d.isometric = d.area > 0 ? d.isometric / d.area : 0;
+    d.area_spread = kept > 0 ? sqrt(fmax(0, squares / kept - logs / kept * (logs / kept))) : 0;
     return d;
 }
 

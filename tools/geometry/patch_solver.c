@@ -12,6 +12,8 @@ void patch_solver_free(patch_solver *s) {
     sl_plan_free(s->patch_plan);
     sl_plan_free(s->interface_plan);
     sl_region_free(s->region);
+    sl_factor_free(s->own_F);
+    sl_symbolic_free(s->own_S);
     sl_work_free(s->work);
     free(s->scratch);
     memset(s, 0, sizeof *s);
@@ -229,5 +231,129 @@ sl_status patch_solver_solve_patch(patch_solver *s, double *X, const double *B, 
             ++*solves;
         }
     }
+    return status;
+}
+
+sl_status patch_solver_factor_patch(patch_solver *s) {
+    const sl_csc N = sl_matrix_view(s->N);
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.consistency_tolerance = PATCH_SOLVER_CONSISTENCY;
+    if (s->own_F != NULL) {
+        return SL_OK;
+    }
+    sl_status status = s->own_S != NULL ? SL_OK : sl_symbolic_create(&s->own_S, &N, NULL, NULL);
+    return status == SL_OK ? sl_factor_create(&s->own_F, s->own_S, &N, &opt, NULL) : status;
+}
+
+/* Subtracts the mean of each column: |x| then bounds the rounding errors of N x closely. */
+static void center(double *X, size_t n, sl_int nrhs) {
+    for (size_t c = 0; c < (size_t)nrhs; c++) {
+        double mean = 0;
+        for (size_t k = 0; k < n; k++) {
+            mean += X[c * n + k] / (double)n;
+        }
+        for (size_t k = 0; k < n; k++) {
+            X[c * n + k] -= mean;
+        }
+    }
+}
+
+/* size = |N| |x| + |b|. */
+static void row_sizes(double *size, const sl_csc *N, const double *x, const double *b) {
+    for (sl_int j = 0; j < N->n_cols; j++) {
+        size[j] = fabs(b[j]);
+    }
+    for (sl_int j = 0; j < N->n_cols; j++) {
+        for (sl_int p = N->p[j]; p < N->p[j + 1]; p++) {
+            sl_int i = N->i[p];
+            size[i] += fabs(N->x[p] * x[j]);
+            size[j] += i != j ? fabs(N->x[p] * x[i]) : 0;
+        }
+    }
+}
+
+sl_status patch_solver_measure(const patch_solver *s, patch_report *report, const double *X,
+                               const double *B, sl_int nrhs) {
+    const sl_csc N = sl_matrix_view(s->N);
+    size_t n = (size_t)N.n_rows;
+    double *R = s->scratch, *size = R + n * PATCH_SOLVER_MAX_RHS;
+    report->residual = report->backward_error = 0;
+    sl_status status = sl_csc_residual(&N, R, n, NULL, X, n, B, n, nrhs);
+    for (size_t c = 0; c < (size_t)nrhs && status == SL_OK; c++) {
+        const double *r = R + c * n, *b = B + c * n;
+        double norm = sqrt(dot(b, b, n)), rest = sqrt(dot(r, r, n));
+        row_sizes(size, &N, X + c * n, b);
+        report->residual = fmax(report->residual, norm > 0 ? rest / norm : rest);
+        for (size_t k = 0; k < n; k++) {
+            double error = size[k] > 0 ? fabs(r[k]) / size[k] : 0;
+            report->backward_error = fmax(report->backward_error, error);
+        }
+        if (!isfinite(rest)) { /* fmax drops NaNs */
+            report->residual = report->backward_error = INFINITY;
+        }
+    }
+    return status;
+}
+
+/* The size of the next correction L^-1 (b - N x), relative to x: an estimate of the error of x. R
+ * is in s->scratch, from patch_solver_measure. */
+static sl_status next_correction(patch_solver *s, double *relative, const double *X, sl_int nrhs) {
+    size_t n = (size_t)s->p->m.n_vertices;
+    double *Z = s->scratch + n * PATCH_SOLVER_MAX_RHS;
+    sl_status status = precondition(s, Z, s->scratch, nrhs);
+    *relative = 0;
+    for (size_t c = 0; c < (size_t)nrhs && status == SL_OK; c++) {
+        double correction = 0, size = 0;
+        center(Z + c * n, n, 1);
+        for (size_t k = c * n; k < (c + 1) * n; k++) {
+            correction = fmax(correction, fabs(Z[k]));
+            size = fmax(size, fabs(X[k]));
+        }
+        *relative = fmax(*relative, size > 0 ? correction / size : correction);
+    }
+    return status;
+}
+
+static sl_status solve_by_own_factor(patch_solver *s, double *X, const double *B, sl_int nrhs) {
+    const sl_csc N = sl_matrix_view(s->N);
+    size_t n = (size_t)N.n_rows;
+    sl_status status = patch_solver_factor_patch(s);
+    if (status == SL_OK) {
+        status = sl_factor_solve(s->own_F, X, n, B, n, nrhs, s->work);
+    }
+    if (status == SL_OK) {
+        status = sl_factor_refine(s->own_F, &N, X, n, B, n, nrhs, 5, s->work, NULL);
+    }
+    return status == SL_ERR_INACCURATE ? SL_OK : status; /* the report tells */
+}
+
+sl_status patch_solver_solve_exact(patch_solver *s, double *X, const double *B, sl_int nrhs,
+                                   patch_report *report) {
+    enum { MOST_SOLVES = 60 };
+    const double accepted = 1e-10;
+    size_t n = (size_t)s->p->m.n_vertices;
+    double correction = 0;
+    memset(report, 0, sizeof *report);
+    report->solves = MOST_SOLVES;
+    sl_status status = patch_solver_solve_patch(s, X, B, nrhs, 0.1 * accepted, &report->solves);
+    if (status == SL_OK) {
+        center(X, n, nrhs);
+        status = patch_solver_measure(s, report, X, B, nrhs);
+    }
+    if (status == SL_OK && s->p->n_interface > 0) {
+        status = next_correction(s, &correction, X, nrhs);
+    }
+    if (status == SL_OK && !(report->residual <= accepted && correction <= accepted)) {
+        report->own_factor = true;
+        status = solve_by_own_factor(s, X, B, nrhs);
+        if (status == SL_OK) {
+            center(X, n, nrhs);
+            status = patch_solver_measure(s, report, X, B, nrhs);
+        }
+    }
+    report->solved =
+        status == SL_OK && (report->residual <= accepted || report->backward_error <= 1e-13);
     return status;
 }

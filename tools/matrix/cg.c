@@ -55,7 +55,10 @@ int cg_jacobi(const sl_csc *A, double *x, const double *b, double tolerance, int
     }
     int iterations = 0;
     while (iterations < limit && sqrt(dot(r, r, n)) > stop) {
-        double alpha = rho / multiply(A, q, p), next = 0;
+        double curvature = multiply(A, q, p), alpha = rho / curvature, next = 0;
+        if (!(curvature > 0 && isfinite(alpha))) {
+            return limit;
+        }
         for (sl_int k = 0; k < n; k++) {
             x[k] += alpha * p[k];
             r[k] -= alpha * q[k];

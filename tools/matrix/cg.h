@@ -12,7 +12,8 @@
  *  tolerance  [in]   relative residual in the 2-norm.
  *  limit      [in]   the maximum number of iterations.
  *  work       [out]  scratch, 4 n doubles.
- *  Returns  the number of iterations; equals limit if the tolerance may not have been reached.
+ *  Returns  the number of iterations; equals limit if the tolerance may not have been reached, also
+ *           if rounding errors ended the iteration earlier.
  */
 int cg_jacobi(const sl_csc *A, double *x, const double *b, double tolerance, int limit,
               double *work);
