@@ -130,7 +130,7 @@ gives 2 'exclude each other' query "$dir/f.slf" --trusted --verify
 gives 2 'needs FILE.slf' query
 gives 0 'usage: sparse-local query ' query --help
 gives 2 'out FILE is missing' save sphere:1
-gives 1 'cannot be read, parsed or written' save sphere:1 --out "$dir/no/f.slf"
+gives 1 'no/f.slf: cannot be written: No such file' save sphere:1 --out "$dir/no/f.slf"
 gives 1 'cannot be read, parsed or written' query "$dir/none.slf"
 head -c 5000 "$dir/f.slf" >"$dir/cut.slf"
 gives 1 'cannot be read, parsed or written' query "$dir/cut.slf"
@@ -185,6 +185,38 @@ gives 1 'cannot be written' adf sphere:1 --png "$dir/no/x.png"
 gives 1 'cannot be written' adf sphere:1 --csv "$dir/no/x.csv"
 gives 1 'must end in .obj or .ply' adf sphere:1 --out "$dir/x.off"
 gives 2 'a number from 1 to 42' adf sphere:1 --at random:43
+for option in time scaled-time area-time radius; do
+    gives 2 'above 0' heat sphere:1 --$option 0
+    gives 2 'above 0' heat sphere:1 --$option -1
+done
+gives 2 'above 0' geodesic sphere:1 --radius 0
+gives 2 'above 0' hks sphere:1 --first 0
+
+# What is wrong with an output is found before the mesh is read.
+
+for command in adf heat hks geodesic param arap scp reach; do
+    gives 1 'no/x.png: cannot be written' "$command" "$dir/no-such-file.obj" --png "$dir/no/x.png"
+    gives 1 'Is a directory' "$command" "$dir/no-such-file.obj" --csv "$dir"
+    gives 1 'must end in .obj or .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"
+    gives 2 'such as 800x600' "$command" "$dir/no-such-file.obj" --size 8
+    gives 2 'such as 30,20' "$command" "$dir/no-such-file.obj" --view 8
+    gives 2 'expected x, y or z' "$command" "$dir/no-such-file.obj" --up w
+done
+
+# Vertices that were drawn are named; without --from all commands start at the same vertex.
+
+gives 0 '^drawn      --at [0-9]*,[0-9]*,[0-9]*$' adf sphere:1 --at random:3
+{
+    printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n'
+    printf 'f 1 2 3\nf 2 3 5\nf 3 6 5\nf 2 5 4\n'
+} >"$dir/late.obj"
+"$program" heat "$dir/late.obj" --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" &&
+    "$program" heat "$dir/late.obj" --from 1 --csv "$dir/h2.csv" >"$dir/out" 2>"$dir/err" &&
+    cmp -s "$dir/h1.csv" "$dir/h2.csv"
+record $? "heat starts from the first vertex of a face with an area"
+"$program" geodesic "$dir/late.obj" --csv "$dir/g.csv" >"$dir/out" 2>"$dir/err" &&
+    grep -q '^1,0,' "$dir/g.csv"
+record $? "geodesic starts there too"
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -7,7 +7,7 @@
 typedef struct read_t {
     bool flag;
     sl_int count;
-    double real;
+    double real, above;
     const char *text, *operands[2];
     char message[200];
 } read_t;
@@ -20,6 +20,7 @@ static options_result parse(read_t *r, int argc, ...) {
     const option table[] = {{OPTION_FLAG, "flag", &r->flag, NULL, ""},
                             {OPTION_COUNT, "count", &r->count, "K", ""},
                             {OPTION_REAL, "real", &r->real, "X", ""},
+                            {OPTION_ABOVE_0, "above", &r->above, "Y", ""},
                             {OPTION_TEXT, "text", &r->text, "T", ""},
                             {OPTION_END, NULL, NULL, NULL, NULL}};
     va_list list;
@@ -49,6 +50,7 @@ static void options_are_read(void **state) {
     /* A lone dash is an operand. */
     assert_true(parse(&r, 1, "-") == OPTIONS_READ);
     assert_true(parse(&r, 3, "--nonsense", "-h", "x") == OPTIONS_HELP);
+    assert_true(parse(&r, 2, "a", "--above=1e-300") == OPTIONS_READ && r.above == 1e-300);
     assert_true(parse(&r, 2, "a", "--text=") == OPTIONS_READ && r.text[0] == '\0');
 }
 
@@ -65,6 +67,9 @@ static void bad_options_are_refused(void **state) {
                                          {"--real=1e999", "not a finite number"},
                                          {"--real=nan", "not a finite number"},
                                          {"--real=1x", "not a finite number"},
+                                         {"--above=0", "not a finite number above 0"},
+                                         {"--above=-1", "not a finite number above 0"},
+                                         {"--above=inf", "not a finite number above 0"},
                                          {"--text", "--text needs T"}};
     read_t r;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

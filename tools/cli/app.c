@@ -86,16 +86,22 @@ double app_now(void) {
 }
 
 void app_progress(const char *what, double fraction) {
-    static double shown_at;
+    static double shown_at, next_line;
     double now = app_now();
     if (work_began < 0) {
         work_began = now;
         shown_at = now;
+        next_line = 10;
     }
-    if (now - work_began >= 1 && now - shown_at >= 0.1 && isatty(2)) {
-        (void)fprintf(stderr, "\r%s: %3.0f%%", what, 100 * fraction);
+    double spent = now - work_began, left = fraction > 0 ? spent / fraction - spent : 0;
+    if (isatty(2) && spent >= 1 && now - shown_at >= 0.1) {
+        (void)fprintf(stderr, "\r%s: %3.0f%%, about %.0f s left  ", what, 100 * fraction, left);
         shown_at = now;
         line_shown = true;
+    } else if (!isatty(2) && spent >= next_line) {
+        (void)fprintf(stderr, "%s: %.0f%% after %.0f s, about %.0f s left\n", what, 100 * fraction,
+                      spent, left);
+        next_line = 2 * spent;
     }
 }
 
@@ -103,6 +109,18 @@ void app_stage(const char *what) {
     if (isatty(2)) {
         (void)fprintf(stderr, "\r%s ...", what);
         line_shown = true;
+    }
+}
+
+void app_stage_factor(double flops) {
+    const double flops_per_second = 4e9; /* of one thread; slower processors take longer */
+    char text[80];
+    double seconds = flops / flops_per_second;
+    if (seconds >= 1) {
+        (void)snprintf(text, sizeof text, "factoring, about %.0f s", seconds);
+        app_stage(text);
+    } else {
+        app_stage("factoring");
     }
 }
 

@@ -54,12 +54,16 @@ void app_print_region(const char *name, const sl_stats *region, double seconds);
 /** Seconds of a monotonic clock. */
 double app_now(void);
 
-/** Shows the progress of a long computation on standard error, if that is a terminal and a second
- *  has passed since the first call. fraction: 0..1. */
+/** Shows the progress of a long computation and the time that is left on standard error: on a
+ *  terminal once a second has passed since the first call, elsewhere in lines of their own after
+ *  10, 20, 40, ... seconds. fraction: 0..1. */
 void app_progress(const char *what, double fraction);
 
 /** Shows on standard error what is being computed, if that is a terminal. */
 void app_stage(const char *what);
+
+/** The same for a factorization of `flops` operations, with an estimate of its time. */
+void app_stage_factor(double flops);
 
 /** Clears the progress line and restarts the second after which app_progress shows it. */
 void app_progress_end(void);
@@ -83,13 +87,13 @@ typedef struct app_output {
 
 /** Rows of an option table for the fields of an app_output. */
 #define APP_OUTPUT_OPTIONS(o) \
-    {OPTION_TEXT, "out", &(o)->out, "FILE", \
+    {OPTION_OUTPUT, "out", &(o)->out, "FILE", \
      "write the mesh with the results at its vertices: .ply or .obj, optionally .gz"}, \
-        {OPTION_TEXT, "csv", &(o)->csv, "FILE", "write the results as a table"}, \
+        {OPTION_OUTPUT, "csv", &(o)->csv, "FILE", "write the results as a table"}, \
         APP_PICTURE_OPTIONS(o)
 
 #define APP_PICTURE_OPTIONS(o) \
-    {OPTION_TEXT, "png", &(o)->png, "FILE", "draw the result as a picture"}, \
+    {OPTION_OUTPUT, "png", &(o)->png, "FILE", "draw the result as a picture"}, \
         {OPTION_TEXT, "size", &(o)->size, "WxH", "size of the picture in pixels (800x600)"}, \
         {OPTION_TEXT, "view", &(o)->view, "A,E", \
          "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
@@ -108,8 +112,8 @@ extern const char app_mesh_help[];
  */
 void app_mesh(mesh *out, const char *operand, bool faces_needed);
 
-/** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices). Dies if
- *  the list is malformed or a vertex is not below n.
+/** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
+ *  numbers are printed). Dies if the list is malformed or a vertex is not below n.
  *
  *  count  [out]  length of the list.
  *  Returns  the list in the order given, including repetitions; local solves refuse those, see
@@ -136,6 +140,14 @@ void app_close(FILE *file);
 
 /** Sets the view from the options; dies if one is malformed. */
 void app_view(render_view *view, const app_output *o);
+
+/** Dies if an option of the picture is malformed, or if --out names no format of mesh_write: before
+ *  the work, not after it. `out` is NULL or the file. */
+void app_check_output(const app_output *o, const char *out);
+
+/** The vertex that commands start from unless one is given: the first one that belongs to a face
+ *  with an area; if there is none, the first one that belongs to a face. */
+sl_int app_default_vertex(const mesh *m);
 
 /** Sets o->direction to the mean normal of the faces at these vertices, weighted by area, so that a
  *  picture shows them. Dies if an option of the picture is malformed.

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/geometry/laplacian.h"
 #include "tools/io/output_file.h"
 #include "tools/mesh/surface_generator.h"
 
@@ -43,6 +44,19 @@ static sl_int read_vertex(const char *option_name, const char **text, sl_int n) 
     return (sl_int)v;
 }
 
+/* Names the vertices that were drawn, so that a run can be repeated with a part of them. */
+static void print_drawn(const char *option_name, const sl_int *vertices, sl_int count) {
+    enum { SHOWN = 200 };
+    printf("drawn      --%s ", option_name);
+    for (sl_int k = 0; k < count && k < SHOWN; k++) {
+        printf(k > 0 ? ",%d" : "%d", (int)vertices[k]);
+    }
+    if (count > SHOWN) {
+        printf(" and %d more", (int)(count - SHOWN));
+    }
+    printf("\n");
+}
+
 static sl_int *random_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
                                sl_int *count) {
     char *after = NULL;
@@ -61,6 +75,7 @@ static sl_int *random_vertices(const char *option_name, const char *text, sl_int
         all[k] = v;
     }
     *count = (sl_int)wanted;
+    print_drawn(option_name, all, *count);
     return all;
 }
 
@@ -171,6 +186,31 @@ void app_view(render_view *view, const app_output *o) {
             view->automatic = false;
         }
     }
+}
+
+void app_check_output(const app_output *o, const char *out) {
+    render_view view;
+    app_view(&view, o);
+    if (out != NULL && !mesh_write_knows(out)) {
+        app_die(
+            "%s: unknown mesh format: the name must end in .obj or .ply, optionally followed by "
+            ".gz",
+            out);
+    }
+}
+
+sl_int app_default_vertex(const mesh *m) {
+    sl_int first = INT32_MAX, any = INT32_MAX;
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const sl_int *v = m->faces + 3 * f;
+        sl_int least = v[0] < v[1] ? v[0] : v[1];
+        least = v[2] < least ? v[2] : least;
+        any = least < any ? least : any;
+        if (least < first && laplacian_of_face(m, v).area > 0) {
+            first = least;
+        }
+    }
+    return first < INT32_MAX ? first : any < INT32_MAX ? any : 0;
 }
 
 void app_aim_camera(app_output *o, const mesh *m, const sl_int *vertices, sl_int count,

@@ -9,12 +9,14 @@
 
 static const options_usage usage = {
     "adf", "MESH", 1, 1,
-    "Computes the auto-diffusion function: the heat that remains at its source vertex."};
+    "Computes the auto-diffusion function: the density of the heat left at its source vertex."};
 
 static const options_manual manual = {
-    "One unit of heat at a vertex diffuses for a time t; the value is what remains at the vertex: "
-    "the diagonal of (M + t L)^-1 with the lumped mass M and the cotangent Laplacian L, one "
-    "implicit Euler step. No eigenvectors are needed. For all vertices the whole diagonal is "
+    "One unit of heat at a vertex i diffuses for a time t; the value is its density at i, heat per "
+    "unit of area: entry (i, i) of A^-1, A = M + t L, with the lumped mass M and the cotangent "
+    "Laplacian L, one implicit Euler step. hks has the same values at several times. Times M_ii, "
+    "it is the share of the heat that remains at i. No eigenvectors are needed. For all vertices "
+    "the whole diagonal is "
     "computed at once; for a list, each vertex costs its path in the elimination tree. A few full "
     "solves verify the values and provide the comparison.",
     "The time t, seconds of each phase, and the time of one full solve per vertex with the largest "
@@ -93,6 +95,7 @@ int command_adf(int argc, char **argv) {
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
+    app_check_output(&output, output.out);
     mesh m;
     heat_system h;
     sl_int count = 0;

@@ -300,19 +300,15 @@ static void cells(geodesic_command *cmd) {
     free(cell);
 }
 
-/* The vertices of --from without repetitions; by default the first corner of a face with an
- * area. */
+/* The vertices of --from without repetitions. */
 static sl_int *sources_of(const char *from, const mesh *m, sl_int *count) {
     if (from != NULL) {
         sl_int *list = app_vertices("from", from, m->n_vertices, 1, count);
         *count = app_distinct(list, *count, m->n_vertices);
         return list;
     }
-    sl_int *first = app_alloc(1, sizeof *first), f = 0;
-    while (f + 1 < m->n_faces && !(laplacian_of_face(m, m->faces + 3 * (size_t)f).area > 0)) {
-        f++;
-    }
-    first[0] = m->faces[3 * (size_t)f];
+    sl_int *first = app_alloc(1, sizeof *first);
+    first[0] = app_default_vertex(m);
     *count = 1;
     return first;
 }
@@ -371,8 +367,8 @@ static void open_command(geodesic_command *cmd, const char *operand) {
 }
 
 static void check_options(const geodesic_command *cmd) {
-    if (cmd->radius < 0 || cmd->margin < 1 || cmd->solves < 1 || cmd->solves > 1000) {
-        app_die_usage("expected --radius 0 or more, --margin 1 or more, --solves 1 to 1000");
+    if (cmd->margin < 1 || cmd->solves < 1 || cmd->solves > 1000) {
+        app_die_usage("expected --margin 1 or more, --solves 1 to 1000");
     }
     if (cmd->region && (cmd->radius == 0 || cmd->voronoi)) {
         app_die_usage("--region: only for distances within --radius");
@@ -385,8 +381,8 @@ static void check_options(const geodesic_command *cmd) {
         strcmp(cmd->exact, "sphere") != 0) {
         app_die_usage("--exact %s: expected plane or sphere", cmd->exact);
     }
-    if (cmd->time < 0 || cmd->scaled_time < 0 || (cmd->time > 0 && cmd->scaled_time > 0)) {
-        app_die_usage("--time and --scaled-time: give one of them, above 0");
+    if (cmd->time > 0 && cmd->scaled_time > 0) {
+        app_die_usage("--time and --scaled-time: give one of them");
     }
 }
 
@@ -398,15 +394,15 @@ int command_geodesic(int argc, char **argv) {
     cmd.solves = HEAT_SOLVES;
     const option options[] = {
         {OPTION_TEXT, "from", &cmd.from, "VERTICES",
-         "sources or sites: 3,17,100-200 or random:5 (the first vertex that has a face)"},
-        {OPTION_REAL, "radius", &cmd.radius, "R", "largest distance wanted (unlimited)"},
+         "sources or sites: 3,17,100-200 or random:5 (the first vertex of a face with an area)"},
+        {OPTION_ABOVE_0, "radius", &cmd.radius, "R", "largest distance wanted (unlimited)"},
         {OPTION_REAL, "margin", &cmd.margin, "F",
          "radius of the ball along edges, in units of --radius (1.5)"},
         {OPTION_COUNT, "solves", &cmd.solves, "N", "local solves for the distance in a ball (3)"},
         {OPTION_FLAG, "cut", &cmd.cut, NULL,
          "one solve, with the right-hand side truncated at the rim of the ball"},
-        {OPTION_REAL, "time", &cmd.time, "T", "diffuse heat for the time T"},
-        {OPTION_REAL, "scaled-time", &cmd.scaled_time, "S",
+        {OPTION_ABOVE_0, "time", &cmd.time, "T", "diffuse heat for the time T"},
+        {OPTION_ABOVE_0, "scaled-time", &cmd.scaled_time, "S",
          "diffuse heat for S times the squared mean edge length (4, or more if heat would be "
          "negative)"},
         {OPTION_TEXT, "exact", &cmd.exact, "plane|sphere",
@@ -422,6 +418,7 @@ int command_geodesic(int argc, char **argv) {
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     check_options(&cmd);
+    app_check_output(&cmd.output, cmd.output.out);
     cmd.heat.radius = cmd.radius;
     cmd.heat.margin = cmd.margin;
     cmd.heat.solves = cmd.cut ? 1 : (int)cmd.solves;

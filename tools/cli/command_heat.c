@@ -149,16 +149,17 @@ static void write_mesh(const app_output *output, const mesh *m, const double *x,
 }
 
 int command_heat(int argc, char **argv) {
-    const char *operand = NULL, *from = "0", *at = NULL;
+    const char *operand = NULL, *from = NULL, *at = NULL;
     double radius = 0;
     bool in_region = false;
     heat_time time = {0, 0, 0};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
-        {OPTION_TEXT, "from", &from, "VERTICES", "source vertices: 3,17,100-200 or random:5 (0)"},
+        {OPTION_TEXT, "from", &from, "VERTICES",
+         "source vertices: 3,17,100-200 or random:5 (the first vertex of a face with an area)"},
         {OPTION_TEXT, "at", &at, "VERTICES", "wanted vertices: a list or all (all)"},
-        {OPTION_REAL, "radius", &radius, "R",
+        {OPTION_ABOVE_0, "radius", &radius, "R",
          "wanted vertices: those within the Euclidean distance R of a source"},
         {OPTION_FLAG, "region", &in_region, NULL,
          "create a region of the sources and the wanted vertices and end the sweeps at its "
@@ -170,17 +171,23 @@ int command_heat(int argc, char **argv) {
     if (at != NULL && radius > 0) {
         app_die_usage("--at and --radius: give one of them");
     }
+    app_check_output(&output, output.out);
     mesh m;
     heat_system h;
-    app_mesh(&m, operand, true);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+    char vertex[16];
     sl_int n_sources = 0, n_wanted = 0;
+    app_mesh(&m, operand, true);
+    if (from == NULL) {
+        (void)snprintf(vertex, sizeof vertex, "%d", (int)app_default_vertex(&m));
+        from = vertex;
+    }
     sl_int *sources = app_vertices("from", from, m.n_vertices, 1, &n_sources);
     n_sources = app_distinct(sources, n_sources, m.n_vertices);
     sl_int *wanted = radius > 0
                          ? within(&m, sources, n_sources, radius, &n_wanted)
                          : app_vertices("at", at != NULL ? at : "all", m.n_vertices, 2, &n_wanted);
     n_wanted = app_distinct(wanted, n_wanted, m.n_vertices);
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
     double *x = app_alloc((size_t)n_wanted, sizeof *x);
     solve(x, &h, sources, n_sources, wanted, n_wanted, in_region);
     if (output.csv != NULL) {

@@ -162,8 +162,8 @@ int command_hks(int argc, char **argv) {
     const option options[] = {
         {OPTION_TEXT, "at", &at, "VERTICES", "vertices: 3,17,100-200 or random:5 or all (all)"},
         {OPTION_COUNT, "times", &n_times, "K", "number of times (16)"},
-        {OPTION_REAL, "first", &first, "T", "first time (from the area)"},
-        {OPTION_REAL, "last", &last, "T", "last time (from the area)"},
+        {OPTION_ABOVE_0, "first", &first, "T", "first time (from the area)"},
+        {OPTION_ABOVE_0, "last", &last, "T", "last time (from the area)"},
         {OPTION_TEXT, "like", &like, "VERTEX",
          "draw the distance of each signature to that of this vertex (default: draw the values at "
          "the middle time)"},
@@ -172,12 +172,13 @@ int command_hks(int argc, char **argv) {
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
-    if (n_times < 1 || n_times > 1000 || first < 0 || last < 0) {
-        app_die_usage("--times: expected 1 to 1000; --first and --last: expected above 0");
+    if (n_times < 1 || n_times > 1000) {
+        app_die_usage("--times: expected 1 to 1000");
     }
     if (threads.count > 1024) {
         app_die_usage("--threads: expected at most 1024");
     }
+    app_check_output(&output, output.out);
     mesh m;
     heat_system h;
     app_mesh(&m, operand, true);

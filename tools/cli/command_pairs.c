@@ -195,8 +195,8 @@ int command_pairs(int argc, char **argv) {
         {OPTION_TEXT, "to", &to, "VERTICES",
          "target vertices: as many as sources, or one of the two lists has one vertex"},
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
-        {OPTION_TEXT, "csv", &csv, "FILE", "write the heat and the times of each pair"},
-        {OPTION_TEXT, "svg", &histogram, "FILE", "draw a histogram of the speedups"},
+        {OPTION_OUTPUT, "csv", &csv, "FILE", "write the heat and the times of each pair"},
+        {OPTION_OUTPUT, "svg", &histogram, "FILE", "draw a histogram of the speedups"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     mesh m;

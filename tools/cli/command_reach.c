@@ -46,8 +46,11 @@ static sl_symbolic *analyze(const sl_csc *A) {
 
 static sl_int *grow_patch(const mesh *m, const reach_options *o, sl_int *count) {
     adjacency graph;
+    char vertex[16];
     sl_int centers = 0;
-    sl_int *center = app_vertices("center", o->center, m->n_vertices, 1, &centers);
+    (void)snprintf(vertex, sizeof vertex, "%d", (int)app_default_vertex(m));
+    sl_int *center =
+        app_vertices("center", o->center != NULL ? o->center : vertex, m->n_vertices, 1, &centers);
     sl_int *patch = app_alloc((size_t)o->size, sizeof *patch);
     unsigned char *seen = app_alloc((size_t)m->n_vertices, 1);
     if (centers != 1) {
@@ -176,17 +179,18 @@ static void print_reach(const sl_symbolic_arrays *view, const int *kind, const s
 
 int command_reach(int argc, char **argv) {
     const char *operand = NULL;
-    reach_options o = {"0", NULL, NULL, NULL, NULL, 500, 6};
+    reach_options o = {NULL, NULL, NULL, NULL, NULL, 500, 6};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
-        {OPTION_TEXT, "center", &o.center, "VERTEX", "vertex from which the patch grows (0)"},
+        {OPTION_TEXT, "center", &o.center, "VERTEX",
+         "vertex from which the patch grows (the first vertex of a face with an area)"},
         {OPTION_COUNT, "patch", &o.size, "K", "number of vertices of the patch (500)"},
         {OPTION_COUNT, "levels", &o.levels, "K", "number of levels of separators (6)"},
-        {OPTION_TEXT, "separators", &o.separators, "FILE", "draw the separators (.png)"},
-        {OPTION_TEXT, "tree", &o.tree, "FILE", "draw the elimination tree (.svg)"},
-        {OPTION_TEXT, "pattern", &o.pattern, "FILE", "draw the patterns of P A P' and L (.png)"},
-        {OPTION_TEXT, "graph", &o.graph, "FILE",
+        {OPTION_OUTPUT, "separators", &o.separators, "FILE", "draw the separators (.png)"},
+        {OPTION_OUTPUT, "tree", &o.tree, "FILE", "draw the elimination tree (.svg)"},
+        {OPTION_OUTPUT, "pattern", &o.pattern, "FILE", "draw the patterns of P A P' and L (.png)"},
+        {OPTION_OUTPUT, "graph", &o.graph, "FILE",
          "draw the mesh, at most 500 vertices, with vertex numbers (.svg)"},
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
@@ -194,6 +198,7 @@ int command_reach(int argc, char **argv) {
     if (o.size < 1 || o.levels < 1) {
         app_die_usage("--patch and --levels: expected 1 or more");
     }
+    app_check_output(&output, output.out);
     mesh m;
     sl_matrix *L = NULL;
     app_mesh(&m, operand, true);

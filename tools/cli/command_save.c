@@ -16,7 +16,7 @@ static const options_manual manual = {
 int command_save(int argc, char **argv) {
     const char *operand = NULL, *out = NULL;
     heat_time time = {0, 0, 0};
-    const option options[] = {{OPTION_TEXT, "out", &out, "FILE", "the file to write: required"},
+    const option options[] = {{OPTION_OUTPUT, "out", &out, "FILE", "the file to write: required"},
                               HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
                               {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);

@@ -56,7 +56,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t) {
     heat_system_analyze(h, m);
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
-    app_stage("factoring");
+    app_stage_factor(h->stats.symbolic.flops);
     app_must(sl_factor_create_combination(&h->F, h->S, one_and_t, terms, 2, NULL, &h->stats),
              "factorization", &h->stats);
     h->t = t;
@@ -110,8 +110,8 @@ double heat_area(const mesh *m) {
 
 double heat_time_value(const heat_time *h, const mesh *m, double default_area) {
     int given = (h->time != 0) + (h->scaled != 0) + (h->area != 0);
-    if (given > 1 || h->time < 0 || h->scaled < 0 || h->area < 0) {
-        app_die_usage("--time, --scaled-time, --area-time: give only one of them, above 0");
+    if (given > 1) {
+        app_die_usage("--time, --scaled-time, --area-time: give only one of them");
     }
     double edge = mesh_mean_edge_length(m);
     double t = h->time > 0                            ? h->time

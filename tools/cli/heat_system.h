@@ -57,13 +57,13 @@ typedef struct heat_time {
 } heat_time;
 
 /* The three entries of a command's table of options; h is a heat_time *. */
-#define HEAT_TIME_OPTIONS(h, default_text)                                                         \
-    {OPTION_REAL, "time", &(h)->time, "T", "diffuse for the time T"},                              \
-        {OPTION_REAL, "scaled-time", &(h)->scaled, "S",                                            \
-         "diffuse for S times the squared mean edge length"},                                      \
-    {                                                                                              \
-        OPTION_REAL, "area-time", &(h)->area, "A",                                                 \
-            "diffuse for A times the area of the surface; " default_text                           \
+#define HEAT_TIME_OPTIONS(h, default_text) \
+    {OPTION_ABOVE_0, "time", &(h)->time, "T", "diffuse for the time T"}, \
+        {OPTION_ABOVE_0, "scaled-time", &(h)->scaled, "S", \
+         "diffuse for S times the squared mean edge length"}, \
+    { \
+        OPTION_ABOVE_0, "area-time", &(h)->area, "A", \
+            "diffuse for A times the area of the surface; " default_text \
     }
 
 /** The time that the options select. Without an option: default_area times the area of the mesh if

@@ -43,12 +43,7 @@ static sl_int *read_list(const char *path, sl_int *count) {
 
 /* The vertex from which the patch is grown. */
 static sl_int first_vertex(const layout_command *job) {
-    sl_int v = job->vertex >= 0 ? job->vertex : 0;
-    while (job->vertex < 0 && v + 1 < job->m.n_vertices &&
-           job->inc.begin[v] == job->inc.begin[v + 1]) {
-        v++;
-    }
-    return v;
+    return job->vertex >= 0 ? job->vertex : app_default_vertex(&job->m);
 }
 
 /* Takes the patch from a list of vertices or grows it. */
@@ -99,7 +94,7 @@ static void factor_mesh(layout_command *job) {
     app_stage("analyzing the Laplacian");
     double began = app_now();
     app_must(sl_symbolic_create(&job->S, &A, NULL, &stats), "analysis of the Laplacian", &stats);
-    app_stage("factoring the Laplacian");
+    app_stage_factor(stats.symbolic.flops);
     app_must(sl_factor_create(&job->F, job->S, &A, &opt, &stats), "factor of the Laplacian",
              &stats);
     job->seconds_factor = app_now() - began;
@@ -132,6 +127,7 @@ void layout_command_open(layout_command *job, const char *operand) {
     if (strcmp(job->boundary, "circle") != 0 && strcmp(job->boundary, "unrolled") != 0) {
         app_die_usage("--boundary %s: expected circle or unrolled", job->boundary);
     }
+    app_check_output(&job->picture, job->out);
     app_mesh(&job->m, operand, true);
     if (!incidence_create(&job->inc, &job->m)) {
         app_die("out of memory");

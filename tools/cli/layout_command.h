@@ -41,8 +41,8 @@ enum { LAYOUT_SIZE = 2000 };
 
 #define LAYOUT_OPTIONS(c) \
     {OPTION_COUNT, "center", &(c)->vertex, "V", \
-     "grow the patch from this vertex in breadth-first order as a disk (the first vertex that " \
-     "has a face)"}, \
+     "grow the patch from this vertex in breadth-first order as a disk (the first vertex of a " \
+     "face with an area)"}, \
         {OPTION_COUNT, "patch", &(c)->size, "N", \
          "number of vertices of the grown patch (2000, at most a quarter of the mesh)"}, \
         {OPTION_TEXT, "list", &(c)->list, "LIST", \
@@ -58,12 +58,13 @@ enum { LAYOUT_SIZE = 2000 };
         {OPTION_TEXT, "boundary", &(c)->boundary, "circle|unrolled", \
          "initial layout of the boundary: on a circle by arc length, or unrolled with its own " \
          "edge lengths and angles as far as the Gaussian curvature inside permits (circle)"}, \
-        {OPTION_TEXT, "out", &(c)->out, "FILE", \
+        {OPTION_OUTPUT, "out", &(c)->out, "FILE", \
          "write the patch with texture coordinates scaled to the unit square: .obj or .ply"}, \
-        {OPTION_TEXT, "csv", &(c)->picture.csv, "FILE", \
+        {OPTION_OUTPUT, "csv", &(c)->picture.csv, "FILE", \
          "write a table vertex,u,v of the layout, scaled to the area of the patch"}, \
-        {OPTION_TEXT, "layout", &(c)->layout_png, "FILE", "draw the layout in the plane (.png)"}, \
-        {OPTION_TEXT, "close", &(c)->patch_png, "FILE", \
+        {OPTION_OUTPUT, "layout", &(c)->layout_png, "FILE", \
+         "draw the layout in the plane (.png)"}, \
+        {OPTION_OUTPUT, "close", &(c)->patch_png, "FILE", \
          "draw the patch alone with the checkerboard (.png)"}, \
         {OPTION_COUNT, "checks", &(c)->checks, "N", \
          "squares of the checkerboard along the longer side of the layout (20)"}, \

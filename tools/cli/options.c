@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/io/output_file.h"
+
 enum { LINE_WIDTH = 90, HELP_COLUMN = 25 };
 
 static const option *option_named(const option *options, const char *name, size_t length) {
@@ -21,7 +23,7 @@ static const option *option_named(const option *options, const char *name, size_
 
 static bool store(const option *o, const char *text) {
     char *after = NULL;
-    if (o->kind == OPTION_TEXT) {
+    if (o->kind == OPTION_TEXT || o->kind == OPTION_OUTPUT) {
         *(const char **)o->value = text;
         return true;
     }
@@ -35,7 +37,8 @@ static bool store(const option *o, const char *text) {
         return true;
     }
     double real = strtod(text, &after);
-    if (after == text || *after != '\0' || !isfinite(real)) {
+    if (after == text || *after != '\0' || !isfinite(real) ||
+        (o->kind == OPTION_ABOVE_0 && !(real > 0))) {
         return false;
     }
     *(double *)o->value = real;
@@ -69,8 +72,9 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
     }
     if (!store(o, text)) {
         (void)snprintf(message, message_size, "--%s %s: %s", o->name, text,
-                       o->kind == OPTION_COUNT ? "not an integer from 0 to 2^31-1"
-                                               : "not a finite number");
+                       o->kind == OPTION_COUNT     ? "not an integer from 0 to 2^31-1"
+                       : o->kind == OPTION_ABOVE_0 ? "not a finite number above 0"
+                                                   : "not a finite number");
         return false;
     }
     return true;
@@ -165,6 +169,18 @@ void options_help(const options_usage *usage, const options_manual *manual, cons
     print_examples(usage->command, manual->example);
 }
 
+/* Finds out before the work, and not after it, that its result cannot be written. */
+static void check_outputs(const option *options) {
+    char message[512];
+    for (const option *o = options; o->kind != OPTION_END; o++) {
+        const char *path = o->kind == OPTION_OUTPUT ? *(const char *const *)o->value : NULL;
+        if (path != NULL && !output_is_possible(path, message, sizeof message)) {
+            (void)fprintf(stderr, "sparse-local: %s\n", message);
+            exit(1);
+        }
+    }
+}
+
 void options_read(const options_usage *usage, const options_manual *manual, const option *options,
                   int argc, char **argv, const char **operands) {
     char message[512];
@@ -177,6 +193,7 @@ void options_read(const options_usage *usage, const options_manual *manual, cons
                       message, usage->command);
         exit(2);
     case OPTIONS_READ:
+        check_outputs(options);
         break;
     }
 }

@@ -12,7 +12,9 @@ typedef enum option_kind {
     OPTION_FLAG,    /* value: bool, set to true */
     OPTION_COUNT,   /* value: sl_int, 0 or more */
     OPTION_REAL,    /* value: double, finite */
-    OPTION_TEXT     /* value: const char *, borrowed from argv */
+    OPTION_ABOVE_0, /* value: double, finite, above 0 */
+    OPTION_TEXT,    /* value: const char *, borrowed from argv */
+    OPTION_OUTPUT   /* value: the same, a file to be written: options_read checks that it can be */
 } option_kind;
 
 /** One option: --name, --name ARGUMENT or --name=ARGUMENT. *value is the default until parsing
@@ -58,7 +60,7 @@ options_result options_parse(const options_usage *usage, const option *options, 
 void options_help(const options_usage *usage, const options_manual *manual, const option *options);
 
 /** Parses the command line. Exits with status 0 after printing the help, with status 2 after
- *  printing an error. */
+ *  printing an error, and with status 1 if a file cannot be written. */
 void options_read(const options_usage *usage, const options_manual *manual, const option *options,
                   int argc, char **argv, const char **operands);
 

@@ -66,6 +66,42 @@ static output *take(FILE *stream) {
 
 /* ---- opening ---- */
 
+/* Copies the folder of a path to `folder`, size bytes; false: it does not fit. */
+static bool folder_of(char *folder, size_t size, const char *path) {
+    const char *slash = strrchr(path, '/');
+    size_t length = slash == NULL ? 1 : slash == path ? 1 : (size_t)(slash - path);
+    if (length >= size) {
+        return false;
+    }
+    memcpy(folder, slash == NULL ? "." : path, length);
+    folder[length] = '\0';
+    return true;
+}
+
+bool output_is_possible(const char *path, char *message, size_t message_size) {
+    char folder[4096];
+    struct stat file, around;
+    int error = 0;
+    const bool exists = stat(path, &file) == 0;
+    if (exists && S_ISDIR(file.st_mode)) {
+        error = EISDIR;
+    } else if (!exists && errno != ENOENT) {
+        error = errno;
+    } else if (!folder_of(folder, sizeof folder, path) || (exists && access(path, W_OK) == 0)) {
+        error = 0; /* a path that is too long is left to output_open */
+    } else if (stat(folder, &around) != 0) {
+        error = errno;
+    } else if (!S_ISDIR(around.st_mode)) {
+        error = ENOTDIR;
+    } else if (access(folder, W_OK | X_OK) != 0) {
+        error = exists ? EACCES : errno;
+    }
+    if (error != 0) {
+        explain(message, message_size, path, "cannot be written", error);
+    }
+    return error == 0;
+}
+
 /* Whether the name belongs to an open file of this process, whatever kind of file that is. */
 static bool is_open_descriptor(const char *path) {
     return strncmp(path, "/dev/fd/", 8) == 0 || strncmp(path, "/proc/", 6) == 0;

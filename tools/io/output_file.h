@@ -25,6 +25,13 @@
  */
 FILE *output_open(const char *path, char *message, size_t message_size);
 
+/** Whether output_open is likely to succeed, without creating anything: the folder exists, and the
+ *  file or its folder can be written.
+ *
+ *  message  [out]  the reason, as that of output_open.
+ */
+bool output_is_possible(const char *path, char *message, size_t message_size);
+
 /** Flushes the stream, checks that everything was written, and gives the file its name. The stream
  *  is closed in any case.
  *

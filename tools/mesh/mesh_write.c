@@ -158,13 +158,17 @@ static bool fail(char *message, size_t size, const char *path, const char *words
     return false;
 }
 
+bool mesh_write_knows(const char *path) {
+    return input_path_ends(path, ".obj") || input_path_ends(path, ".ply");
+}
+
 bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *message,
                 size_t message_size) {
     static const mesh_extra nothing = {NULL, NULL, NULL, NULL, 0};
-    bool obj = input_path_ends(path, ".obj"), ply = input_path_ends(path, ".ply");
+    bool obj = input_path_ends(path, ".obj");
     size_t length = strlen(path);
     bool packed = length > 3 && strcmp(path + length - 3, ".gz") == 0;
-    if (!obj && !ply) {
+    if (!mesh_write_knows(path)) {
         return fail(
             message, message_size, path,
             "unknown mesh format: the name must end in .obj or .ply, optionally followed by .gz");

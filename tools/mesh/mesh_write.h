@@ -23,6 +23,9 @@ typedef struct mesh_extra {
     int n_fields;
 } mesh_extra;
 
+/** Whether the name of a file selects one of the formats of mesh_write. */
+bool mesh_write_knows(const char *path);
+
 /** Writes a mesh. The file name selects the format: .obj or .ply, plain or with .gz.
  *
  *  OBJ  v lines, with r g b in 0..1 after x y z if there are colors; vt lines and f v/vt corners if
