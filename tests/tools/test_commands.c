@@ -149,26 +149,30 @@ static void heat_matches_sums_over_eigenvectors(void **state) {
         spectrum s = spectrum_of(small[k]);
         double *values = test_reals(20 * (size_t)s.n);
         for (double t = 1e-3; t < 1e4; t *= 31) {
-            run(command_adf, "adf %s --time %.17g --csv %s", small[k], t, csv);
+            run(command_adf, "adf %s --laplacian cotangent --time %.17g --csv %s", small[k], t,
+                csv);
             assert_int_equal(read_csv(csv, values, 2, s.n), s.n);
             for (int v = 0; v < s.n; v++) {
                 double want = heat_by_sum(&s, v, v, t);
                 assert_true(values[2 * v] == v);
                 NEAR(values[2 * v + 1], want, want, tolerance_of(&s, t));
             }
-            run(command_adf, "adf %s --time %.17g --csv %s --at 7,7,3,9-11", small[k], t, csv);
+            run(command_adf, "adf %s --laplacian cotangent --time %.17g --csv %s --at 7,7,3,9-11",
+                small[k], t, csv);
             assert_int_equal(read_csv(csv, values, 2, s.n), 6);
             NEAR(values[1], heat_by_sum(&s, 7, 7, t), values[1], tolerance_of(&s, t));
             NEAR(values[11], heat_by_sum(&s, 11, 11, t), values[11], tolerance_of(&s, t));
-            run(command_heat, "heat %s --time %.17g --csv %s --from 5,60 --at 0,5,33", small[k], t,
-                csv);
+            run(command_heat,
+                "heat %s --laplacian cotangent --time %.17g --csv %s --from 5,60 --at 0,5,33",
+                small[k], t, csv);
             assert_int_equal(read_csv(csv, values, 2, s.n), 3);
             for (int row = 0; row < 3; row++) {
                 int v = (int)values[2 * row];
                 NEAR(values[2 * row + 1], heat_by_sum(&s, v, 5, t) + heat_by_sum(&s, v, 60, t),
                      heat_by_sum(&s, 5, 5, t), tolerance_of(&s, t));
             }
-            run(command_pairs, "pairs %s --time %.17g --csv %s --count 40", small[k], t, csv);
+            run(command_pairs, "pairs %s --laplacian cotangent --time %.17g --csv %s --count 40",
+                small[k], t, csv);
             assert_int_equal(read_csv(csv, values, 5, s.n), 40);
             for (int row = 0; row < 40; row++) {
                 int from = (int)values[5 * row], to = (int)values[5 * row + 1];
@@ -176,8 +180,9 @@ static void heat_matches_sums_over_eigenvectors(void **state) {
                      tolerance_of(&s, t));
             }
         }
-        run(command_hks, "hks %s --times 6 --csv %s --first 0.01 --last 100 --at all", small[k],
-            csv);
+        run(command_hks,
+            "hks %s --laplacian cotangent --times 6 --csv %s --first 0.01 --last 100 --at all",
+            small[k], csv);
         assert_int_equal(read_csv(csv, values, 7, s.n), s.n);
         for (int v = 0; v < s.n; v++) {
             for (int i = 0; i < 6; i++) {
@@ -200,14 +205,18 @@ static void heat_is_conserved(void **state) {
     assert_true(surface_generate(&m, "hills:40x30", NULL, 0));
     double mass[1200], all[2400], near[2400];
     laplacian_mass(mass, &m);
-    run(command_heat, "heat hills:40x30 --scaled-time 50 --from 600,3 --csv %s", csv);
+    run(command_heat,
+        "heat hills:40x30 --laplacian cotangent --scaled-time 50 --from 600,3 --csv %s", csv);
     assert_int_equal(read_csv(csv, all, 2, 1200), 1200);
     double sum = 0;
     for (int v = 0; v < 1200; v++) {
         sum += mass[v] * all[2 * v + 1];
     }
     assert_true(fabs(sum - 2) < 1e-12);
-    run(command_heat, "heat hills:40x30 --scaled-time 50 --from 600,3 --radius 0.2 --csv %s", csv);
+    run(command_heat,
+        "heat hills:40x30 --laplacian cotangent --scaled-time 50 --from 600,3 --radius 0.2 --csv "
+        "%s",
+        csv);
     int rows = read_csv(csv, near, 2, 1200), inside = 0;
     for (int v = 0; v < 1200; v++) {
         const double *x = m.xyz + 3 * v, *a = m.xyz + 3 * 600, *b = m.xyz + 3 * 3;

@@ -86,7 +86,7 @@ static void write_results(const app_output *output, const mesh *m, const double 
 
 int command_adf(int argc, char **argv) {
     const char *operand = NULL, *at = "all";
-    heat_time time = {0, 0, 0};
+    heat_time time = {0, 0, 0, NULL};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
@@ -102,7 +102,7 @@ int command_adf(int argc, char **argv) {
     app_mesh(&m, operand, true);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     double *values = app_alloc((size_t)count, sizeof *values);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0.05));
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0.05), time.laplacian);
     bool all = strcmp(at, "all") == 0;
     double begin = app_now(), worst = 0;
     app_must(sl_inverse_diagonal(h.F, values, all ? NULL : vertices, count, NULL, NULL),

@@ -152,7 +152,7 @@ int command_heat(int argc, char **argv) {
     const char *operand = NULL, *from = NULL, *at = NULL;
     double radius = 0;
     bool in_region = false;
-    heat_time time = {0, 0, 0};
+    heat_time time = {0, 0, 0, NULL};
     app_output output;
     memset(&output, 0, sizeof output);
     const option options[] = {
@@ -187,7 +187,7 @@ int command_heat(int argc, char **argv) {
                          ? within(&m, sources, n_sources, radius, &n_wanted)
                          : app_vertices("at", at != NULL ? at : "all", m.n_vertices, 2, &n_wanted);
     n_wanted = app_distinct(wanted, n_wanted, m.n_vertices);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
     double *x = app_alloc((size_t)n_wanted, sizeof *x);
     solve(x, &h, sources, n_sources, wanted, n_wanted, in_region);
     if (output.csv != NULL) {

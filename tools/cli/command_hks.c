@@ -153,7 +153,7 @@ static sl_int find_like(const char *like, const sl_int *vertices, sl_int count, 
 }
 
 int command_hks(int argc, char **argv) {
-    const char *operand = NULL, *at = "all", *like = NULL;
+    const char *operand = NULL, *at = "all", *like = NULL, *laplacian = NULL;
     double first = 0, last = 0;
     sl_int n_times = 16, count = 0, like_position = -1;
     sl_threads threads = {1, NULL, NULL};
@@ -169,6 +169,7 @@ int command_hks(int argc, char **argv) {
          "the middle time)"},
         {OPTION_COUNT, "threads", &threads.count, "N",
          "number of threads, if the program is built with OpenMP (1)"},
+        LAPLACIAN_OPTION(&laplacian),
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
@@ -178,6 +179,7 @@ int command_hks(int argc, char **argv) {
     if (threads.count > 1024) {
         app_die_usage("--threads: expected at most 1024");
     }
+    laplacian_check(laplacian);
     app_check_output(&output, output.out);
     mesh m;
     heat_system h;
@@ -189,7 +191,7 @@ int command_hks(int argc, char **argv) {
     double *times = app_alloc((size_t)n_times, sizeof *times);
     double *values = app_alloc((size_t)n_times * (size_t)count, sizeof *values);
     find_times(times, n_times, first, last, &m);
-    heat_system_analyze(&h, &m);
+    heat_system_analyze(&h, &m, laplacian);
     double begin = app_now();
     compute(values, &h, times, n_times, vertices, count, strcmp(at, "all") == 0, &threads);
     printf("signatures of %d of %d vertices at %d times from %.6g to %.6g\n", (int)count,

@@ -138,7 +138,7 @@ static double time_solve(const heat_system *h) {
 
 int command_info(int argc, char **argv) {
     const char *operand = NULL;
-    heat_time time = {0, 0, 0};
+    heat_time time = {0, 0, 0, NULL};
     bool mesh_only = false;
     const option options[] = {
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
@@ -164,7 +164,7 @@ int command_info(int argc, char **argv) {
         printf("no faces: there is nothing to factor\n");
     } else if (!mesh_only) {
         heat_system h;
-        heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+        heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
         print_costs(&h, seconds_read, time_solve(&h));
         heat_system_free(&h);
     }

@@ -187,7 +187,7 @@ static void write_csv(const char *path, const sl_int *i, const sl_int *j, const 
 int command_pairs(int argc, char **argv) {
     const char *operand = NULL, *to = NULL, *from = NULL, *csv = NULL, *histogram = NULL;
     sl_int count = 10000, seed = 1;
-    heat_time time = {0, 0, 0};
+    heat_time time = {0, 0, 0, NULL};
     const option options[] = {
         {OPTION_COUNT, "count", &count, "K", "number of random pairs (10000)"},
         {OPTION_COUNT, "seed", &seed, "S", "seed of the random pairs (1)"},
@@ -204,7 +204,7 @@ int command_pairs(int argc, char **argv) {
     sl_int *i = NULL, *j = NULL;
     app_mesh(&m, operand, true);
     choose_pairs(&i, &j, &count, to, from, count, (uint64_t)seed, m.n_vertices);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
     size_t size = (size_t)count;
     double *values = app_alloc(3 * size, sizeof *values); /* of the three methods */
     double *one = values, *two = values + size, *entries = values + 2 * size;

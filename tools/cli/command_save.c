@@ -15,7 +15,7 @@ static const options_manual manual = {
 
 int command_save(int argc, char **argv) {
     const char *operand = NULL, *out = NULL;
-    heat_time time = {0, 0, 0};
+    heat_time time = {0, 0, 0, NULL};
     const option options[] = {{OPTION_OUTPUT, "out", &out, "FILE", "the file to write: required"},
                               HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
                               {OPTION_END, NULL, NULL, NULL, NULL}};
@@ -29,7 +29,7 @@ int command_save(int argc, char **argv) {
     }
     app_stage("factor");
     double begin = app_now();
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0));
+    heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
     double factored = app_now();
     app_stage("save");
     app_must(sl_save_bytes(&bytes, h.S, h.F), "save", NULL);

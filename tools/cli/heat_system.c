@@ -24,18 +24,23 @@ static void scatter_mass(const heat_system *h, const double *mass) {
     free(identity);
 }
 
-void heat_system_analyze(heat_system *h, const mesh *m) {
+void heat_system_analyze(heat_system *h, const mesh *m, const char *name) {
     sl_matrix *laplacian = NULL;
+    intrinsic a;
     memset(h, 0, sizeof *h);
     h->n = m->n_vertices;
     h->stats.error.row = -1;
     double begin = app_now();
-    app_stage("analyzing");
+    app_stage("assembling");
     double *mass = app_alloc((size_t)h->n, sizeof *mass);
-    if (!laplacian_cotangent(&laplacian, m)) {
+    const mesh *surface = laplacian_choose(&a, m, name) ? &a.m : m;
+    double share = surface == m ? 1 : a.share;
+    if (!laplacian_cotangent_of(&laplacian, surface, a.lengths, share)) {
         app_die("out of memory for the Laplacian of %d vertices", (int)h->n);
     }
-    laplacian_mass(mass, m);
+    laplacian_mass_of(mass, surface, a.lengths, share);
+    intrinsic_free(&a);
+    app_stage("analyzing");
     h->seconds_assemble = app_now() - begin;
     const sl_csc L = sl_matrix_view(laplacian);
     app_must(sl_symbolic_create(&h->S, &L, NULL, &h->stats), "analysis", &h->stats);
@@ -51,9 +56,9 @@ void heat_system_analyze(heat_system *h, const mesh *m) {
     app_progress_end();
 }
 
-void heat_system_create(heat_system *h, const mesh *m, double t) {
+void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian) {
     check_time(t);
-    heat_system_analyze(h, m);
+    heat_system_analyze(h, m, laplacian);
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
     app_stage_factor(h->stats.symbolic.flops);
@@ -110,6 +115,7 @@ double heat_area(const mesh *m) {
 
 double heat_time_value(const heat_time *h, const mesh *m, double default_area) {
     int given = (h->time != 0) + (h->scaled != 0) + (h->area != 0);
+    laplacian_check(h->laplacian);
     if (given > 1) {
         app_die_usage("--time, --scaled-time, --area-time: give only one of them");
     }

@@ -2,7 +2,7 @@
 #ifndef TOOLS_HEAT_SYSTEM_H
 #define TOOLS_HEAT_SYSTEM_H
 
-#include "app.h"
+#include "laplacian_choice.h"
 
 /** (M + t L) x = b diffuses heat b for a time t by one implicit step; M is the lumped mass, L the
  *  cotangent Laplacian (laplacian.h).
@@ -25,16 +25,17 @@ typedef struct heat_system {
 
 /** Assembles M and L and analyzes their pattern.
  *
- *  h  [out]  release with heat_system_free.
- *  m  [in]   needed during the call only.
+ *  h          [out]  release with heat_system_free.
+ *  m          [in]   needed during the call only.
+ *  laplacian  [in]   the value of --laplacian (laplacian_choice.h).
  */
-void heat_system_analyze(heat_system *h, const mesh *m);
+void heat_system_analyze(heat_system *h, const mesh *m, const char *laplacian);
 
 /** heat_system_analyze, then factors M + t L to h->F.
  *
  *  t  [in]  above 0, at most 1e200, in squared units of length.
  */
-void heat_system_create(heat_system *h, const mesh *m, double t);
+void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian);
 
 /** Factors M + t[k] L for several times in one call.
  *
@@ -49,19 +50,20 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
 /** Releases everything and sets h to all zero. */
 void heat_system_free(heat_system *h);
 
-/** The values of the options --time, --scaled-time and --area-time; all 0 initially. */
+/** Values of the options --time, --scaled-time, --area-time, --laplacian; all 0 initially. */
 typedef struct heat_time {
     double time;
     double scaled;
     double area;
+    const char *laplacian;
 } heat_time;
 
-/* The three entries of a command's table of options; h is a heat_time *. */
+/* The four entries of a command's table of options; h is a heat_time *. */
 #define HEAT_TIME_OPTIONS(h, default_text) \
     {OPTION_ABOVE_0, "time", &(h)->time, "T", "diffuse for the time T"}, \
         {OPTION_ABOVE_0, "scaled-time", &(h)->scaled, "S", \
          "diffuse for S times the squared mean edge length"}, \
-    { \
+        LAPLACIAN_OPTION(&(h)->laplacian), { \
         OPTION_ABOVE_0, "area-time", &(h)->area, "A", \
             "diffuse for A times the area of the surface; " default_text \
     }

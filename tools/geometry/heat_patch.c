@@ -62,13 +62,17 @@ sl_status heat_patch_create(heat_patch *out, heat_solver *s, const sl_int *sourc
 /* B = div X. A face with corners x_i, x_j, x_k and weights w adds at its vertex i:
  *     w_k (x_i - x_j) X + w_j (x_i - x_k) X.
  * Returns the number of faces without X. */
-static sl_int divergence(double *B, const mesh *m, const double *u) {
+static sl_int divergence(double *B, const submesh *p, const double *u) {
+    const mesh *m = &p->m;
     sl_int faces_without_gradient = 0;
     memset(B, 0, (size_t)m->n_vertices * sizeof *B);
     for (sl_int f = 0; f < m->n_faces; f++) {
         const sl_int *face = m->faces + 3 * (size_t)f;
-        planar_triangle flat = planar_triangle_of(m, face);
-        laplacian_face face_values = laplacian_of_face(m, face);
+        const double *lengths = p->lengths != NULL ? p->lengths + 3 * (size_t)f : NULL;
+        planar_triangle flat =
+            lengths != NULL ? planar_triangle_of_lengths(lengths) : planar_triangle_of(m, face);
+        laplacian_face face_values =
+            lengths != NULL ? laplacian_of_lengths(lengths) : laplacian_of_face(m, face);
         double largest = 0, X[2] = {0, 0};
         for (int k = 0; k < 3; k++) {
             largest = fmax(largest, fabs(u[face[k]]));
@@ -184,7 +188,7 @@ static sl_status solve(heat_field *out, heat_patch *h, const sl_int *sources, sl
         status = solve_heat(out, h, sources, count, out->heat, B);
     }
     if (status == SL_OK) {
-        out->faces_without_gradient = divergence(B, &h->p.m, out->heat);
+        out->faces_without_gradient = divergence(B, &h->p, out->heat);
         out->solves = solves;
         out->poisson_stats = h->poisson.stats;
         status = patch_solver_solve_patch(&h->poisson, out->distance, B, 1, 1e-10, &out->solves);

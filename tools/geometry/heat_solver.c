@@ -27,7 +27,8 @@ static sl_status factor(sl_factor **out, sl_symbolic **S, const sl_matrix *A,
     return status == SL_OK ? sl_factor_create(out, *S, &view, &opt, NULL) : status;
 }
 
-sl_status heat_solver_create(heat_solver *out, const mesh *m, double t) {
+/* Both sheets of a double cover count: u and b then halve alike, and distances are the same. */
+static sl_status create(heat_solver *out, const mesh *m, const double *lengths, double t) {
     sl_matrix *A = NULL, *L = NULL;
     memset(out, 0, sizeof *out);
     if (!(t > 0 && t <= 1e200)) {
@@ -41,8 +42,8 @@ sl_status heat_solver_create(heat_solver *out, const mesh *m, double t) {
     out->m = m;
     out->t = t;
     sl_status status = SL_ERR_MEMORY;
-    if (incidence_create(&out->inc, m) && laplacian_system(&A, m, t) &&
-        laplacian_cotangent(&L, m)) {
+    if (incidence_create_of(&out->inc, m, lengths) && laplacian_system_of(&A, m, lengths, 1, t) &&
+        laplacian_cotangent_of(&L, m, lengths, 1)) {
         status = sl_work_create(&out->work, NULL);
     }
     if (status == SL_OK) {
@@ -59,12 +60,20 @@ sl_status heat_solver_create(heat_solver *out, const mesh *m, double t) {
     return status;
 }
 
+sl_status heat_solver_create(heat_solver *out, const mesh *m, double t) {
+    return create(out, m, NULL, t);
+}
+
+sl_status heat_solver_create_intrinsic(heat_solver *out, const intrinsic *a, double t) {
+    return create(out, &a->m, a->lengths, t);
+}
+
 sl_status heat_solver_set_time(heat_solver *s, double t) {
     sl_matrix *A = NULL;
     if (!(t > 0 && t <= 1e200)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!laplacian_system(&A, s->m, t)) {
+    if (!laplacian_system_of(&A, s->m, s->inc.lengths, 1, t)) {
         return SL_ERR_MEMORY;
     }
     const sl_csc view = sl_matrix_view(A);

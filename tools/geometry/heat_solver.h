@@ -2,6 +2,7 @@
 #ifndef TOOLS_HEAT_SOLVER_H
 #define TOOLS_HEAT_SOLVER_H
 
+#include "intrinsic.h"
 #include "tools/mesh/incidence.h"
 
 /* The heat method [CWW13] computes geodesic distances by two linear systems:
@@ -26,7 +27,7 @@
  */
 typedef struct heat_solver {
     const mesh *m; /* borrowed */
-    incidence inc;
+    incidence inc; /* with the lengths of the faces, if these define them */
     double t;
     sl_symbolic *S;
     sl_factor *heat;    /* of M + t L */
@@ -46,6 +47,12 @@ typedef struct heat_solver {
  *           sl_factor_create.
  */
 sl_status heat_solver_create(heat_solver *out, const mesh *m, double t);
+
+/** The same for an intrinsic triangulation: distances along the surface as it has them.
+ *
+ *  a  [in]  borrowed, must outlive out.
+ */
+sl_status heat_solver_create_intrinsic(heat_solver *out, const intrinsic *a, double t);
 
 /** Refactors M + t L for another t, with the same analysis. On error s can only be freed, unless t
  *  was out of range.

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "planar_triangle.h"
 #include "tools/mesh/adjacency.h"
 #include "tools/matrix/triplets.h"
 
@@ -72,15 +73,37 @@ static bool faces_in_range(const mesh *m) {
     return true;
 }
 
-void laplacian_mass(double *mass, const mesh *m) {
+/* Half the cotangent at the corner opposite to an edge, from the lengths of the edges. */
+laplacian_face laplacian_of_lengths(const double lengths[3]) {
+    laplacian_face result = {planar_area_of_lengths(lengths), {0, 0, 0}};
+    for (int k = 0; k < 3 && result.area > 0; k++) {
+        double a = lengths[k], b = lengths[(k + 1) % 3], c = lengths[(k + 2) % 3];
+        double long_side = fmax(b, c), short_side = fmin(b, c);
+        double twice = (long_side - a) * (long_side + a) + short_side * short_side;
+        result.weight[k] = 0.125 * (twice / result.area);
+    }
+    return result;
+}
+
+/* The f-th face of m, by its lengths unless these are NULL. */
+static laplacian_face face_of(const mesh *m, const double *lengths, size_t f, double share) {
+    laplacian_face measure = lengths != NULL ? laplacian_of_lengths(lengths + 3 * f)
+                                             : laplacian_of_face(m, m->faces + 3 * f);
+    measure.area *= share;
+    for (int k = 0; k < 3; k++) {
+        measure.weight[k] *= share;
+    }
+    return measure;
+}
+
+void laplacian_mass_of(double *mass, const mesh *m, const double *lengths, double share) {
     for (sl_int v = 0; v < m->n_vertices; v++) {
         mass[v] = 0;
     }
     for (size_t f = 0; f < (size_t)m->n_faces; f++) {
-        const sl_int *face = m->faces + 3 * f;
-        double third = laplacian_of_face(m, face).area / 3;
+        double third = face_of(m, lengths, f, share).area / 3;
         for (int k = 0; k < 3; k++) {
-            mass[face[k]] += third;
+            mass[m->faces[3 * f + (size_t)k]] += third;
         }
     }
     for (sl_int v = 0; v < m->n_vertices; v++) {
@@ -88,18 +111,25 @@ void laplacian_mass(double *mass, const mesh *m) {
     }
 }
 
+void laplacian_mass(double *mass, const mesh *m) {
+    laplacian_mass_of(mass, m, NULL, 1);
+}
+
 /* Assembles diagonal + t L. diagonal (n_vertices) is overwritten. */
-static bool assemble(sl_matrix **out, const mesh *m, double *diagonal, double t) {
+static bool assemble(sl_matrix **out, const mesh *m, const double *lengths, double share,
+                     double *diagonal, double t) {
     triplets list = {0, 0, NULL, NULL, NULL};
     bool ok = triplets_reserve(&list, (size_t)m->n_vertices + 3 * (size_t)m->n_faces);
     for (size_t f = 0; f < (size_t)m->n_faces && ok; f++) {
         const sl_int *face = m->faces + 3 * f;
-        laplacian_face measure = laplacian_of_face(m, face);
+        laplacian_face measure = face_of(m, lengths, f, share);
         for (int k = 0; k < 3 && ok; k++) {
             sl_int u = face[(k + 1) % 3];
             sl_int v = face[(k + 2) % 3];
-            /* u = v only in faces with a repeated vertex: their weights are 0 */
             double weight = t * measure.weight[k];
+            if (u == v) { /* the edge contributes nothing; its entry keeps the pattern */
+                weight = 0;
+            }
             diagonal[u] += weight;
             diagonal[v] += weight;
             ok = triplets_add(&list, u > v ? u : v, u > v ? v : u, -weight);
@@ -115,7 +145,8 @@ static bool assemble(sl_matrix **out, const mesh *m, double *diagonal, double t)
     return triplets_finish(out, m->n_vertices, m->n_vertices, &list, true) == SL_OK;
 }
 
-static bool assemble_system(sl_matrix **out, const mesh *m, double t, bool with_mass) {
+static bool assemble_system(sl_matrix **out, const mesh *m, const double *lengths, double share,
+                            double t, bool with_mass) {
     *out = NULL;
     if (!faces_in_range(m)) {
         return false;
@@ -125,23 +156,32 @@ static bool assemble_system(sl_matrix **out, const mesh *m, double t, bool with_
         return false;
     }
     if (with_mass) {
-        laplacian_mass(diagonal, m);
+        laplacian_mass_of(diagonal, m, lengths, share);
     }
-    bool ok = assemble(out, m, diagonal, t);
+    bool ok = assemble(out, m, lengths, share, diagonal, t);
     free(diagonal);
     return ok;
 }
 
-bool laplacian_cotangent(sl_matrix **out, const mesh *m) {
-    return assemble_system(out, m, 1.0, false);
+bool laplacian_cotangent_of(sl_matrix **out, const mesh *m, const double *lengths, double share) {
+    return assemble_system(out, m, lengths, share, 1.0, false);
 }
 
-bool laplacian_system(sl_matrix **out, const mesh *m, double t) {
+bool laplacian_cotangent(sl_matrix **out, const mesh *m) {
+    return laplacian_cotangent_of(out, m, NULL, 1);
+}
+
+bool laplacian_system_of(sl_matrix **out, const mesh *m, const double *lengths, double share,
+                         double t) {
     if (!(t >= 0 && t <= TIME_MAX)) {
         *out = NULL;
         return false;
     }
-    return assemble_system(out, m, t, true);
+    return assemble_system(out, m, lengths, share, t, true);
+}
+
+bool laplacian_system(sl_matrix **out, const mesh *m, double t) {
+    return laplacian_system_of(out, m, NULL, 1, t);
 }
 
 bool laplacian_uniform(sl_matrix **out, const mesh *m, double shift) {

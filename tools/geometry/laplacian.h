@@ -34,6 +34,10 @@ typedef struct laplacian_face {
 /** Computes it for the face with corners face[0..2], each in 0..n_vertices-1. */
 laplacian_face laplacian_of_face(const mesh *m, const sl_int *face);
 
+/** The same for a face whose edge opposite to corner k has the length lengths[k]. Without area the
+ *  weights are 0. */
+laplacian_face laplacian_of_lengths(const double lengths[3]);
+
 /** Lower triangle of the cotangent Laplacian: the weight of an edge is half the sum of the
  *  cotangents opposite to it.
  *
@@ -67,6 +71,16 @@ void laplacian_mass(double *mass, const mesh *m);
  *  Returns  true; false: as laplacian_cotangent, or t is out of range or NaN.
  */
 bool laplacian_system(sl_matrix **out, const mesh *m, double t);
+
+/** The same three for faces that are given by their lengths (intrinsic.h).
+ *
+ *  lengths  [in]  3 n_faces: of the edge opposite to each corner; NULL: as above.
+ *  share    [in]  factor of areas and weights.
+ */
+bool laplacian_cotangent_of(sl_matrix **out, const mesh *m, const double *lengths, double share);
+bool laplacian_system_of(sl_matrix **out, const mesh *m, const double *lengths, double share,
+                         double t);
+void laplacian_mass_of(double *mass, const mesh *m, const double *lengths, double share);
 
 /** The mean edge length, each edge counted once; 0 for a mesh without edges and if memory runs
  *  out. */

@@ -77,7 +77,7 @@ sl_status patch_solver_create(patch_solver *out, const sl_symbolic *S, const sl_
     size_t n = (size_t)p->m.n_vertices;
     out->scratch = (double *)malloc((4 * n * PATCH_SOLVER_MAX_RHS + 1) * sizeof *out->scratch);
     sl_status status = SL_ERR_MEMORY;
-    if (out->scratch != NULL && laplacian_cotangent(&out->N, &p->m)) {
+    if (out->scratch != NULL && laplacian_cotangent_of(&out->N, &p->m, p->lengths, 1)) {
         status = sl_work_create(&out->work, NULL);
     }
     if (status == SL_OK) {

@@ -21,6 +21,23 @@ planar_triangle planar_triangle_of(const mesh *m, const sl_int *face) {
     return f;
 }
 
+/* The product of Kahan, with a >= b >= c: no difference cancels. */
+double planar_area_of_lengths(const double lengths[3]) {
+    double a = fmax(lengths[0], fmax(lengths[1], lengths[2]));
+    double c = fmin(lengths[0], fmin(lengths[1], lengths[2]));
+    double b = fmax(fmin(lengths[0], lengths[1]), fmin(fmax(lengths[0], lengths[1]), lengths[2]));
+    double rest = c - (a - b);
+    return rest > 0 ? 0.25 * sqrt((a + (b + c)) * rest) * sqrt((c + (a - b)) * (a + (b - c))) : 0;
+}
+
+planar_triangle planar_triangle_of_lengths(const double lengths[3]) {
+    double base = lengths[2], near = lengths[1], far = lengths[0];
+    double along = base > 0 ? 0.5 * (base + (near - far) * ((near + far) / base)) : 0;
+    double height = base > 0 ? 2 * planar_area_of_lengths(lengths) / base : 0;
+    planar_triangle f = {{{0, 0}, {base, 0}, {along, height}}};
+    return f;
+}
+
 bool planar_map_of(planar_map *out, const planar_triangle *f, const double *const to[3]) {
     double base = f->x[1][0], height = f->x[2][1];
     if (!(base > 0 && height > 0)) {

@@ -15,6 +15,12 @@ typedef struct planar_triangle {
 /** Computes it for the face with corners face[0..2]. */
 planar_triangle planar_triangle_of(const mesh *m, const sl_int *face);
 
+/** The area of a triangle with edges of these lengths, also of a needle; 0 if it has none. */
+double planar_area_of_lengths(const double lengths[3]);
+
+/** The triangle whose edge opposite to corner k has the length lengths[k], placed like a face. */
+planar_triangle planar_triangle_of_lengths(const double lengths[3]);
+
 /** The linear map of a planar triangle to three points of the plane, and its singular values. */
 typedef struct planar_map {
     double a[2][2];   /* the map is a x + constant */

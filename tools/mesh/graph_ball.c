@@ -92,14 +92,16 @@ static bool record_path(search *s, sl_int v, double distance) {
 /* Extends the path to v by one edge, to the other corners of v's faces. */
 static bool extend_paths(search *s, sl_int v, double distance, double radius) {
     const incidence *a = s->inc;
-    const double *from = a->m->xyz + 3 * (size_t)v;
     for (sl_off p = a->begin[v]; p < a->begin[v + 1]; p++) {
         const sl_int *f = a->m->faces + 3 * (size_t)a->face[p];
-        for (int c = 0; c < 3; c++) {
-            const double *to = a->m->xyz + 3 * (size_t)f[c];
-            double length =
-                distance + hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-            if (f[c] != v && length <= radius && !record_path(s, f[c], length)) {
+        for (int k = 0; k < 3;
+             k++) { /* the edge opposite to corner k, where it begins or ends at v */
+            sl_int one = f[(k + 1) % 3], other = f[(k + 2) % 3], to = one == v ? other : one;
+            if ((one != v && other != v) || to == v) {
+                continue;
+            }
+            double length = distance + incidence_edge_length(a, a->face[p], k);
+            if (length <= radius && !record_path(s, to, length)) {
                 return false;
             }
         }

@@ -1,11 +1,12 @@
 /* incidence.c: the faces around each vertex of a mesh, and scratch to number some vertices */
 #include "incidence.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool has_distinct_corners(const sl_int *f) {
-    return f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
+static bool is_listed(const sl_int *f, const double *lengths) {
+    return lengths != NULL || (f[0] != f[1] && f[1] != f[2] && f[2] != f[0]);
 }
 
 void incidence_free(incidence *a) {
@@ -17,6 +18,18 @@ void incidence_free(incidence *a) {
 }
 
 bool incidence_create(incidence *out, const mesh *m) {
+    return incidence_create_of(out, m, NULL);
+}
+
+double incidence_edge_length(const incidence *a, sl_int f, int k) {
+    const sl_int *v = a->m->faces + 3 * (size_t)f;
+    const double *x = a->m->xyz + 3 * (size_t)v[(k + 1) % 3];
+    const double *y = a->m->xyz + 3 * (size_t)v[(k + 2) % 3];
+    return a->lengths != NULL ? a->lengths[3 * (size_t)f + (size_t)k]
+                              : hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]);
+}
+
+bool incidence_create_of(incidence *out, const mesh *m, const double *lengths) {
     size_t n = (size_t)m->n_vertices, corners = 3 * (size_t)m->n_faces;
     memset(out, 0, sizeof *out);
     for (size_t k = 0; k < corners; k++) {
@@ -25,6 +38,7 @@ bool incidence_create(incidence *out, const mesh *m) {
         }
     }
     out->m = m;
+    out->lengths = lengths;
     out->begin = (sl_off *)calloc(n + 2, sizeof *out->begin);
     out->face = (sl_int *)malloc((corners + 1) * sizeof *out->face);
     out->local_index = (sl_int *)malloc((n + 1) * sizeof *out->local_index);
@@ -37,14 +51,14 @@ bool incidence_create(incidence *out, const mesh *m) {
     /* begin[v + 2] counts the faces of v; after the prefix sums, begin[v + 1] is the next free
      * position of v, and its end once all faces are stored */
     for (size_t k = 0; k < corners; k++) {
-        out->begin[m->faces[k] + 2] += has_distinct_corners(m->faces + k / 3 * 3);
+        out->begin[m->faces[k] + 2] += is_listed(m->faces + k / 3 * 3, lengths);
     }
     for (size_t v = 0; v < n; v++) {
         out->begin[v + 2] += out->begin[v + 1];
         out->local_index[v] = -1;
     }
     for (size_t k = 0; k < corners; k++) {
-        if (has_distinct_corners(m->faces + k / 3 * 3)) {
+        if (is_listed(m->faces + k / 3 * 3, lengths)) {
             out->face[out->begin[m->faces[k] + 1]++] = (sl_int)(k / 3);
         }
     }

@@ -10,10 +10,13 @@
  *  proportional to the subset.
  *
  *  The faces around vertex v are face[begin[v]] .. face[begin[v+1]-1], ascending. Faces with a
- *  repeated vertex are left out.
+ *  repeated vertex are left out, unless the faces are given by lengths: then they are surfaces like
+ *  others, and are listed once for each of their corners.
  */
 typedef struct incidence {
     const mesh *m; /* borrowed */
+    const double
+        *lengths;  /* borrowed: 3 n_faces, as in intrinsic.h; NULL: the coordinates decide */
     sl_off *begin; /* n_vertices + 1 */
     sl_int *face;
     sl_int *local_index;      /* n_vertices: scratch to number a subset, -1 between calls */
@@ -28,6 +31,12 @@ typedef struct incidence {
  *  Cost     O(vertices + faces).
  */
 bool incidence_create(incidence *out, const mesh *m);
+
+/** The same for faces with these lengths, borrowed; NULL: as incidence_create. */
+bool incidence_create_of(incidence *out, const mesh *m, const double *lengths);
+
+/** The length of the edge of face f opposite to its corner k. */
+double incidence_edge_length(const incidence *a, sl_int f, int k);
 
 /** Releases the arrays and sets a to all zero. */
 void incidence_free(incidence *a);

@@ -9,6 +9,7 @@ void submesh_free(submesh *p) {
     mesh_free(&p->m);
     free(p->vertices);
     free(p->mesh_faces);
+    free(p->lengths);
     free(p->interface);
     memset(p, 0, sizeof *p);
 }
@@ -59,6 +60,20 @@ static bool find_interface(submesh *p, const incidence *inc) {
     return true;
 }
 
+/* The lengths of the faces, if they have any. */
+static bool copy_lengths(submesh *p, const incidence *inc) {
+    size_t n_faces = (size_t)p->m.n_faces;
+    if (inc->lengths == NULL) {
+        return true;
+    }
+    p->lengths = (double *)malloc((3 * n_faces + 1) * sizeof *p->lengths);
+    for (size_t f = 0; f < n_faces && p->lengths != NULL; f++) {
+        memcpy(p->lengths + 3 * f, inc->lengths + 3 * (size_t)p->mesh_faces[f],
+               3 * sizeof *p->lengths);
+    }
+    return p->lengths != NULL;
+}
+
 bool submesh_from_faces(submesh *out, incidence *inc, const sl_int *vertices, sl_int n_vertices,
                         const sl_int *faces, sl_int n_faces) {
     if (!part_allocate(out, n_vertices, n_faces)) {
@@ -78,7 +93,7 @@ bool submesh_from_faces(submesh *out, incidence *inc, const sl_int *vertices, sl
         }
     }
     unmark(inc, vertices, n_vertices);
-    if (!find_interface(out, inc)) {
+    if (!copy_lengths(out, inc) || !find_interface(out, inc)) {
         submesh_free(out);
         return false;
     }
@@ -95,7 +110,11 @@ static sl_int *faces_between(const incidence *inc, const sl_int *vertices, sl_in
     }
     sl_int *faces = (sl_int *)malloc(capacity * sizeof *faces);
     for (sl_int k = 0; k < count && faces != NULL; k++) {
-        for (sl_off p = inc->begin[vertices[k]]; p < inc->begin[vertices[k] + 1]; p++) {
+        sl_off first = inc->begin[vertices[k]];
+        for (sl_off p = first; p < inc->begin[vertices[k] + 1]; p++) {
+            if (p > first && inc->face[p] == inc->face[p - 1]) {
+                continue; /* a face with this vertex at two corners */
+            }
             const sl_int *f = inc->m->faces + 3 * (size_t)inc->face[p];
             if (inc->local_index[f[0]] >= k && inc->local_index[f[1]] >= k &&
                 inc->local_index[f[2]] >= k) {

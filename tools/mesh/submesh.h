@@ -16,6 +16,7 @@ typedef struct submesh {
     mesh m;             /* the vertices and faces in local numbers */
     sl_int *vertices;   /* m.n_vertices: their numbers in the whole mesh */
     sl_int *mesh_faces; /* m.n_faces: their numbers in the whole mesh */
+    double *lengths;    /* 3 m.n_faces if the faces are given by lengths (intrinsic.h); else NULL */
     sl_int n_interface;
     sl_int *interface; /* local vertices, ascending */
 } submesh;

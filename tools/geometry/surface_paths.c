@@ -1,0 +1,230 @@
+/* surface_paths.c: short paths over the faces of a mesh, and what they say about distances */
+#include "surface_paths.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINTS_MAX = 15 };
+
+/* An entry of the binary heap, shortest on top. */
+typedef struct entry {
+    double length;
+    int64_t point;
+} entry;
+
+/* Points are the vertices, then `points` of each edge, from its lower to its higher vertex. */
+typedef struct search {
+    const incidence *inc;
+    int points;
+    sl_int n_edges;
+    sl_int *edge_of; /* 3 n_faces: the edge opposite to a corner */
+    sl_off *begin;   /* n_edges + 1: the sides of an edge are side[begin[e]] .. */
+    sl_int *side;    /* 3 n_faces */
+    double *length;  /* of the shortest path so far, by point */
+    entry *heap;
+    size_t used, capacity;
+} search;
+
+static bool push(search *s, double length, int64_t point) {
+    if (s->used == s->capacity) {
+        size_t wanted = s->capacity < 64 ? 64 : 2 * s->capacity;
+        entry *larger = (entry *)realloc(s->heap, wanted * sizeof *larger);
+        if (larger == NULL) {
+            return false;
+        }
+        s->heap = larger;
+        s->capacity = wanted;
+    }
+    size_t at = s->used++;
+    for (; at > 0 && s->heap[(at - 1) / 2].length > length; at = (at - 1) / 2) {
+        s->heap[at] = s->heap[(at - 1) / 2];
+    }
+    entry e = {length, point};
+    s->heap[at] = e;
+    return true;
+}
+
+static entry pop(search *s) {
+    entry top = s->heap[0], last = s->heap[--s->used];
+    size_t at = 0;
+    for (size_t child = 1; child < s->used; child = 2 * at + 1) {
+        child += child + 1 < s->used && s->heap[child + 1].length < s->heap[child].length;
+        if (s->heap[child].length >= last.length) {
+            break;
+        }
+        s->heap[at] = s->heap[child];
+        at = child;
+    }
+    s->heap[at] = last;
+    return top;
+}
+
+/* The ends of the edge opposite to corner s % 3 of face s / 3, lower number first. */
+static void ends_of(sl_int ends[2], const mesh *m, sl_int s) {
+    const sl_int *face = m->faces + s / 3 * 3;
+    sl_int u = face[(s + 1) % 3], v = face[(s + 2) % 3];
+    ends[0] = u < v ? u : v;
+    ends[1] = u < v ? v : u;
+}
+
+/* Numbers the edges: sides are sorted by both ends, in two passes of counting. */
+static bool number_edges(search *s) {
+    const mesh *m = s->inc->m;
+    size_t n = (size_t)m->n_vertices;
+    sl_int count = 3 * m->n_faces, ends[2], before[2] = {-1, -1};
+    sl_int *order = (sl_int *)malloc(((size_t)count + 1) * sizeof *order);
+    sl_off *next = (sl_off *)calloc(n + 2, sizeof *next);
+    bool ok = order != NULL && next != NULL;
+    for (int pass = 0; pass < 2 && ok; pass++) { /* by the higher end, then by the lower one */
+        const sl_int *from = pass == 0 ? NULL : order;
+        sl_int *to = pass == 0 ? order : s->side;
+        memset(next, 0, (n + 2) * sizeof *next);
+        for (sl_int k = 0; k < count; k++) {
+            ends_of(ends, m, k);
+            next[ends[pass == 0 ? 1 : 0] + 1]++;
+        }
+        for (size_t v = 0; v < n; v++) {
+            next[v + 1] += next[v];
+        }
+        for (sl_int k = 0; k < count; k++) {
+            sl_int side = from != NULL ? from[k] : k;
+            ends_of(ends, m, side);
+            to[next[ends[pass == 0 ? 1 : 0]]++] = side;
+        }
+    }
+    for (sl_int k = 0; k < count && ok; k++) {
+        ends_of(ends, m, s->side[k]);
+        if (ends[0] != before[0] || ends[1] != before[1]) {
+            s->begin[s->n_edges++] = k;
+        }
+        s->edge_of[s->side[k]] = s->n_edges - 1;
+        memcpy(before, ends, sizeof before);
+    }
+    s->begin[s->n_edges] = count;
+    free(next);
+    free(order);
+    return ok;
+}
+
+static void place(double x[3], const search *s, int64_t point) {
+    const mesh *m = s->inc->m;
+    if (point < m->n_vertices) {
+        memcpy(x, m->xyz + 3 * point, 3 * sizeof *x);
+        return;
+    }
+    int64_t edge = (point - m->n_vertices) / s->points, k = (point - m->n_vertices) % s->points;
+    double share = (double)(k + 1) / (double)(s->points + 1);
+    sl_int ends[2];
+    ends_of(ends, m, s->side[s->begin[edge]]);
+    for (int c = 0; c < 3; c++) {
+        double a = m->xyz[3 * (size_t)ends[0] + (size_t)c];
+        double b = m->xyz[3 * (size_t)ends[1] + (size_t)c];
+        x[c] = a + share * (b - a);
+    }
+}
+
+/* Extends a path to all points of a face. */
+static bool extend(search *s, entry e, sl_int face) {
+    const mesh *m = s->inc->m;
+    double from[3], to[3];
+    place(from, s, e.point);
+    for (int k = 0; k < 3; k++) {
+        int64_t edge = s->edge_of[3 * face + k];
+        for (int i = -1; i < s->points; i++) {
+            int64_t point =
+                i < 0 ? (int64_t)m->faces[3 * face + k] : m->n_vertices + edge * s->points + i;
+            place(to, s, point);
+            double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2];
+            double length = e.length + sqrt(x * x + y * y + z * z);
+            if (length < s->length[point]) {
+                s->length[point] = length;
+                if (!push(s, length, point)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+static bool run(search *s, const sl_int *sources, sl_int count) {
+    const sl_int n = s->inc->m->n_vertices;
+    bool ok = true;
+    for (sl_int k = 0; k < count && ok; k++) {
+        s->length[sources[k]] = 0;
+        ok = push(s, 0, sources[k]);
+    }
+    while (ok && s->used > 0) {
+        entry e = pop(s);
+        if (e.length > s->length[e.point]) {
+            continue;
+        }
+        if (e.point < n) {
+            for (sl_off p = s->inc->begin[e.point]; p < s->inc->begin[e.point + 1] && ok; p++) {
+                ok = extend(s, e, s->inc->face[p]);
+            }
+        } else {
+            int64_t edge = (e.point - n) / s->points;
+            for (sl_off p = s->begin[edge]; p < s->begin[edge + 1] && ok; p++) {
+                ok = extend(s, e, s->side[p] / 3);
+            }
+        }
+    }
+    return ok;
+}
+
+bool surface_paths(double *length, const incidence *inc, const sl_int *sources, sl_int count,
+                   int points) {
+    search s;
+    memset(&s, 0, sizeof s);
+    size_t corners = 3 * (size_t)inc->m->n_faces, n = (size_t)inc->m->n_vertices;
+    s.inc = inc;
+    s.points = points;
+    if (points < 0 || points > POINTS_MAX || inc->m->n_faces > INT32_MAX / 3) {
+        return false;
+    }
+    s.edge_of = (sl_int *)malloc((corners + 1) * sizeof *s.edge_of);
+    s.side = (sl_int *)malloc((corners + 1) * sizeof *s.side);
+    s.begin = (sl_off *)malloc((corners + 2) * sizeof *s.begin);
+    bool ok = s.edge_of != NULL && s.side != NULL && s.begin != NULL && number_edges(&s);
+    size_t total = n + (size_t)s.n_edges * (size_t)points;
+    s.length = ok ? (double *)malloc((total + 1) * sizeof *s.length) : NULL;
+    for (size_t k = 0; k < total && s.length != NULL; k++) {
+        s.length[k] = INFINITY;
+    }
+    ok = s.length != NULL && run(&s, sources, count);
+    if (ok) {
+        memcpy(length, s.length, n * sizeof *length);
+    }
+    free(s.heap);
+    free(s.length);
+    free(s.begin);
+    free(s.side);
+    free(s.edge_of);
+    return ok;
+}
+
+surface_correction surface_paths_correct(double *distance, const sl_int *vertices, sl_int n,
+                                         const double *u1, const double *u3, double slack) {
+    surface_correction c;
+    sl_int counted = 0;
+    memset(&c, 0, sizeof c);
+    for (sl_int k = 0; k < n; k++) {
+        double high = u3[vertices[k]], width = 0.5 * (u1[vertices[k]] - high) + slack;
+        double low = fmax(0, high - width), d = distance[k];
+        if (isnan(d) || !isfinite(high)) {
+            continue;
+        }
+        double moved = d > high ? high : d < low ? low : d;
+        c.raised += moved > d;
+        c.lowered += moved < d;
+        c.largest = fmax(c.largest, fabs(moved - d));
+        c.mean_width += high - low;
+        c.largest_width = fmax(c.largest_width, high - low);
+        counted++;
+        distance[k] = moved;
+    }
+    c.mean_width = counted > 0 ? c.mean_width / counted : 0;
+    return c;
+}
