@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/draw/legend.h"
 #include "tools/geometry/laplacian.h"
 #include "tools/io/output_file.h"
 #include "tools/mesh/surface_generator.h"
@@ -263,6 +264,47 @@ void app_write_png(const picture *p, const char *path) {
     }
 }
 
+/* The ends of the color map as render_mesh chooses them. */
+static void find_range(render_style *style, sl_int n) {
+    double low = INFINITY, high = -INFINITY;
+    for (sl_int v = 0; v < n && style->low == 0 && style->high == 0; v++) {
+        if (isfinite(style->scalar[v])) {
+            low = fmin(low, style->scalar[v]);
+            high = fmax(high, style->scalar[v]);
+        }
+    }
+    if (low <= high) {
+        style->low = low;
+        style->high = high;
+    }
+}
+
+/* Renders the mesh, with a legend at its right if the style has one and the picture room for it. */
+static bool render_with_legend(picture *p, const mesh *m, const render_view *whole,
+                               const render_style *given) {
+    const rgb white = {255, 255, 255};
+    render_view view = *whole;
+    render_style style = *given;
+    picture drawn;
+    int width = given->legend != NULL ? legend_width(view.width, view.height) : 0;
+    if (width == 0 || style.scalar == NULL) {
+        return render_mesh(p, m, &view, &style);
+    }
+    find_range(&style, m->n_vertices);
+    view.width -= width;
+    if (!picture_create(p, whole->width, whole->height, white)) {
+        return false;
+    }
+    if (!render_mesh(&drawn, m, &view, &style)) {
+        picture_free(p);
+        return false;
+    }
+    picture_paste(p, &drawn, 0, 0);
+    picture_free(&drawn);
+    legend_draw(p, width, style.legend, style.low, style.high, style.isolines);
+    return true;
+}
+
 void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
                const render_style *style) {
     char message[512];
@@ -273,7 +315,7 @@ void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
         render_view view;
         picture p;
         app_view(&view, o);
-        if (!render_mesh(&p, m, &view, style)) {
+        if (!render_with_legend(&p, m, &view, style)) {
             app_die("%s: out of memory for a picture of %d x %d", o->png, view.width, view.height);
         }
         app_write_png(&p, o->png);

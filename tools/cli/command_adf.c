@@ -52,7 +52,7 @@ static double compare_full(const double *values, const heat_system *h, const sl_
     return count > 0 ? seconds : 0;
 }
 
-static void write_results(const app_output *output, const mesh *m, const double *values,
+static void write_results(const app_output *output, const mesh *m, double t, const double *values,
                           const sl_int *vertices, sl_int count) {
     size_t n = (size_t)m->n_vertices;
     double *field = app_alloc(n, sizeof *field), *shown = app_alloc(n, sizeof *shown);
@@ -77,7 +77,9 @@ static void write_results(const app_output *output, const mesh *m, const double 
     }
     const mesh_field fields[] = {{"adf", field}};
     const mesh_extra extra = {.fields = fields, .n_fields = 1};
-    render_style style = {.scalar = shown};
+    char title[80];
+    (void)snprintf(title, sizeof title, "ln of adf,\nper area\nt = %.3g", t);
+    render_style style = {.scalar = shown, .legend = title};
     app_range(&style.low, &style.high, m, shown);
     app_write(output, m, &extra, &style);
     free(shown);
@@ -115,7 +117,7 @@ int command_adf(int argc, char **argv) {
            h.stats.factor.seconds, seconds);
     printf("a full solve for each vertex: %.4g s, %.0f times as long; largest difference %.2g\n",
            full * count, seconds > 0 ? full * count / seconds : 0, worst);
-    write_results(&output, &m, values, vertices, count);
+    write_results(&output, &m, h.t, values, vertices, count);
     free(values);
     free(vertices);
     heat_system_free(&h);

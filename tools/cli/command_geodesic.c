@@ -121,7 +121,10 @@ static void write_distances(const geodesic_command *cmd, const heat_field *f) {
         distance[f->vertices[k]] = f->distance[k];
     }
     const mesh_field field = {"distance", distance};
-    const render_style style = {.scalar = distance, .isolines = 20};
+    char title[80];
+    (void)snprintf(title, sizeof title, "distance\nfrom %d%s\nt = %.3g\n(units of\nthe mesh)",
+                   (int)cmd->sources[0], cmd->n_sources > 1 ? "+" : "", cmd->s.t);
+    const render_style style = {.scalar = distance, .legend = title, .isolines = 20};
     write_field(cmd, &field, NULL, &style);
     free(distance);
 }

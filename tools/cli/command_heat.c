@@ -113,7 +113,7 @@ static void write_csv(const char *path, const double *x, const sl_int *wanted, s
 }
 
 /* The picture shows the logarithm, because heat decreases exponentially with the distance. */
-static void write_mesh(const app_output *output, const mesh *m, const double *x,
+static void write_mesh(const app_output *output, const mesh *m, double t, const double *x,
                        const sl_int *wanted, sl_int n_wanted, const sl_int *sources,
                        sl_int n_sources) {
     size_t n = (size_t)m->n_vertices;
@@ -136,7 +136,11 @@ static void write_mesh(const app_output *output, const mesh *m, const double *x,
     }
     const mesh_field fields[] = {{"heat", field}, {"log10_heat", decades}};
     const mesh_extra extra = {.fields = fields, .n_fields = 2};
+    char title[80];
+    (void)snprintf(title, sizeof title, "log10 heat\nper area\nfrom %d%s\nt = %.3g",
+                   n_sources > 0 ? (int)sources[0] : -1, n_sources > 1 ? "+" : "", t);
     const render_style style = {.scalar = decades,
+                                .legend = title,
                                 .low = largest > 0 ? log10(largest) - 12 : 0,
                                 .high = largest > 0 ? log10(largest) : 1,
                                 .isolines = 11,
@@ -198,7 +202,7 @@ int command_heat(int argc, char **argv) {
         }
     }
     app_aim_camera(&output, &m, sources, n_sources, false);
-    write_mesh(&output, &m, x, wanted, n_wanted, sources, n_sources);
+    write_mesh(&output, &m, h.t, x, wanted, n_wanted, sources, n_sources);
     free(x);
     free(wanted);
     free(sources);

@@ -130,7 +130,13 @@ static void write_mesh(const app_output *output, const mesh *m, const double *va
     const rgb red = {0xd5, 0x2b, 0x1e};
     const render_mark mark = {like >= 0 ? vertices[like] : 0, 6, red};
     const mesh_extra extra = {.fields = fields, .n_fields = (int)fields_room};
-    render_style style = {.scalar = columns, .marks = &mark, .n_marks = like >= 0};
+    char title[80];
+    if (like >= 0) {
+        (void)snprintf(title, sizeof title, "rms ln hks\nfrom %d", (int)vertices[like]);
+    } else {
+        (void)snprintf(title, sizeof title, "ln of hks,\nper area\nmiddle time");
+    }
+    render_style style = {.scalar = columns, .legend = title, .marks = &mark, .n_marks = like >= 0};
     app_range(&style.low, &style.high, m, columns);
     app_write(output, m, &extra, &style);
     free(names);

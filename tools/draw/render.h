@@ -56,6 +56,8 @@ typedef struct render_style {
     double checks;           /* squares per unit of u and v; 0: 20 along the longer side */
     const double *scalar;    /* n_vertices, drawn through color_map; NaN is gray */
     double low, high;        /* ends of the color map; both 0: smallest and largest finite value */
+    const char *legend;      /* title of the legend, lines separated by newlines; NULL: no legend.
+                                Drawn by app_write, not by render_mesh */
     int isolines;            /* number of levels strictly between low and high; 0: none */
     const rgb *vertex_color; /* n_vertices */
     bool nearest;            /* color of the nearest corner; false: interpolated */

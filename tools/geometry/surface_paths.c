@@ -220,8 +220,9 @@ surface_correction surface_paths_correct(double *distance, const sl_int *vertice
         c.raised += moved > d;
         c.lowered += moved < d;
         c.largest = fmax(c.largest, fabs(moved - d));
-        c.mean_width += high - low;
-        c.largest_width = fmax(c.largest_width, high - low);
+        double bound = u1[vertices[k]] - high + slack;
+        c.mean_width += bound;
+        c.largest_width = fmax(c.largest_width, bound);
         counted++;
         distance[k] = moved;
     }

@@ -23,7 +23,7 @@ bool surface_paths(double *length, const incidence *inc, const sl_int *sources, 
 typedef struct surface_correction {
     sl_int raised, lowered; /* vertices whose distance changed */
     double largest;         /* the largest change */
-    double mean_width;      /* of the intervals that contain the distances, as far as is known */
+    double mean_width;      /* estimated errors that remain: u1 - u3 + slack */
     double largest_width;
 } surface_correction;
 
