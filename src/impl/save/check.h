@@ -83,15 +83,36 @@ static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
     return roots == a->components && nnz_l == a->nnz_l;
 }
 
+/* Are these rows below a supernode in the front of its parent at the local rows that are listed?
+ * Both ascend, so that the columns of the parent come before the rows below it. */
+static int sli_check_relative(const sl_symbolic *S, sl_int up, const sl_int *rows,
+                              const sl_int *local, sl_int count) {
+    const sl_int first = S->super_first[up], width = S->super_first[up + 1] - first;
+    const sl_int *below = S->rows + S->rows_begin[up];
+    const uint32_t n_below = (uint32_t)(S->rows_begin[up + 1] - S->rows_begin[up]);
+    sl_int k;
+    for (k = 0; k < count && local[k] < width; k++) {
+        if (local[k] < 0 || rows[k] != first + local[k]) {
+            return 0;
+        }
+    }
+    for (; k < count; k++) {
+        const uint32_t at = (uint32_t)local[k] - (uint32_t)width;
+        if (at >= n_below || rows[k] != below[at]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* Do the row lists, the panels and the steps agree, and is every front contained in its parent's?
  * Reads the rows of a parent, which may come later, only where their number is known to be right:
  * rows_begin is checked before. */
 static int sli_check_front(const sl_symbolic *S, sl_int s) {
     const sl_int first = S->super_first[s], end = S->super_first[s + 1], up = S->super_parent[s];
-    const sl_int *rows = S->rows + S->rows_begin[s], *local = S->relative + S->rows_begin[s];
+    const sl_int *rows = S->rows + S->rows_begin[s];
     const sli_step *step = &S->steps[s];
-    sl_int k, last = end - 1, up_first, up_width, up_below;
-    const sl_int *up_rows;
+    sl_int k, last = end - 1, ascend = 1;
     if (step->panel != S->panel_begin[s] || step->column != first || step->base != first ||
         step->width != end - first || step->first_tile != 0 || step->up != up ||
         step->below != S->rows_begin[s + 1] - S->rows_begin[s] ||
@@ -101,19 +122,12 @@ static int sli_check_front(const sl_symbolic *S, sl_int s) {
     if (up == -1) {
         return 1;
     }
-    up_first = S->super_first[up];
-    up_width = S->super_first[up + 1] - up_first;
-    up_below = (sl_int)(S->rows_begin[up + 1] - S->rows_begin[up]);
-    up_rows = S->rows + S->rows_begin[up];
     for (k = 0; k < step->below; k++) {
-        const sl_int row = rows[k], at = local[k];
-        if (row <= last || row >= S->n || at < 0 || at >= up_width + up_below ||
-            row != (at < up_width ? up_first + at : up_rows[at - up_width])) {
-            return 0;
-        }
-        last = row;
+        ascend &= rows[k] > last;
+        last = rows[k];
     }
-    return S->super_of[rows[0]] == up;
+    return ascend && last < S->n && S->super_of[rows[0]] == up &&
+           sli_check_relative(S, up, rows, S->relative + S->rows_begin[s], step->below);
 }
 
 static int sli_check_structure(const sl_symbolic *S) {
@@ -139,41 +153,48 @@ static int sli_check_structure(const sl_symbolic *S) {
     return tallest == S->tallest && widest == S->widest;
 }
 
+/* Do the entries of A that belong to a panel of this width and height go to entries of L, with
+ * ascending rows? */
+static int sli_check_scatter_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_int height) {
+    const uint64_t size = (uint64_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
+    const uint32_t n_from = (uint32_t)S->nnz_input;
+    uint64_t begin = 0, end = (uint64_t)sli_tile_offset(width, 1); /* of the tile */
+    uint32_t tile = 0, last = 0;
+    int wrong = 0;
+    sl_off m;
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+        const uint64_t at = (uint64_t)S->scatter_to[m] - (uint64_t)S->panel_begin[s];
+        uint32_t row, column;
+        if (at >= size) {
+            return 0;
+        }
+        while (at >= end) {
+            tile++;
+            begin = end;
+            end = (uint64_t)sli_tile_offset(width, (sl_int)tile + 1);
+        }
+        row = SLI_TILE * tile + (uint32_t)(at % SLI_TILE);
+        column = (uint32_t)((at - begin) / SLI_TILE);
+        wrong |= (int)((uint32_t)S->scatter_from[m] >= n_from) | (int)(at < begin) |
+                 (int)(row < last) | (int)(row >= (uint32_t)height) | (int)(row < column);
+        last = row;
+    }
+    return !wrong;
+}
+
 /* Does the scatter map go from entries of A to entries of L, with the rows of each supernode
  * ascending? */
 static int sli_check_scatter(const sl_symbolic *S) {
     sl_int s;
-    sl_off m;
     if (S->scatter_begin[0] != 0) {
         return 0;
     }
     for (s = 0; s < S->n_supers; s++) {
-        const sl_int width = S->steps[s].width, height = width + S->steps[s].below;
-        const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-        sl_off begin = 0, end = sli_tile_offset(width, 1); /* of the tile */
-        sl_int tile = 0, last = 0;
         if (S->scatter_begin[s + 1] < S->scatter_begin[s] ||
-            S->scatter_begin[s + 1] > S->scatter_begin[S->n_supers]) {
+            S->scatter_begin[s + 1] > S->scatter_begin[S->n_supers] ||
+            !sli_check_scatter_panel(S, s, S->steps[s].width,
+                                     S->steps[s].width + S->steps[s].below)) {
             return 0;
-        }
-        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
-            const sl_off at = S->scatter_to[m] - S->panel_begin[s];
-            sl_int row, column;
-            if (S->scatter_from[m] < 0 || S->scatter_from[m] >= S->nnz_input ||
-                S->scatter_to[m] < S->panel_begin[s] || at >= size) {
-                return 0;
-            }
-            while (at >= end) {
-                tile++;
-                begin = end;
-                end = sli_tile_offset(width, tile + 1);
-            }
-            row = SLI_TILE * tile + (sl_int)(at % SLI_TILE);
-            column = (sl_int)((at - begin) / SLI_TILE);
-            if (at < begin || row < last || row >= height || row < column) {
-                return 0;
-            }
-            last = row;
         }
     }
     return 1;
