@@ -128,6 +128,29 @@ for question in '5;1' '5;1;2;3' '5;1,2;3' '5;;3' '5;x;3' '5;nan;3' '5;1,;3'; do
 done
 gives 2 'exclude each other' query "$dir/f.slf" --trusted --verify
 gives 2 'needs FILE.slf' query
+# a saved factor in place of a mesh
+"$program" adf sphere:2 --scaled-time 1 --at 7,100 >"$dir/out" 2>"$dir/err"
+of_mesh=$(grep '^[0-9]* [0-9.e+-]*$' "$dir/out")
+"$program" adf "$dir/f.slf" --at 7,100 >"$dir/out" 2>"$dir/err"
+[ -n "$of_mesh" ] && [ "$of_mesh" = "$(grep '^[0-9]* [0-9.e+-]*$' "$dir/out")" ]
+record $? 'adf: a saved factor gives the values of its mesh'
+gives 0 'auto-diffusion of 162 of 162 vertices, t as it was saved' adf "$dir/f.slf"
+gives 0 'wanted 2 of 162 vertices, t as it was saved' heat "$dir/f.slf" --from 3 --at 4,5 --region
+gives 0 'differ by at most' pairs "$dir/f.slf" --count 20
+gives 2 'has its own time' adf "$dir/f.slf" --time 1
+gives 2 'has no mesh for --out and --png' heat "$dir/f.slf" --png "$dir/x.png"
+gives 2 'has no mesh for --radius' heat "$dir/f.slf" --radius 1
+gives 1 'there is no vertex 162' adf "$dir/f.slf" --at 162
+gives 1 'cannot be read, parsed or written' adf "$dir/none.slf"
+# large blocks in files
+"$program" save hills:250x250 --out "$dir/memory.slf" >"$dir/out" 2>"$dir/err" &&
+    "$program" save hills:250x250 --out "$dir/disk.slf" --scratch "$dir" >"$dir/out" 2>"$dir/err" &&
+    cmp "$dir/memory.slf" "$dir/disk.slf"
+record $? 'save --scratch writes the same bytes'
+[ "$(find "$dir" -name 'sparse-local.*')" = "" ]
+record $? 'save --scratch leaves no file'
+gives 1 'no file of 16777216 bytes' save sphere:1 --out "$dir/x.slf" --scratch "$dir/none"
+rm -f "$dir/memory.slf" "$dir/disk.slf"
 gives 0 'usage: sparse-local query ' query --help
 gives 2 'out FILE is missing' save sphere:1
 gives 1 'no/f.slf: cannot be written: No such file' save sphere:1 --out "$dir/no/f.slf"

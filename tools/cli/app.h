@@ -112,6 +112,9 @@ extern const char app_mesh_help[];
  */
 void app_mesh(mesh *out, const char *operand, bool faces_needed);
 
+/** Whether an operand is a file of sparse-local save: its name ends in .slf. */
+bool app_is_saved(const char *operand);
+
 /** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
  *  numbers are printed). Dies if the list is malformed or a vertex is not below n.
  *

@@ -28,6 +28,11 @@ void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     }
 }
 
+bool app_is_saved(const char *operand) {
+    const size_t length = strlen(operand);
+    return length > 4 && strcmp(operand + length - 4, ".slf") == 0;
+}
+
 /* Reads a vertex number at *text and advances *text past it. */
 static sl_int read_vertex(const char *option_name, const char **text, sl_int n) {
     char *after = NULL;

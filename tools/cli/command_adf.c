@@ -18,12 +18,14 @@ static const options_manual manual = {
     "it is the share of the heat that remains at i. No eigenvectors are needed. For all vertices "
     "the whole diagonal is "
     "computed at once; for a list, each vertex costs its path in the elimination tree. A few full "
-    "solves verify the values and provide the comparison.",
+    "solves verify the values and provide the comparison. MESH may also be a file of sparse-local "
+    "save, whose name ends in .slf.",
     "The time t, seconds of each phase, and the time of one full solve per vertex with the largest "
     "relative difference of the verified values. Up to 20 values are printed unless --csv is "
     "given; "
     "--csv has columns vertex,adf. The picture shows the logarithm of the values.",
-    "star:6 --area-time 0.3 --png adf.png --csv adf.csv\nbunny.obj --at 17,100-200"};
+    "star:6 --area-time 0.3 --png adf.png --csv adf.csv\nbunny.obj --at 17,100-200\nbunny.slf --at "
+    "17"};
 
 /* Seconds of one full solve, the fastest of a sample of vertices; worst: largest relative
  * difference between the values and those of the full solves. */
@@ -101,17 +103,19 @@ int command_adf(int argc, char **argv) {
     mesh m;
     heat_system h;
     sl_int count = 0;
-    app_mesh(&m, operand, true);
+    heat_system_open(&h, &m, operand, &time, 0.05, &output);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     double *values = app_alloc((size_t)count, sizeof *values);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0.05), time.laplacian);
+    app_stage("auto-diffusion");
     bool all = strcmp(at, "all") == 0;
     double begin = app_now(), worst = 0;
     app_must(sl_inverse_diagonal(h.F, values, all ? NULL : vertices, count, NULL, NULL),
              "auto-diffusion", NULL);
     double seconds = app_now() - begin;
+    app_progress_end();
     double full = compare_full(values, &h, vertices, count, &worst);
-    printf("auto-diffusion of %d of %d vertices, t = %.6g\n", (int)count, (int)m.n_vertices, h.t);
+    printf("auto-diffusion of %d of %d vertices, %s\n", (int)count, (int)m.n_vertices,
+           heat_system_time(&h));
     printf("seconds: order and analyze %.4g, factor %.4g, auto-diffusion %.4g\n",
            h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze,
            h.stats.factor.seconds, seconds);

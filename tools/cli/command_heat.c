@@ -15,7 +15,8 @@ static const options_manual manual = {
     "Each source has one unit of heat; (M + t L) x = b is one implicit Euler step of length t with "
     "the lumped mass M and the cotangent Laplacian L. x is exact at the wanted vertices and is not "
     "computed elsewhere: the forward sweep visits the paths in the elimination tree from the "
-    "sources to the root, the backward sweep those from the wanted vertices.",
+    "sources to the root, the backward sweep those from the wanted vertices. MESH may also be a "
+    "file of sparse-local save, whose name ends in .slf.",
     "The columns and entries of L that the solve reads, and microseconds for the plan, the first "
     "solve and each further solve. Up to 20 values are printed unless --csv is given; --csv has "
     "columns vertex,heat. The picture shows the logarithm of the heat over 12 decades.",
@@ -85,8 +86,8 @@ static void solve(double *x, const heat_system *h, const sl_int *sources, sl_int
     app_must(sl_plan_solve(P, h->F, x, (size_t)n_wanted, heat, (size_t)n_sources, 1, W),
              "local solve", NULL);
     double second = app_now();
-    printf("%d sources, wanted %d of %d vertices, t = %.6g\n", (int)n_sources, (int)n_wanted,
-           (int)h->n, h->t);
+    printf("%d sources, wanted %d of %d vertices, %s\n", (int)n_sources, (int)n_wanted, (int)h->n,
+           heat_system_time(h));
     printf("columns visited: forward %d, backward %d of %d; entries of L read %lld of %lld\n",
            (int)stats.plan.b_columns, (int)stats.plan.x_columns, (int)stats.symbolic.n,
            (long long)(stats.plan.b_entries + stats.plan.x_entries),
@@ -179,8 +180,11 @@ int command_heat(int argc, char **argv) {
     mesh m;
     heat_system h;
     char vertex[16];
+    if (radius > 0 && app_is_saved(operand)) {
+        app_die_usage("%s: a saved factor has no mesh for --radius", operand);
+    }
+    heat_system_open(&h, &m, operand, &time, 0, &output);
     sl_int n_sources = 0, n_wanted = 0;
-    app_mesh(&m, operand, true);
     if (from == NULL) {
         (void)snprintf(vertex, sizeof vertex, "%d", (int)app_default_vertex(&m));
         from = vertex;
@@ -191,7 +195,6 @@ int command_heat(int argc, char **argv) {
                          ? within(&m, sources, n_sources, radius, &n_wanted)
                          : app_vertices("at", at != NULL ? at : "all", m.n_vertices, 2, &n_wanted);
     n_wanted = app_distinct(wanted, n_wanted, m.n_vertices);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
     double *x = app_alloc((size_t)n_wanted, sizeof *x);
     solve(x, &h, sources, n_sources, wanted, n_wanted, in_region);
     if (output.csv != NULL) {

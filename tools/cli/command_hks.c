@@ -197,7 +197,7 @@ int command_hks(int argc, char **argv) {
     double *times = app_alloc((size_t)n_times, sizeof *times);
     double *values = app_alloc((size_t)n_times * (size_t)count, sizeof *values);
     find_times(times, n_times, first, last, &m);
-    heat_system_analyze(&h, &m, laplacian);
+    heat_system_analyze(&h, &m, laplacian, NULL);
     double begin = app_now();
     compute(values, &h, times, n_times, vertices, count, strcmp(at, "all") == 0, &threads);
     printf("signatures of %d of %d vertices at %d times from %.6g to %.6g\n", (int)count,

@@ -145,8 +145,7 @@ int command_info(int argc, char **argv) {
         {OPTION_FLAG, "mesh-only", &mesh_only, NULL, "print the mesh statistics only"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
-    const size_t length = strlen(operand);
-    if (length > 4 && strcmp(operand + length - 4, ".slf") == 0) {
+    if (app_is_saved(operand)) {
         print_saved(operand);
         return 0;
     }
@@ -164,7 +163,7 @@ int command_info(int argc, char **argv) {
         printf("no faces: there is nothing to factor\n");
     } else if (!mesh_only) {
         heat_system h;
-        heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
+        heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian, NULL);
         print_costs(&h, seconds_read, time_solve(&h));
         heat_system_free(&h);
     }

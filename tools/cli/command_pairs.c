@@ -15,7 +15,8 @@ static const options_manual manual = {
     "The heat that vertex i receives from vertex j is entry (i, j) of (M + t L)^-1. Each entry is "
     "computed by a local solve over one tree (both sweeps visit the paths of i and j), by a local "
     "solve over two trees (the forward sweep visits the path of j, the backward sweep that of i), "
-    "and by sl_inverse_pairs, which takes all pairs in one call.",
+    "and by sl_inverse_pairs, which takes all pairs in one call. MESH may also be a file of "
+    "sparse-local save, whose name ends in .slf.",
     "Median microseconds per pair of each method, the speedup of two trees over one, and the "
     "largest relative difference of the values. --csv has columns "
     "from,to,heat,one_tree_s,two_trees_s. --svg is a histogram of the speedups.",
@@ -188,6 +189,8 @@ int command_pairs(int argc, char **argv) {
     const char *operand = NULL, *to = NULL, *from = NULL, *csv = NULL, *histogram = NULL;
     sl_int count = 10000, seed = 1;
     heat_time time = {0, 0, 0, NULL};
+    app_output none; /* of meshes and pictures */
+    memset(&none, 0, sizeof none);
     const option options[] = {
         {OPTION_COUNT, "count", &count, "K", "number of random pairs (10000)"},
         {OPTION_COUNT, "seed", &seed, "S", "seed of the random pairs (1)"},
@@ -202,16 +205,15 @@ int command_pairs(int argc, char **argv) {
     mesh m;
     heat_system h;
     sl_int *i = NULL, *j = NULL;
-    app_mesh(&m, operand, true);
+    heat_system_open(&h, &m, operand, &time, 0, &none);
     choose_pairs(&i, &j, &count, to, from, count, (uint64_t)seed, m.n_vertices);
-    heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian);
     size_t size = (size_t)count;
     double *values = app_alloc(3 * size, sizeof *values); /* of the three methods */
     double *one = values, *two = values + size, *entries = values + 2 * size;
     pair_times times = {app_alloc(size, sizeof(double)), app_alloc(size, sizeof(double)), 0};
     solve_pairs(one, two, &times, h.F, i, j, count);
     times.together = solve_together(entries, h.F, i, j, count);
-    printf("%d pairs on %d vertices, t = %.6g\n", (int)count, (int)m.n_vertices, h.t);
+    printf("%d pairs on %d vertices, %s\n", (int)count, (int)m.n_vertices, heat_system_time(&h));
     double worst = report(&times, one, two, entries, count);
     if (csv != NULL) {
         write_csv(csv, i, j, two, &times, count);

@@ -24,7 +24,7 @@ static void scatter_mass(const heat_system *h, const double *mass) {
     free(identity);
 }
 
-void heat_system_analyze(heat_system *h, const mesh *m, const char *name) {
+void heat_system_analyze(heat_system *h, const mesh *m, const char *name, const sl_options *opt) {
     sl_matrix *laplacian = NULL;
     intrinsic a;
     memset(h, 0, sizeof *h);
@@ -43,7 +43,7 @@ void heat_system_analyze(heat_system *h, const mesh *m, const char *name) {
     app_stage("analyzing");
     h->seconds_assemble = app_now() - begin;
     const sl_csc L = sl_matrix_view(laplacian);
-    app_must(sl_symbolic_create(&h->S, &L, NULL, &h->stats), "analysis", &h->stats);
+    app_must(sl_symbolic_create(&h->S, &L, opt, &h->stats), "analysis", &h->stats);
     begin = app_now();
     for (int k = 0; k < 2; k++) {
         h->terms[k] = app_alloc((size_t)sl_symbolic_entries(h->S), sizeof *h->terms[k]);
@@ -56,16 +56,61 @@ void heat_system_analyze(heat_system *h, const mesh *m, const char *name) {
     app_progress_end();
 }
 
-void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian) {
+void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian,
+                        const sl_options *opt) {
     check_time(t);
-    heat_system_analyze(h, m, laplacian);
+    heat_system_analyze(h, m, laplacian, opt);
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
     app_stage_factor(h->stats.symbolic.flops);
-    app_must(sl_factor_create_combination(&h->F, h->S, one_and_t, terms, 2, NULL, &h->stats),
+    app_must(sl_factor_create_combination(&h->F, h->S, one_and_t, terms, 2, opt, &h->stats),
              "factorization", &h->stats);
     h->t = t;
     app_progress_end();
+}
+
+/* Maps a saved factor. A file of the other byte order is loaded. */
+static void open_saved(heat_system *h, mesh *m, const char *path) {
+    memset(h, 0, sizeof *h);
+    memset(m, 0, sizeof *m);
+    sl_status status = sl_map_file(&h->S, &h->F, path, SL_LOAD_CHECKED, NULL);
+    if (status == SL_ERR_UNSUPPORTED) {
+        status = sl_load_file(&h->S, &h->F, path, SL_LOAD_CHECKED, NULL);
+    }
+    app_must(status, path, NULL);
+    if (h->F == NULL) {
+        app_die("%s: holds an analysis without a factor", path);
+    }
+    sl_symbolic_stats(h->S, &h->stats);
+    sl_factor_stats(h->F, &h->stats);
+    h->stats.error.row = -1;
+    h->n = m->n_vertices = h->stats.symbolic.n;
+    h->t = NAN;
+}
+
+void heat_system_open(heat_system *h, mesh *m, const char *operand, const heat_time *time,
+                      double default_area, const app_output *output) {
+    if (!app_is_saved(operand)) {
+        app_mesh(m, operand, true);
+        heat_system_create(h, m, heat_time_value(time, m, default_area), time->laplacian, NULL);
+        return;
+    }
+    if (time->time != 0 || time->scaled != 0 || time->area != 0) {
+        app_die_usage("%s: has its own time", operand);
+    }
+    if (time->laplacian != NULL) {
+        app_die_usage("%s: has its own Laplacian", operand);
+    }
+    if (output->out != NULL || output->png != NULL) {
+        app_die_usage("%s: a saved factor has no mesh for --out and --png", operand);
+    }
+    open_saved(h, m, operand);
+}
+
+const char *heat_system_time(const heat_system *h) {
+    static char text[40];
+    (void)snprintf(text, sizeof text, "t = %.6g", h->t);
+    return isnan(h->t) ? "t as it was saved" : text;
 }
 
 void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,

@@ -4,6 +4,14 @@
 
 #include "laplacian_choice.h"
 
+/** Values of the options --time, --scaled-time, --area-time, --laplacian; all 0 initially. */
+typedef struct heat_time {
+    double time;
+    double scaled;
+    double area;
+    const char *laplacian;
+} heat_time;
+
 /** (M + t L) x = b diffuses heat b for a time t by one implicit step; M is the lumped mass, L the
  *  cotangent Laplacian (laplacian.h).
  *
@@ -15,7 +23,7 @@
  */
 typedef struct heat_system {
     sl_int n;
-    double t;         /* of F */
+    double t;         /* of F; NAN: F is of a file, which does not say */
     double *terms[2]; /* M and L in the pattern of the analysis; M + t L combines them */
     sl_symbolic *S;
     sl_factor *F;            /* NULL: analyzed only */
@@ -28,14 +36,33 @@ typedef struct heat_system {
  *  h          [out]  release with heat_system_free.
  *  m          [in]   needed during the call only.
  *  laplacian  [in]   the value of --laplacian (laplacian_choice.h).
+ *  opt        [in]   of sl_symbolic_create; may be NULL.
  */
-void heat_system_analyze(heat_system *h, const mesh *m, const char *laplacian);
+void heat_system_analyze(heat_system *h, const mesh *m, const char *laplacian,
+                         const sl_options *opt);
 
 /** heat_system_analyze, then factors M + t L to h->F.
  *
- *  t  [in]  above 0, at most 1e200, in squared units of length.
+ *  t    [in]  above 0, at most 1e200, in squared units of length.
+ *  opt  [in]  of sl_symbolic_create and sl_factor_create; may be NULL.
  */
-void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian);
+void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian,
+                        const sl_options *opt);
+
+/** The system of a command's operand: of a mesh, whose time the options select as in
+ *  heat_time_value, or of a file of sparse-local save, which is mapped.
+ *
+ *  h       [out]  of a file: S and F only.
+ *  m       [out]  the mesh; of a file: as many vertices as there are rows, without coordinates and
+ *                 faces.
+ *  output  [in]   with a file, options that need the mesh are refused: times, pictures, meshes.
+ */
+void heat_system_open(heat_system *h, mesh *m, const char *operand, const heat_time *time,
+                      double default_area, const app_output *output);
+
+/** "t = 0.01", or that the time is the one that the file was saved with; valid until the next
+ *  call. */
+const char *heat_system_time(const heat_system *h);
 
 /** Factors M + t[k] L for several times in one call.
  *
@@ -49,14 +76,6 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
 
 /** Releases everything and sets h to all zero. */
 void heat_system_free(heat_system *h);
-
-/** Values of the options --time, --scaled-time, --area-time, --laplacian; all 0 initially. */
-typedef struct heat_time {
-    double time;
-    double scaled;
-    double area;
-    const char *laplacian;
-} heat_time;
 
 /* The four entries of a command's table of options; h is a heat_time *. */
 #define HEAT_TIME_OPTIONS(h, default_text) \
