@@ -45,7 +45,7 @@ PARTS := $(wildcard src/public/*.h src/impl/*/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
 MAIN := tools/cli/main.c
 NEED_PNG := tools/draw/png_write.c
-TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/% tools/packaging/%,$(wildcard tools/*/*.c))
+TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/% tools/packaging/% tools/cluster/%,$(wildcard tools/*/*.c))
 CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
@@ -65,7 +65,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
 	figures format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
-	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm
+	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm deps-mpi cluster test-cluster
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -444,6 +444,21 @@ bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmon
 readme-table: ## prints the measurements of the last bench-peers as Markdown tables
 	@awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv)
+
+# ---- clusters ----
+
+deps-mpi: ## an implementation of MPI
+	@tools/build/deps.sh mpicc=libmpich-dev mpiexec=mpich
+
+$(B)/cluster-mpi: tools/cluster/cluster_mpi.c $(call object,$(NEED_PNG:.c=)) $(LIBRARY) $(IMPL) $(B)/flags
+	$(call say,MPI )
+	$(Q)mpicc $(C_FLAGS) -o $@ $(filter-out $(B)/flags,$^) $(LIBS) -lpng
+
+cluster: deps-mpi deps-png ## build/cluster-mpi: many queries on one saved factor by the ranks of an MPI job
+	@$(MAKE) --no-print-directory $(B)/cluster-mpi
+
+test-cluster: deps-mpi deps-png ## build/cluster-mpi with 1 to 4 ranks, one of them killed
+	@$(MAKE) --no-print-directory run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_cluster.sh PROGRAM='$(B)/cluster-mpi $(B)/sparse-local'
 
 # ---- the paper ----
 
