@@ -1,67 +1,68 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 338aa12884d87fab
+ * FNV-1a of the lines after this comment, without the license: 0dd957065cbc7e30
  *
  * Contents
  * (what a user reads)
- *     69 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    134 config.h     macros that a user may define before the include, the version, and the integer types
- *    213 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    342 options.h    options of all calls, threads, and the allocator
- *    471 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    595 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    739 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    858 factor.h     the numerical factorization P A P' = L D L'
- *   1061 solve.h      full solves, and the workspace of all solves
- *   1171 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1265 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1374 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1510 batch.h      many independent solves by one call, distributed over threads
- *   1560 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1738 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1857 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   1960 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *     70 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    135 config.h     macros that a user may define before the include, the version, and the integer types
+ *    214 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    343 options.h    options of all calls, threads, and the allocator
+ *    472 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    596 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    768 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    887 factor.h     the numerical factorization P A P' = L D L'
+ *   1090 solve.h      full solves, and the workspace of all solves
+ *   1200 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1294 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1406 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1515 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1651 batch.h      many independent solves by one call, distributed over threads
+ *   1701 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1879 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   1998 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2101 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2105 base.h   2351 status.h   2414 options.h   2476 alloc.h   2600 hash.h   2744 file_map.h
- *   2845 sort.h   2915 parallel.h
+ *   2246 base.h   2492 status.h   2555 options.h   2617 alloc.h   2741 hash.h   2885 file_map.h
+ *   2986 sort.h   3056 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   2953 panel.h   2985 step.h   3042 pivot_rule.h   3127 front.h   3204 pairs.h
- *   3422 inverse_front.h   3514 table.h   3535 simd.h   3629 simd_scalar.h   3748 simd_avx2.h
- *   3942 simd_avx512.h   4048 simd_neon.h   4228 dispatch.h
+ *   3094 panel.h   3126 step.h   3183 pivot_rule.h   3268 front.h   3345 pairs.h
+ *   3563 inverse_front.h   3655 table.h   3676 simd.h   3770 simd_scalar.h   3889 simd_avx2.h
+ *   4083 simd_avx512.h   4189 simd_neon.h   4369 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4310 csc.h   4424 csc_build.h   4563 csc_triangle.h   4634 csc_products.h   4758 permute.h
- *   4827 sum.h   4912 output_file.h   5138 matrix_market.h
+ *   4451 csc.h   4565 csc_build.h   4704 csc64.h   4781 csc_triangle.h   4852 csc_products.h
+ *   4976 permute.h   5045 sum.h   5130 output_file.h   5356 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5617 graph.h   5783 coarsen.h   6060 labels.h   6272 subgraph.h   6483 heap.h   6546 bisect.h
- *   6796 separator.h   7087 mindeg.h   7283 dissect.h   7633 levelset.h   7763 geometric.h
- *   7974 septree.h   8039 metis.h   8196 metis_refined.h   8322 nd.h   8529 compress.h
- *   8658 quotient.h   9069 order.h
+ *   5835 graph.h   6001 coarsen.h   6278 labels.h   6490 subgraph.h   6701 heap.h   6764 bisect.h
+ *   7014 separator.h   7305 mindeg.h   7501 dissect.h   7851 levelset.h   7981 geometric.h
+ *   8192 septree.h   8257 metis.h   8414 metis_refined.h   8540 nd.h   8747 compress.h
+ *   8876 quotient.h   9287 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9291 symbolic_types.h   9336 etree.h   9416 counts.h   9486 supernodes.h   9747 structure.h
- *   9888 schedule.h  10103 symbolic.h  10484 reach.h
+ *   9509 symbolic_types.h   9554 etree.h   9634 counts.h   9704 supernodes.h   9965 structure.h
+ *  10106 schedule.h  10321 symbolic.h  10702 reach.h
  * (factor: the numbers of L and D)
- *  10795 factor_types.h  11143 pivot_search.h  11514 pivoted.h  11583 scatter.h  11756 uplooking.h
- *  11833 null_vectors.h  12128 multifrontal.h  12390 nullspace.h  12641 growth.h
- *  12735 factor_setup.h  13005 factor.h  13216 leftlooking.h  13403 factor_query.h
- *  13539 combination.h
+ *  11013 factor_types.h  11361 pivot_search.h  11732 pivoted.h  11801 scatter.h  11974 uplooking.h
+ *  12051 null_vectors.h  12346 multifrontal.h  12608 nullspace.h  12859 growth.h
+ *  12953 factor_setup.h  13223 factor.h  13434 leftlooking.h  13621 factor_query.h
+ *  13757 combination.h
  * (solve: full and local solves)
- *  13601 region_types.h  13719 work.h  13826 query.h  14027 singular.h  14258 backward.h
- *  14293 sweep.h  14468 compile.h  14677 plan.h  14784 local.h  14942 refine.h
- *  15125 refine_local.h  15350 rcond.h  15520 defects.h
+ *  13819 region_types.h  13937 work.h  14044 query.h  14245 singular.h  14476 backward.h
+ *  14511 sweep.h  14686 compile.h  14895 plan.h  15002 local.h  15160 parts.h  15463 refine.h
+ *  15646 refine_local.h  15871 rcond.h  16041 defects.h
  * (inverse: entries of the inverse, regions)
- *  15577 traversal.h  15855 traversal_run.h  16036 row_sets.h  16067 unit_vectors.h
- *  16326 bilinear.h  16514 entries.h  16817 block.h  17075 reserve.h  17286 selected.h
- *  17497 selected_query.h  17605 region_choose.h  17857 region.h
+ *  16098 traversal.h  16376 traversal_run.h  16557 row_sets.h  16588 unit_vectors.h
+ *  16847 bilinear.h  17035 entries.h  17338 block.h  17596 reserve.h  17807 selected.h
+ *  18018 selected_query.h  18126 region_choose.h  18378 region.h
  * (save: factors in files)
- *  18104 format.h  18320 decode.h  18468 check.h  18827 write.h  19033 load.h
+ *  18625 format.h  18841 decode.h  18989 check.h  19348 write.h  19554 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  19389 batch_solve.h  19617 batch_factor.h  19831 batch_diagonal.h
+ *  19910 batch_solve.h  20138 batch_factor.h  20352 batch_diagonal.h
  * (last: undefine every internal macro)
- *  19979 undef.h
+ *  20500 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  20110 multi_rhs.inl.h  20484 kernel_set.inl.h  20488 unit_triangle.inl.h  20529 two_rhs.inl.h
- *  20701 product.inl.h  20842 front.inl.h  21069 inverse_front.inl.h  21374 small_supernode.inl.h
- *  21542 single_rhs.inl.h
+ *  20631 multi_rhs.inl.h  21005 kernel_set.inl.h  21009 unit_triangle.inl.h  21050 two_rhs.inl.h
+ *  21222 product.inl.h  21363 front.inl.h  21590 inverse_front.inl.h  21895 small_supernode.inl.h
+ *  22063 single_rhs.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -635,6 +636,34 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path
 /** sl_matrix_read from memory: length bytes of text, which need no terminating zero. */
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
+
+/** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
+ *  SuiteSparse's long interface and SciPy's int64. */
+typedef struct sl_csc64 {
+    int64_t n_rows, n_cols;
+    const int64_t *p; /* n_cols + 1 */
+    const int64_t *i; /* p[n_cols] */
+    const double *x;  /* p[n_cols]; NULL: pattern only */
+} sl_csc64;
+
+/** Copies a matrix with 64-bit indices into one with 32-bit indices, entry by entry.
+ *
+ *  Convert once for each pattern. Entries keep their order, so new values need no conversion: set x
+ *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
+ *  copied.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
+ *                type, an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
+ *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
+ *  Cost     O(n_cols + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_csc64.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,
+                                                     const sl_options *opt, sl_stats *stats);
 
 /** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
  *
@@ -1261,6 +1290,118 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,
                                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                                sl_stats *stats);
+
+/* src/public/parts.h: L, D, L' and the permutation applied one by one: half solves, products, samples */
+
+/** The factors of P A P' = L D L', to be combined by |. */
+typedef enum sl_part {
+    SL_PART_P = 1,      /* from the order of A to that of the pivots: row k of P b is b(perm[k]) */
+    SL_PART_L = 2,      /* unit lower triangular */
+    SL_PART_D = 4,      /* diagonal, or with 2x2 blocks */
+    SL_PART_SQRT_D = 8, /* D^(1/2), in place of D; of factors without negative pivots only */
+    SL_PART_LT = 16,    /* L' */
+    SL_PART_PT = 32     /* P', from the order of the pivots to that of A */
+} sl_part;
+
+/** X = P' L'^-1 D^-1 L^-1 P B with only those factors that are given; the others count as I.
+ *
+ *  | SL_PART_...                | X                                                              |
+ *  |----------------------------|----------------------------------------------------------------|
+ *  | P, L                       | the forward half of a solve                                    |
+ *  | D, LT, PT, or only LT, PT  | the backward half                                              |
+ *  | P, L, D, LT, PT            | the solution of A X = B                                        |
+ *  | L, or D, or LT             | one of the three solves, in the order of the pivots            |
+ *  | SQRT_D, LT, PT             | samples of covariance A^-1 if B is standard normal             |
+ *  | P, L, SQRT_D               | whitened B: independent, of variance 1, if its covariance is A |
+ *
+ *  Parts applied one after the other give the bits of sl_factor_solve. Skipped null pivots count as
+ *  0, and dividing by them gives 0: D^-1 is the pseudo-inverse. Consistency is not checked, and
+ *  options.mass is not used, so that with null pivots all parts together need not give the solution
+ *  of sl_factor_solve.
+ *
+ *  F      [in]   factor of A, n x n.
+ *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
+ *  X      [out]  n x nrhs, column-major, leading dimension ldx elements; in the order of A with
+ *                SL_PART_PT, else of the pivots. May be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements; in the order of A with
+ *                SL_PART_P, else of the pivots.
+ *  nrhs   [in]   number of right-hand sides, 0 or more.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
+ *           a negative pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Example  tests/core/test_parts.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
+                                                     size_t ldx, const double *B, size_t ldb,
+                                                     sl_int nrhs, sl_work *W);
+
+/** X = P' L D L' P B with only those factors that are given; the others count as I.
+ *
+ *  L + PT undoes P + L of sl_factor_solve_part, and LT undoes LT. L + SQRT_D + PT makes samples of
+ *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
+ *
+ *  Arguments, Returns, Threads  as sl_factor_solve_part.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: several times
+ *           as long as the solve.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
+                                                        double *X, size_t ldx, const double *B,
+                                                        size_t ldb, sl_int nrhs, sl_work *W);
+
+/** Half of a local solve: the forward half from the b-set, or the backward half to the x-set.
+ *
+ *  Forward: SL_PART_P, SL_PART_L and perhaps one of SL_PART_D and SL_PART_SQRT_D. B has the rows of
+ *  the b-set; X has the b_columns rows that the sweep reaches (stats.plan), and all others are 0.
+ *  The rows are those of sl_plan_columns. Backward: SL_PART_LT, SL_PART_PT and perhaps one of the
+ *  two. B has the x_columns rows that the x-set depends on; X has the rows of the x-set.
+ *
+ *  With standard normal B, SL_PART_SQRT_D + LT + PT samples x on the x-set alone, with the
+ *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
+ *
+ *  P, F   [in]   a plan without a region, and a factor over its analysis.
+ *  X      [out]  column-major, leading dimension ldx elements. May be B itself (then ldx = ldb). On
+ *                error untouched.
+ *  B      [in]   column-major, leading dimension ldb elements.
+ *  nrhs, W       as in sl_plan_solve.
+ *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
+ *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
+ *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
+ *  Threads  any number at once on one P and one F, each with its own W.
+ *  Example  tests/core/test_parts.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
+                                                   unsigned parts, double *X, size_t ldx,
+                                                   const double *B, size_t ldb, sl_int nrhs,
+                                                   sl_work *W);
+
+/** The columns of L that one sweep of a plan visits, ascending: the rows of half solves.
+ *
+ *  part      [in]   SL_PART_L: the forward sweep; SL_PART_LT: the backward sweep.
+ *  columns   [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
+ *  capacity  [in]   length of columns.
+ *  count     [out]  how many there are: b_columns or x_columns of stats.plan.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: a plan in a region.  Cost  O(count).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns,
+                                                sl_int capacity, sl_int *count);
+
+/** Grows W so that sl_factor_solve_part and sl_factor_multiply_part with up to nrhs right-hand
+ *  sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs);
+
+/** The same for sl_plan_solve_part on plan P.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P,
+                                                          sl_int nrhs);
 
 /* src/public/accuracy.h: refinement of solutions, condition estimate, consistency of singular systems */
 
@@ -4557,6 +4698,83 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
   }
   T->p[0] = 0;
   *out = T;
+  return SL_OK;
+}
+
+/* src/impl/matrix/csc64.h: matrices with 64-bit indices, converted to 32 bits */
+
+/* Checks sizes and positions; the indices are checked while they are copied. */
+static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
+  int64_t j;
+  if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
+    return SL_ERR_TOO_LARGE;
+  }
+  if (A->n_cols == 0) {
+    return SL_OK;
+  }
+  if (A->p[0] != 0) {
+    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+  }
+  for (j = 0; j < A->n_cols; j++) {
+    if (A->p[j + 1] < A->p[j]) {
+      return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0);
+    }
+  }
+  if (A->p[A->n_cols] > INT32_MAX) {
+    return SL_ERR_TOO_LARGE;
+  }
+  return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+/* Copies the indices of checked positions. */
+static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats) {
+  sl_int j, p;
+  M->p[0] = 0;
+  for (j = 0; j < M->n_cols; j++) {
+    M->p[j + 1] = (sl_int)A->p[j + 1];
+    for (p = M->p[j]; p < M->p[j + 1]; p++) {
+      const int64_t i = A->i[p];
+      if (i < 0 || i >= A->n_rows) {
+        const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
+        return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0);
+      }
+      M->i[p] = (sl_int)i;
+    }
+  }
+  if (A->x != NULL && M->p[M->n_cols] > 0) {
+    memcpy(M->x, A->x, (size_t)M->p[M->n_cols] * sizeof(double));
+  }
+  return SL_OK;
+}
+
+SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const sl_options *opt,
+                    sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  sl_matrix *M = NULL;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats)
+                               : SL_ERR_ARGUMENT;
+  if (status == SL_OK) {
+    const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
+    status = sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz,
+                A->x != NULL, &a);
+  }
+  if (status == SL_OK) {
+    status = sli_csc64_copy(A, M, stats);
+  }
+  if (status != SL_OK) {
+    sl_matrix_free(M);
+    return status;
+  }
+  *out = M;
   return SL_OK;
 }
 
@@ -14937,6 +15155,309 @@ SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int 
   sli_local_layout_vectors(&l, &b);
   b.used = b.used > 0 ? b.used : 1;
   return sli_work_block(W, &b);
+}
+
+/* src/impl/solve/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
+
+/* A call in progress. One vector over one reach serves all parts: q has it as both of its reaches.
+ * The kernel of the backward sweep divides by D; it is given steps whose columns are those of their
+ * supernode, and as many ones. */
+typedef struct sli_parts {
+  const sl_factor *F;
+  unsigned parts;
+  int is_product;
+  sli_query q;
+  unsigned char *memory; /* vectors of a block */
+  sli_step *steps;       /* those of the reach, for the backward kernel */
+  double *ones;          /* as many as the widest supernode has columns */
+  sl_int *identity;      /* 0, 1, ..., for a side in the order of the reach */
+} sli_parts;
+
+/* The query of a call: a side without its permutation has all rows of the reach. */
+static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int takes_bset,
+                 int gives_xset) {
+  sli_query q = *from;
+  q.forward = q.backward = *R;
+  q.is_shared = 1;
+  q.b_repeats = takes_bset && from->b_repeats;
+  q.nb = takes_bset ? from->nb : R->columns;
+  q.nx = gives_xset ? from->nx : R->columns;
+  q.b_index = takes_bset ? from->b_index : NULL;
+  q.x_index = gives_xset ? from->x_index : NULL;
+  return q;
+}
+
+static void sli_parts_layout(sli_parts *p, sli_block *b, sl_int nrhs) {
+  const size_t bytes = sli_vectors_bytes(&p->q, nrhs);
+  b->overflow |= bytes == SIZE_MAX;
+  p->memory = SLI_TAKE(b, unsigned char, bytes == SIZE_MAX ? 0 : bytes);
+  p->steps = SLI_TAKE(b, sli_step, p->q.backward.count);
+  p->ones = SLI_TAKE(b, double, p->q.backward.widest);
+  p->identity = SLI_TAKE(b, sl_int, p->q.forward.columns);
+}
+
+static void sli_parts_fill(sli_parts *p) {
+  const sli_reach *R = &p->q.backward;
+  sl_int k;
+  for (k = 0; k < R->count; k++) {
+    p->steps[k] = R->steps[k];
+    p->steps[k].column = SLI_TILE * R->steps[k].first_tile;
+  }
+  for (k = 0; k < R->widest; k++) {
+    p->ones[k] = 1.0;
+  }
+  for (k = 0; k < R->columns; k++) {
+    p->identity[k] = k;
+  }
+  p->q.b_index = p->q.b_index == NULL ? p->identity : p->q.b_index;
+  p->q.x_index = p->q.x_index == NULL ? p->identity : p->q.x_index;
+}
+
+/* The pivot k or its root, whichever D stands for. */
+static double sli_parts_pivot(const sli_parts *p, sl_int k) {
+  return p->parts & SL_PART_SQRT_D ? sqrt(p->F->D[k]) : p->F->D[k];
+}
+
+/* x := D x or D^-1 x in the columns of one step; solves have applied 2x2 pivots already. */
+static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, double *row,
+                 sl_int lanes) {
+  const sl_factor *F = p->F;
+  sl_int k, r;
+  for (k = step->column; k < step->column + sli_step_columns(step); k++, row += lanes) {
+    const int pair = F->E == NULL ? (int)SLI_PAIR_NONE : F->S->pairs[k];
+    const double d = pair == SLI_PAIR_NONE ? sli_parts_pivot(p, k) : 1.0;
+    const int is_null = sli_is_skipped(F, k);
+    for (r = 0; r < lanes; r++) {
+      if (is_null) {
+        row[r] = 0.0;
+      } else if (!p->is_product) {
+        row[r] /= d;
+      } else if (pair == SLI_PAIR_FIRST) {
+        const double u = row[r], v = row[lanes + r];
+        row[r] = F->D[k] * u + F->E[k] * v;
+        row[lanes + r] = F->E[k] * u + F->D[k + 1] * v;
+      } else {
+        row[r] *= d;
+      }
+    }
+  }
+}
+
+static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
+  const sli_reach *R = &p->q.backward;
+  sl_int s;
+  if (!p->is_product && p->F->E != NULL) {
+    sli_pairs_apply(p->F, R, x, lanes);
+  }
+  for (s = 0; s < R->count; s++) {
+    sli_parts_scale_step(p, &R->steps[s], x + (ptrdiff_t)R->steps[s].base * lanes, lanes);
+  }
+}
+
+/* Column j of a panel in a product: x(i) += l(i,j) x(j) for its rows i, or x(j) += l(i,j) x(i). */
+static void sli_column_multiply(const double *panel, const sli_step *step, const sl_int *rows,
+                sl_int j, int is_transposed, double *x, sl_int lanes) {
+  double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
+  sl_int i, r;
+  for (i = j + 1; i < step->width + step->below; i++) {
+    const double l = panel[sli_panel_at(step->width, i, j)];
+    double *xi =
+      x + (ptrdiff_t)(i < step->width ? step->base + i : rows[i - step->width]) * lanes;
+    for (r = 0; r < lanes; r++) {
+      if (is_transposed) {
+        xj[r] += l * xi[r];
+      } else {
+        xi[r] += l * xj[r];
+      }
+    }
+  }
+}
+
+/* x := L x or L' x in place: a column is read before it is written if L takes the last one first,
+ * and L' the first one. */
+static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x, sl_int lanes) {
+  const sl_symbolic *S = F->S;
+  sl_int at, s, k, j;
+  for (at = 0; at < S->n_supers; at++) {
+    s = is_transposed ? at : S->n_supers - 1 - at;
+    for (k = 0; k < S->steps[s].width; k++) {
+      j = is_transposed ? k : S->steps[s].width - 1 - k;
+      sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s],
+                S->rows + S->rows_begin[s], j, is_transposed, x, lanes);
+    }
+  }
+}
+
+/* Applies the parts to one packed block. */
+static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) {
+  const sl_factor *F = p->F;
+  const sli_reach *R = &p->q.backward;
+  const sl_int lanes = (sl_int)1 << kind;
+  if (p->is_product && p->parts & SL_PART_LT) {
+    sli_lower_multiply(F, 1, v->x, lanes);
+  }
+  if (!p->is_product && p->parts & SL_PART_L) {
+    F->kernels->forward[kind](R->count, R->steps, R->rows, F->L, v->x, v->scratch);
+  }
+  if (p->parts & (SL_PART_D | SL_PART_SQRT_D)) {
+    sli_parts_scale(p, v->x, lanes);
+  }
+  if (p->is_product && p->parts & SL_PART_L) {
+    sli_lower_multiply(F, 0, v->x, lanes);
+  }
+  if (!p->is_product && p->parts & SL_PART_LT) {
+    F->kernels->backward[kind](R->count, p->steps, R->rows + R->n_rows, F->L, p->ones, v->x,
+                   v->scratch);
+  }
+}
+
+/* Checks what does not depend on sizes. */
+static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
+  const unsigned both = SL_PART_D | SL_PART_SQRT_D;
+  if (parts >= 2u * SL_PART_PT || (parts & both) == both) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+    return SL_ERR_STATE;
+  }
+  if (parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
+    return SL_ERR_PIVOT;
+  }
+  return parts & SL_PART_SQRT_D && F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+/* Runs a call whose query is set. */
+static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double *B, size_t ldb,
+                 sl_int nrhs, sl_work *W) {
+  const sli_dense x_at = sli_dense_of(SLI_COLUMN_MAJOR, ldx);
+  const sli_dense b_at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
+  sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, SLI_COLUMN_MAJOR, nrhs);
+  sli_block b = {NULL, 0, 0};
+  sl_work own;
+  sl_int r;
+  status = status == SL_OK ? sli_parts_check(p->F, p->parts) : status;
+  if (status != SL_OK || nrhs == 0 || p->q.nx == 0) {
+    return status;
+  }
+  own = sli_work_own(&p->F->allocator);
+  W = W == NULL ? &own : W;
+  sli_parts_layout(p, &b, nrhs);
+  status = sli_work_block(W, &b);
+  if (status == SL_OK) {
+    sli_parts_layout(p, &b, nrhs);
+    sli_parts_fill(p);
+  }
+  for (r = 0; r < nrhs && status == SL_OK; r += 8) {
+    const sl_int block = sli_min(8, nrhs - r);
+    const int kind = sli_lanes_kind(block);
+    const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);
+    sli_pack(&p->q, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind, block);
+    sli_parts_apply(p, &v, kind);
+    sli_unpack(&p->q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind, block);
+  }
+  sli_free(&own.allocator, own.block);
+  return status;
+}
+
+static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product, double *X,
+                 size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                 sl_work *W) {
+  sli_query all;
+  sli_parts p;
+  if (F == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  memset(&p, 0, sizeof p);
+  all = sli_query_all(F->S);
+  p.F = F;
+  p.parts = parts;
+  p.is_product = is_product;
+  p.q = sli_parts_query(&all, &all.forward, (parts & SL_PART_P) != 0, (parts & SL_PART_PT) != 0);
+  return sli_parts_run(&p, X, ldx, B, ldb, nrhs, W);
+}
+
+SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
+                    const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+  return sli_factor_part(F, parts, 0, X, ldx, B, ldb, nrhs, W);
+}
+
+SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
+                     const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+  return sli_factor_part(F, parts, 1, X, ldx, B, ldb, nrhs, W);
+}
+
+SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
+                  size_t ldx, const double *B, size_t ldb, sl_int nrhs,
+                  sl_work *W) {
+  const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
+  const int is_forward = ends == (SL_PART_P | SL_PART_L);
+  sli_parts p;
+  if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!sli_factor_is_over(F, P->query.S, P->query.analysis)) {
+    return SL_ERR_STATE;
+  }
+  if (P->query.region != NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  memset(&p, 0, sizeof p);
+  p.F = F;
+  p.parts = parts;
+  p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
+              is_forward, !is_forward);
+  return sli_parts_run(&p, X, ldx, B, ldb, nrhs, W);
+}
+
+SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,
+                 sl_int *count) {
+  const sli_reach *R;
+  sl_int s, k, at = 0;
+  if (P == NULL || count == NULL || capacity < 0 || (capacity > 0 && columns == NULL) ||
+    (part != SL_PART_L && part != SL_PART_LT)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (P->query.region != NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  R = part == SL_PART_L ? &P->query.forward : &P->query.backward;
+  for (s = 0; s < R->count; s++) {
+    for (k = 0; k < sli_step_columns(&R->steps[s]) && at < capacity; k++) {
+      columns[at++] = R->steps[s].column + k;
+    }
+  }
+  *count = R->columns;
+  return SL_OK;
+}
+
+/* Grows W to what calls on one of two reaches need. */
+static sl_status sli_parts_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
+  const sli_reach *const reaches[2] = {&q->forward, &q->backward};
+  sl_status status = SL_OK;
+  int k;
+  for (k = 0; k < 2 && nrhs > 0 && status == SL_OK; k++) {
+    sli_block b = {NULL, 0, 0};
+    sli_parts p;
+    memset(&p, 0, sizeof p);
+    p.q = sli_parts_query(q, reaches[k], 0, 0);
+    sli_parts_layout(&p, &b, nrhs);
+    status = sli_work_block(W, &b);
+  }
+  return status;
+}
+
+SL_API sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs) {
+  sli_query q;
+  if (W == NULL || F == NULL || nrhs < 0) {
+    return SL_ERR_ARGUMENT;
+  }
+  q = sli_query_all(F->S);
+  return sli_parts_reserve(W, &q, nrhs);
+}
+
+SL_API sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P, sl_int nrhs) {
+  return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
+                        : sli_parts_reserve(W, &P->query, nrhs);
 }
 
 /* src/impl/solve/refine.h: sl_factor_refine: refinement by the componentwise backward error */

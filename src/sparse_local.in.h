@@ -15,6 +15,7 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
+#include "public/parts.h"
 #include "public/accuracy.h"
 #include "public/inverse.h"
 #include "public/batch.h"
@@ -57,6 +58,7 @@ extern "C" {
 /* matrix: sparse matrices of the caller and of the library */
 #include "impl/matrix/csc.h"
 #include "impl/matrix/csc_build.h"
+#include "impl/matrix/csc64.h"
 #include "impl/matrix/csc_triangle.h"
 #include "impl/matrix/csc_products.h"
 #include "impl/matrix/permute.h"
@@ -116,6 +118,7 @@ extern "C" {
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"
 #include "impl/solve/local.h"
+#include "impl/solve/parts.h"
 #include "impl/solve/refine.h"
 #include "impl/solve/refine_local.h"
 #include "impl/solve/rcond.h"

@@ -47,6 +47,34 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path
 SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
                                                 const sl_options *opt, sl_stats *stats);
 
+/** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
+ *  SuiteSparse's long interface and SciPy's int64. */
+typedef struct sl_csc64 {
+    int64_t n_rows, n_cols;
+    const int64_t *p; /* n_cols + 1 */
+    const int64_t *i; /* p[n_cols] */
+    const double *x;  /* p[n_cols]; NULL: pattern only */
+} sl_csc64;
+
+/** Copies a matrix with 64-bit indices into one with 32-bit indices, entry by entry.
+ *
+ *  Convert once for each pattern. Entries keep their order, so new values need no conversion: set x
+ *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
+ *  copied.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
+ *                type, an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
+ *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
+ *  Cost     O(n_cols + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_csc64.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,
+                                                     const sl_options *opt, sl_stats *stats);
+
 /** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.

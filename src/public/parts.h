@@ -1,0 +1,118 @@
+/* parts.h: L, D, L' and the permutation applied one by one: half solves, products, samples */
+#ifndef SL_PUBLIC_PARTS_H
+#define SL_PUBLIC_PARTS_H
+
+#include "solve.h"
+#include "plan.h"
+
+/** The factors of P A P' = L D L', to be combined by |. */
+typedef enum sl_part {
+    SL_PART_P = 1,      /* from the order of A to that of the pivots: row k of P b is b(perm[k]) */
+    SL_PART_L = 2,      /* unit lower triangular */
+    SL_PART_D = 4,      /* diagonal, or with 2x2 blocks */
+    SL_PART_SQRT_D = 8, /* D^(1/2), in place of D; of factors without negative pivots only */
+    SL_PART_LT = 16,    /* L' */
+    SL_PART_PT = 32     /* P', from the order of the pivots to that of A */
+} sl_part;
+
+/** X = P' L'^-1 D^-1 L^-1 P B with only those factors that are given; the others count as I.
+ *
+ *  | SL_PART_...                | X                                                              |
+ *  |----------------------------|----------------------------------------------------------------|
+ *  | P, L                       | the forward half of a solve                                    |
+ *  | D, LT, PT, or only LT, PT  | the backward half                                              |
+ *  | P, L, D, LT, PT            | the solution of A X = B                                        |
+ *  | L, or D, or LT             | one of the three solves, in the order of the pivots            |
+ *  | SQRT_D, LT, PT             | samples of covariance A^-1 if B is standard normal             |
+ *  | P, L, SQRT_D               | whitened B: independent, of variance 1, if its covariance is A |
+ *
+ *  Parts applied one after the other give the bits of sl_factor_solve. Skipped null pivots count as
+ *  0, and dividing by them gives 0: D^-1 is the pseudo-inverse. Consistency is not checked, and
+ *  options.mass is not used, so that with null pivots all parts together need not give the solution
+ *  of sl_factor_solve.
+ *
+ *  F      [in]   factor of A, n x n.
+ *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
+ *  X      [out]  n x nrhs, column-major, leading dimension ldx elements; in the order of A with
+ *                SL_PART_PT, else of the pivots. May be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements; in the order of A with
+ *                SL_PART_P, else of the pivots.
+ *  nrhs   [in]   number of right-hand sides, 0 or more.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
+ *           a negative pivot; SL_ERR_UNSUPPORTED: SL_PART_SQRT_D with 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L'; O(n) for the others.
+ *  Threads  any number at once on one F, each with its own W.
+ *  Example  tests/core/test_parts.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X,
+                                                     size_t ldx, const double *B, size_t ldb,
+                                                     sl_int nrhs, sl_work *W);
+
+/** X = P' L D L' P B with only those factors that are given; the others count as I.
+ *
+ *  L + PT undoes P + L of sl_factor_solve_part, and LT undoes LT. L + SQRT_D + PT makes samples of
+ *  covariance A. All parts together give A B, or (A + E) B if regularization changed pivots.
+ *
+ *  Arguments, Returns, Threads  as sl_factor_solve_part.
+ *  Cost     2 nnz_panels flops per right-hand side for each of L and L', in plain C: several times
+ *           as long as the solve.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts,
+                                                        double *X, size_t ldx, const double *B,
+                                                        size_t ldb, sl_int nrhs, sl_work *W);
+
+/** Half of a local solve: the forward half from the b-set, or the backward half to the x-set.
+ *
+ *  Forward: SL_PART_P, SL_PART_L and perhaps one of SL_PART_D and SL_PART_SQRT_D. B has the rows of
+ *  the b-set; X has the b_columns rows that the sweep reaches (stats.plan), and all others are 0.
+ *  The rows are those of sl_plan_columns. Backward: SL_PART_LT, SL_PART_PT and perhaps one of the
+ *  two. B has the x_columns rows that the x-set depends on; X has the rows of the x-set.
+ *
+ *  With standard normal B, SL_PART_SQRT_D + LT + PT samples x on the x-set alone, with the
+ *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
+ *
+ *  P, F   [in]   a plan without a region, and a factor over its analysis.
+ *  X      [out]  column-major, leading dimension ldx elements. May be B itself (then ldx = ldb). On
+ *                error untouched.
+ *  B      [in]   column-major, leading dimension ldb elements.
+ *  nrhs, W       as in sl_plan_solve.
+ *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
+ *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
+ *  Cost     2 b_entries or 2 x_entries flops per right-hand side; nothing O(n).
+ *  Threads  any number at once on one P and one F, each with its own W.
+ *  Example  tests/core/test_parts.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F,
+                                                   unsigned parts, double *X, size_t ldx,
+                                                   const double *B, size_t ldb, sl_int nrhs,
+                                                   sl_work *W);
+
+/** The columns of L that one sweep of a plan visits, ascending: the rows of half solves.
+ *
+ *  part      [in]   SL_PART_L: the forward sweep; SL_PART_LT: the backward sweep.
+ *  columns   [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
+ *  capacity  [in]   length of columns.
+ *  count     [out]  how many there are: b_columns or x_columns of stats.plan.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: a plan in a region.  Cost  O(count).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns,
+                                                sl_int capacity, sl_int *count);
+
+/** Grows W so that sl_factor_solve_part and sl_factor_multiply_part with up to nrhs right-hand
+ *  sides allocate nothing.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs);
+
+/** The same for sl_plan_solve_part on plan P.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P,
+                                                          sl_int nrhs);
+
+#endif
