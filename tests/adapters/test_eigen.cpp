@@ -48,6 +48,26 @@ template <class A> bool all_nan(const A &a) {
     return a.size() > 0 && (a.array() != a.array()).all();
 }
 
+/* L, D and P of our solver, one by one, against the matrices that it returns. */
+void parts_of_solves() {
+    const Sparse A = grid_matrix<Sparse, Eigen::Lower>(13);
+    const sl::SimplicialLDLT<Sparse> ours(A);
+    const Dense B = some_matrix(169, 3), whole = ours.solve(B);
+    const Sparse L = ours.matrixL();
+    const Dense PB = ours.permutationP() * B;
+    CHECK(close(ours.solvePart(SL_PART_P, B), PB, 0));
+    CHECK(close(L * ours.solvePart(SL_PART_L, B), B));
+    CHECK(close(ours.multiplyPart(SL_PART_L, B), L * B));
+    CHECK(close(L.transpose() * ours.solvePart(SL_PART_LT, B), B));
+    CHECK(close(ours.vectorD().asDiagonal() * ours.solvePart(SL_PART_D, B), B));
+    const Dense half = ours.solvePart(SL_PART_P | SL_PART_L, B);
+    const Dense rest = ours.solvePart(SL_PART_D | SL_PART_LT | SL_PART_PT, half);
+    CHECK(close(rest, whole, 0));
+    CHECK(ours.info() == Eigen::Success);
+    CHECK(all_nan(ours.solvePart(64, B)) && ours.status() == SL_ERR_ARGUMENT);
+    CHECK(all_nan(ours.solvePart(SL_PART_L, B.topRows(5))));
+}
+
 // ---- the solver concept ----
 
 /* The same matrix and right-hand side through Eigen's solver and ours. */
@@ -455,6 +475,7 @@ int main() {
                        {"sparse_right_hand_sides", sparse_right_hand_sides},
                        {"refactorization", refactorization},
                        {"determinant_and_factors", determinant_and_factors},
+                       {"parts_of_solves", parts_of_solves},
                        {"shifted", shifted},
                        {"natural_order", natural_order},
                        {"local_solves", local_solves},

@@ -98,6 +98,37 @@ void plans() {
     CHECK(std::fabs(x[0] - 0.5 * full[140]) < 1e-14 && std::fabs(x[2] - full[140]) < 1e-14);
 }
 
+void parts_of_solves() {
+    Factored f;
+    sl::Plan P;
+    const std::vector<double> b = some_numbers(144);
+    std::vector<double> x, half, rest;
+    std::vector<sl_int> columns;
+    CHECK(f.made && f.F.solve(x, b).ok());
+    CHECK(f.F.solve_part(half, SL_PART_P | SL_PART_L, b).ok());
+    CHECK(f.F.solve_part(rest, SL_PART_D | SL_PART_LT | SL_PART_PT, half).ok() && rest == x);
+    CHECK(f.F.multiply_part(rest, SL_PART_L | SL_PART_PT, half).ok());
+    CHECK(std::fabs(rest[7] - b[7]) < 1e-13);
+    /* the forward half of a local solve, and the backward half */
+    CHECK(P.create(f.S, {3}, {140, 7}).ok() && P.columns(columns, SL_PART_L).ok());
+    CHECK(sl_int(columns.size()) == P.info().b_columns);
+    std::vector<double> unit(144, 0.0);
+    unit[3] = 1;
+    CHECK(f.F.solve_part(half, SL_PART_P | SL_PART_L, unit).ok());
+    CHECK(P.solve_part(x, f.F, SL_PART_P | SL_PART_L, {1.0}).ok());
+    for (std::size_t k = 0; k < columns.size(); k++) {
+        CHECK(x[k] == half[std::size_t(columns[k])]);
+    }
+    CHECK(P.columns(columns, SL_PART_LT).ok());
+    rest.clear();
+    for (sl_int column : columns) rest.push_back(b[std::size_t(column)]);
+    CHECK(f.F.solve_part(half, SL_PART_LT | SL_PART_PT, b).ok());
+    CHECK(P.solve_part(x, f.F, SL_PART_LT | SL_PART_PT, rest).ok());
+    CHECK(x.size() == 2 && x[0] == half[140] && x[1] == half[7]);
+    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return f.F.solve_part(x, 64, b); }));
+    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return P.solve_part(x, f.F, SL_PART_P, {1.0}); }));
+}
+
 void regions() {
     Factored f(20);
     sl::Region R;
@@ -229,6 +260,7 @@ int main() {
     return check::run({{"full_solve", full_solve},
                        {"local_solves", local_solves},
                        {"plans", plans},
+                       {"parts_of_solves", parts_of_solves},
                        {"regions", regions},
                        {"inverse", inverse},
                        {"selected", selected},

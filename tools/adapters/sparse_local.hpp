@@ -350,6 +350,17 @@ public:
         return finish(Status(status, stats));
     }
 
+    /** A half or another part of a solve: parts is a sum of SL_PART_..., b has n * nrhs numbers. */
+    SL_RESULT solve_part(std::vector<double> &x, unsigned parts, const std::vector<double> &b,
+                         sl_int nrhs = 1, Work *work = nullptr) const {
+        return part(sl_factor_solve_part, x, parts, b, nrhs, work);
+    }
+    /** The product with the same parts. */
+    SL_RESULT multiply_part(std::vector<double> &x, unsigned parts, const std::vector<double> &b,
+                            sl_int nrhs = 1, Work *work = nullptr) const {
+        return part(sl_factor_multiply_part, x, parts, b, nrhs, work);
+    }
+
     /** Diagonal entries of the inverse, in the order of rows. */
     SL_RESULT inverse_diagonal(std::vector<double> &out, const Rows &rows,
                                Work *work = nullptr) const {
@@ -380,6 +391,16 @@ public:
         sl_stats stats = sl_stats();
         if (get()) sl_factor_stats(get(), &stats);
         return stats.factor;
+    }
+
+private:
+    template <class Call>
+    SL_RESULT part(Call call, std::vector<double> &x, unsigned parts, const std::vector<double> &b,
+                   sl_int nrhs, Work *work) const {
+        std::size_t rows = std::size_t(n());
+        if (nrhs < 0 || b.size() != rows * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        x.resize(b.size());
+        return finish(call(get(), parts, data_of(x), rows, data_of(b), rows, nrhs, work_of(work)));
     }
 };
 
@@ -467,6 +488,29 @@ public:
                                          data_of(b), nb, nrhs, work_of(work));
         if (status == SL_OK) x.swap(result);
         return finish(status);
+    }
+    /** The forward half (SL_PART_P + L), whose x has info().b_columns rows, or the backward half
+     *  (SL_PART_LT + PT), whose b has info().x_columns rows; either with D or SQRT_D. */
+    SL_RESULT solve_part(std::vector<double> &x, const Factor &F, unsigned parts,
+                         const std::vector<double> &b, sl_int nrhs = 1,
+                         Work *work = nullptr) const {
+        const bool is_forward = (parts & SL_PART_P) != 0;
+        std::size_t nb = std::size_t(is_forward ? nb_ : info().x_columns);
+        std::size_t nx = std::size_t(is_forward ? info().b_columns : nx_);
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        std::vector<double> result(nx * std::size_t(nrhs));
+        sl_status status = sl_plan_solve_part(get(), F.get(), parts, data_of(result), nx,
+                                              data_of(b), nb, nrhs, work_of(work));
+        if (status == SL_OK) x.swap(result);
+        return finish(status);
+    }
+    /** The columns of L, ascending, that are the rows of half solves: SL_PART_L or SL_PART_LT. */
+    SL_RESULT columns(std::vector<sl_int> &out, sl_part part) const {
+        sl_int count = 0;
+        sl_status status = sl_plan_columns(get(), part, nullptr, 0, &count);
+        if (status != SL_OK) return finish(status);
+        out.resize(std::size_t(count));
+        return finish(sl_plan_columns(get(), part, out.data(), count, &count));
     }
     /** Rows of the b-set and of the x-set. */
     sl_int nb() const {

@@ -118,7 +118,9 @@ public:
         view_.n_rows = sl_int(A.innerSize());
         view_.n_cols = sl_int(A.outerSize());
         if (A.outerIndexPtr() && A.isCompressed() && A.outerIndexPtr()[0] == 0) {
-            use(A, std::integral_constant<bool, std::is_same<Index, sl_int>::value>(),
+            use(A, std::integral_constant<int, std::is_same<Index, sl_int>::value         ? 32
+                                               : std::is_same<Index, std::int64_t>::value ? 64
+                                                                                          : 0>(),
                 std::integral_constant<bool, std::is_same<Scalar, double>::value>());
         } else {
             compress(A);
@@ -164,18 +166,31 @@ private:
         return nothing;
     }
 
-    template <class M> void use(const M &A, std::true_type, std::true_type) {
+    typedef std::integral_constant<int, 32> Narrow;
+    typedef std::integral_constant<int, 64> Wide;
+
+    template <class M> void use(const M &A, Narrow, std::true_type) {
         view_.p = A.outerIndexPtr();
         view_.i = A.innerIndexPtr();
         view_.x = A.valuePtr();
     }
-    template <class M> void use(const M &A, std::true_type, std::false_type) {
+    template <class M> void use(const M &A, Narrow, std::false_type) {
         view_.p = A.outerIndexPtr();
         view_.i = A.innerIndexPtr();
         x_.assign(A.valuePtr(), A.valuePtr() + A.nonZeros());
         view_.x = x_.data();
     }
-    template <class M, class Any> void use(const M &A, std::false_type, Any) {
+    /* Indices are converted by the library, and values used in place. */
+    template <class M> void use(const M &A, Wide, std::true_type) {
+        sl_matrix *made = nullptr;
+        const sl_csc64 wide = {view_.n_rows, view_.n_cols, A.outerIndexPtr(), A.innerIndexPtr(),
+                               nullptr};
+        status_ = sl_matrix_from_csc64(&made, &wide, nullptr, nullptr);
+        converted_ = std::shared_ptr<sl_matrix>(made, sl_matrix_free);
+        view_ = sl_matrix_view(made);
+        view_.x = A.valuePtr();
+    }
+    template <class M, class Width, class Any> void use(const M &A, Width, Any) {
         compress(A);
     }
 
@@ -200,6 +215,7 @@ private:
 
     sl_csc view_;
     sl_status status_;
+    std::shared_ptr<sl_matrix> converted_;
     std::vector<sl_int> p_, i_;
     std::vector<double> x_;
 };
@@ -433,6 +449,16 @@ public:
             return sl_plan_solve(plan.plan_.get(), factor_.get(), data(x), stride(x), data(b),
                                  stride(b), columns(b), work);
         });
+    }
+    /** A half or another part of a solve; parts is a sum of SL_PART_... For SimplicialLDLT,
+     *  permutationP() b is solvePart(SL_PART_P, b), matrixL().solve(b) solvePart(SL_PART_L, b),
+     *  matrixU().solve(b) solvePart(SL_PART_LT, b). The L of SimplicialLLT: SL_PART_L + SQRT_D. */
+    template <class Rhs> Dense solvePart(unsigned parts, const Eigen::MatrixBase<Rhs> &B) const {
+        return part(sl_factor_solve_part, parts, B.template cast<double>());
+    }
+    /** The product with the same parts: matrixL() b is multiplyPart(SL_PART_L, b). */
+    template <class Rhs> Dense multiplyPart(unsigned parts, const Eigen::MatrixBase<Rhs> &B) const {
+        return part(sl_factor_multiply_part, parts, B.template cast<double>());
     }
     /** Prepares local solves; the plan is valid for every later factorization of the pattern. */
     LocalPlan plan(const RowSet &bset, const RowSet &xset) const {
@@ -708,6 +734,12 @@ private:
         if (status != SL_OK) x.setConstant(nan<double>());
         if (result) *result = status;
         return x;
+    }
+    template <class Call> Dense part(Call call, unsigned parts, const Dense &b) const {
+        return local(b.rows() == n_, n_, b, [&](Dense &x, sl_work *work) {
+            return call(factor_.get(), parts, data(x), stride(x), data(b), stride(b), columns(b),
+                        work);
+        });
     }
     Dense solve_sets(const RowSet &bset, const Dense &b, const RowSet &xset,
                      sl_status *result = nullptr) const {

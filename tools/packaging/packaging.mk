@@ -15,7 +15,7 @@ INSTALL_PARTS ?=
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters shared test-shared install uninstall check-install deps-python test-python bench-python
+.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python test-python bench-python
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -28,6 +28,7 @@ deps-packaging: ## cmake, meson, pkg-config, mandoc: the checks of the installat
 ADAPTERS = $(wildcard tools/adapters/*.hpp)
 EIGEN = -isystem /usr/include/eigen3
 # test_raii is built with exceptions and without
+# test_clients is run by a target of its own
 ADAPTER_NAMES = test_raii test_returning test_eigen
 
 # $(1) compiler, $(2) standard, $(3) program, $(4) source, $(5) flags
@@ -40,13 +41,20 @@ endef
 $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(eval $(call adapter_program,$(cxx),$(std),test_raii,test_raii,))\
 	$(eval $(call adapter_program,$(cxx),$(std),test_returning,test_raii,-fno-exceptions))\
-	$(eval $(call adapter_program,$(cxx),$(std),test_eigen,test_eigen,))))
+	$(eval $(call adapter_program,$(cxx),$(std),test_eigen,test_eigen,))\
+	$(eval $(call adapter_program,$(cxx),$(std),test_clients,test_clients,))))
 ADAPTER_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(foreach std,$(ADAPTER_STD),\
 	$(ADAPTER_NAMES:%=build/adapters/$(cxx)-$(std)-%)))
 
 test-adapters: deps deps-eigen sparse_local.h ## the C++ and Eigen adapters, for each of ADAPTER_CXX and ADAPTER_STD
 	@$(MAKE) --no-print-directory $(ADAPTER_PROGRAMS)
 	@tests/lib/run.sh build/adapters/log $(ADAPTER_PROGRAMS)
+
+CLIENT_PROGRAMS = $(foreach cxx,$(ADAPTER_CXX),$(ADAPTER_STD:%=build/adapters/$(cxx)-%-test_clients))
+
+test-clients: deps deps-eigen sparse_local.h ## what libigl and geometry-central do with a solver, on ours and on Eigen's
+	@$(MAKE) --no-print-directory $(CLIENT_PROGRAMS)
+	@tests/lib/run.sh build/adapters/log $(CLIENT_PROGRAMS)
 
 # ---- the compiled library ----
 
