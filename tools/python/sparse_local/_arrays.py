@@ -4,7 +4,7 @@ import ctypes
 import numpy as np
 
 from ._errors import ArgumentError, NotFiniteError, PatternError, TooLargeError
-from ._library import Csc, Stats, check, lib, new_options
+from ._library import Csc, Csc64, Handle, Stats, check, lib, new_options
 
 _LIMIT = 2**31 - 1
 _AS_SYMMETRIC, _AS_STORED = 0, 1
@@ -28,6 +28,10 @@ def _index_array(array, what):
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
+def _wide_array(array, what):
+    return np.ascontiguousarray(array)
+
+
 def _real_array(array, what):
     array = np.asarray(array)
     if array.dtype.kind not in "fiu":
@@ -38,7 +42,8 @@ def _real_array(array, what):
 class Matrix:
     """View of a sparse matrix: scipy.sparse, or anything with shape, indptr, indices and data.
 
-    CSC with 32-bit indices and float64 values is used in place; p, i, x are its arrays. CSR is
+    CSC with 32-bit indices and float64 values is used in place; p, i, x are its arrays. 64-bit
+    indices are converted by the library. CSR is
     used in place as its transpose, so that its triangles change places (is_turned).
     """
 
@@ -55,15 +60,31 @@ class Matrix:
             rows, columns = columns, rows
         if max(rows, columns) > _LIMIT:
             raise TooLargeError("a matrix of %d x %d" % (rows, columns))
-        self.p = _index_array(A.indptr, "positions")
-        self.i = _index_array(A.indices, "row indices")
+        is_wide = np.asarray(A.indptr).dtype == np.asarray(A.indices).dtype == np.int64
+        as_array = _wide_array if is_wide else _index_array
+        self.p = as_array(A.indptr, "positions")
+        self.i = as_array(A.indices, "row indices")
         self.x = np.ascontiguousarray(_real_array(A.data, "values"))
         if self.p.ndim != 1 or self.p.size != columns + 1:
             raise PatternError("indptr needs one entry for each column and one more")
         if self.p[0] != 0 or not self.p[-1] <= min(self.i.size, self.x.size):
             raise PatternError("positions do not fit the arrays of indices and values")
         self.n = rows
-        self.csc = Csc(rows, columns, address(self.p), address(self.i), address(self.x))
+        if is_wide:
+            self.csc = self._convert(rows, columns)
+        else:
+            self.csc = Csc(rows, columns, address(self.p), address(self.i), address(self.x))
+
+    def _convert(self, rows, columns):
+        """The view with 32-bit indices of a matrix with 64-bit ones; values stay in place."""
+        wide = Csc64(rows, columns, address(self.p), address(self.i), 0)
+        pointer, stats = ctypes.c_void_p(), Stats()
+        check(lib.sl_matrix_from_csc64(ctypes.byref(pointer), ctypes.byref(wide), None,
+                                       ctypes.byref(stats)), stats)
+        self._converted = Handle("matrix", pointer.value)
+        csc = lib.sl_matrix_view(self._converted.pointer)
+        csc.x = address(self.x)
+        return csc
 
     def reference(self):
         return ctypes.byref(self.csc)

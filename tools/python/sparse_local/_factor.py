@@ -1,5 +1,6 @@
 """Factor, Plan and Region: factorization, full and local solves, entries of the inverse."""
 import ctypes
+import os
 import threading
 
 import numpy as np
@@ -11,6 +12,8 @@ from ._library import Handle, Stats, check, lib, new_options
 _ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4,
               "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
+_CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
+_PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
 
 
 class Factor:
@@ -31,8 +34,8 @@ class Factor:
     null_vector     n numbers, if the null vector is not constant.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
 
-    Threads   any number of threads may call all methods but refactor at once. Calls release the
-              global interpreter lock.
+    Threads   any number of threads may call all methods but refactor and update at once. Calls
+              release the global interpreter lock.
     """
 
     def __init__(self, A, *, triangle=None, ordering="nd", perm=None, coordinates=None,
@@ -113,6 +116,100 @@ class Factor:
         check(lib.sl_factor_refactor(self._factor.pointer, matrix.reference(),
                                      ctypes.byref(stats)), stats)
         return self
+
+    def update(self, A, columns=None):
+        """Factors A again after changes in these columns only; None: anywhere, as refactor.
+
+        Only what the changes reach in L is computed anew, which pays where they are in one place.
+        A has the analyzed pattern. Errors as in refactor; StateError: the factor is mapped.
+        """
+        if columns is None:
+            return self.refactor(A)
+        keep, address, count = arrays.rows(columns)
+        matrix, stats = arrays.Matrix(A), Stats()
+        if self._triangle is None:
+            matrix.check_symmetric()
+        check(lib.sl_factor_refactor_changed(self._factor.pointer, matrix.reference(), address,
+                                             count, ctypes.byref(stats)), stats)
+        return self
+
+    def save(self, path):
+        """Writes the analysis and the factor to a file, which load reads."""
+        check(lib.sl_save_file(_path(path), self._symbolic.pointer, self._factor.pointer, None))
+
+    @classmethod
+    def load(cls, path, *, map=False, checks="checked", triangle=None):
+        """A factor from a file that save has written; its solves have the same bits.
+
+        map       True: maps the file, which processes then share; refactor raises StateError.
+        checks    'checked': any bytes are safe; 'verified': checksums too; 'trusted': none.
+        triangle  as for Factor, for later refactors.
+        """
+        call = lib.sl_map_file if map else lib.sl_load_file
+        return cls._loaded(call, (_path(path),), checks, triangle)
+
+    def to_bytes(self):
+        """The analysis and the factor as bytes, as save writes them; pickle uses this."""
+        size = ctypes.c_size_t()
+        check(lib.sl_save_bytes(ctypes.byref(size), self._symbolic.pointer, self._factor.pointer))
+        memory = np.empty(size.value, dtype=np.uint8)
+        check(lib.sl_save_memory(arrays.address(memory), memory.size, self._symbolic.pointer,
+                                 self._factor.pointer))
+        return memory.tobytes()
+
+    @classmethod
+    def from_bytes(cls, data, *, checks="checked", triangle=None):
+        """A factor from the bytes of to_bytes, as a copy."""
+        memory = np.frombuffer(data, dtype=np.uint8)
+        return cls._loaded(lib.sl_load_memory, (arrays.address(memory), memory.size), checks,
+                           triangle)
+
+    def __reduce__(self):
+        return _unpickle, (self.to_bytes(), self._triangle)
+
+    @classmethod
+    def _loaded(cls, call, source, checks, triangle):
+        if triangle not in arrays.TRIANGLES:
+            raise ArgumentError("triangle is 'lower', 'upper' or None, not %r" % (triangle,))
+        symbolic, factor = ctypes.c_void_p(), ctypes.c_void_p()
+        check(call(ctypes.byref(symbolic), ctypes.byref(factor), *source,
+                   _choice(_CHECKS, checks, "checks"), None))
+        self = cls.__new__(cls)
+        self._triangle = triangle
+        self._symbolic = Handle("symbolic", symbolic.value)
+        self._factor = Handle("factor", factor.value, self._symbolic)
+        self.n = lib.sl_symbolic_view(self._symbolic.pointer).n
+        self._works = threading.local()
+        return self
+
+    def solve_part(self, parts, B):
+        """X = P' L'^-1 D^-1 L^-1 P B with only the parts that are named, as 'P L' or ['LT', 'PT'].
+
+        parts   of 'P', 'L', 'D' or 'sqrtD', 'LT', 'PT'. 'P L' is the forward half of a solve,
+                'D LT PT' the backward half. Without P, B is in the order of perm, and so is X
+                without PT.
+        PivotError: sqrtD with a negative pivot.
+        """
+        return self._part(lib.sl_factor_solve_part, parts, B)
+
+    def multiply_part(self, parts, B):
+        """X = P' L D L' P B with only the parts that are named; see solve_part."""
+        return self._part(lib.sl_factor_multiply_part, parts, B)
+
+    def _part(self, call, parts, B):
+        dense = arrays.Dense(np.asfortranarray(B), self.n, self.n)
+        check(call(self._factor.pointer, _parts(parts), *dense.arguments(), self._work()))
+        return dense.X
+
+    def sample(self, count=None, rng=None):
+        """Samples of the normal distribution with mean 0 and covariance A^-1, for a definite A.
+
+        count  columns of the result (n, count); None: one sample (n,).
+        rng    numpy.random.Generator; None: a new one.
+        """
+        rng = np.random.default_rng() if rng is None else rng
+        shape = self.n if count is None else (self.n, count)
+        return self.solve_part("sqrtD LT PT", rng.standard_normal(shape))
 
     def solve(self, B):
         """X with A X = B; B has the shape (n,) or (n, count), and so has X.
@@ -280,12 +377,57 @@ class Plan:
         check(call(self._plan.pointer, factor._factor.pointer, *dense.arguments(), factor._work()))
         return dense.X
 
+    def solve_part(self, parts, B):
+        """Half of the solve: 'P L' forward, 'LT PT' backward, either with 'D' or 'sqrtD'.
+
+        Forward, B has nb rows and the result one for each of columns('L'). Backward, B has one row
+        for each of columns('LT') and the result nx rows.
+        """
+        bits = _parts(parts)
+        is_forward = bits & _PARTS["P"]
+        info = self.stats
+        dense = arrays.Dense(np.asfortranarray(B), self.nb if is_forward else info["x_columns"],
+                             info["b_columns"] if is_forward else self.nx)
+        factor = self._factor
+        check(lib.sl_plan_solve_part(self._plan.pointer, factor._factor.pointer, bits,
+                                     *dense.arguments(), factor._work()))
+        return dense.X
+
+    def columns(self, part):
+        """The columns of L, ascending, that the forward ('L') or backward ('LT') sweep visits."""
+        info = self.stats
+        out = np.empty(info["b_columns"] if part == "L" else info["x_columns"], dtype=np.int32)
+        count = ctypes.c_int32()
+        check(lib.sl_plan_columns(self._plan.pointer, _choice(_PARTS, part, "part"),
+                                  arrays.address(out), out.size, ctypes.byref(count)))
+        return out
+
     @property
     def stats(self):
         """Columns and entries of L that a solve visits, by their C names."""
         stats = Stats()
         lib.sl_plan_stats(self._plan.pointer, ctypes.byref(stats))
         return _as_dict(stats.plan)
+
+
+def _parts(parts):
+    """The bits of parts: a string of names, or the names."""
+    bits = 0
+    for name in parts.split() if isinstance(parts, str) else parts:
+        bits |= _choice(_PARTS, name, "a part")
+    return bits
+
+
+def _path(path):
+    """A path as the bytes that the library opens."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ArgumentError("a path without zero bytes is needed")
+    return name
+
+
+def _unpickle(data, triangle):
+    return Factor.from_bytes(data, triangle=triangle)
 
 
 def _choice(names, name, what):

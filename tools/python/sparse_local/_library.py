@@ -19,6 +19,11 @@ class Csc(ctypes.Structure):
     _fields_ = [("n_rows", _INT), ("n_cols", _INT), ("p", _PTR), ("i", _PTR), ("x", _PTR)]
 
 
+class Csc64(ctypes.Structure):
+    """sl_csc64"""
+    _fields_ = [("n_rows", _OFF), ("n_cols", _OFF), ("p", _PTR), ("i", _PTR), ("x", _PTR)]
+
+
 class Options(ctypes.Structure):
     """sl_options"""
     _fields_ = [
@@ -87,9 +92,13 @@ _CALLS = {
     "csc_check": [_CSC, _STATS],
     "csc_triangle": [_CSC, ctypes.POINTER(_ENUM), _OPT, _STATS],
     "csc_multiply": [_CSC, _ENUM, _PTR, _SIZE, _PTR, _SIZE, _INT],
+    "matrix_from_csc64": [_OUT, ctypes.POINTER(Csc64), _OPT, _STATS],
     "symbolic_create": [_OUT, _CSC, _OPT, _STATS],
     "factor_create": [_OUT, _PTR, _CSC, _OPT, _STATS],
     "factor_refactor": [_PTR, _CSC, _STATS],
+    "factor_refactor_changed": [_PTR, _CSC, _PTR, _INT, _STATS],
+    "factor_solve_part": [_PTR, ctypes.c_uint, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
+    "factor_multiply_part": [_PTR, ctypes.c_uint, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "factor_solve": [_PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "factor_solve_interleaved": [_PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "factor_refine": [_PTR, _CSC, _PTR, _SIZE, _PTR, _SIZE, _INT, _INT, _PTR, _STATS],
@@ -99,13 +108,21 @@ _CALLS = {
     "plan_create": [_OUT, _PTR, _PTR, _INT, _PTR, _INT, _OPT, _STATS],
     "plan_solve": [_PTR, _PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "plan_solve_interleaved": [_PTR, _PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
+    "plan_solve_part": [_PTR, _PTR, ctypes.c_uint, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
+    "plan_columns": [_PTR, _ENUM, _PTR, _INT, ctypes.POINTER(_INT)],
     "local_solve": [_PTR, _PTR, _INT, _PTR, _INT, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR, _STATS],
     "inverse_diagonal": [_PTR, _PTR, _PTR, _INT, _PTR, _STATS],
     "inverse_block": [_PTR, _PTR, _SIZE, _PTR, _INT, _PTR, _INT, _PTR, _STATS],
     "region_create": [_OUT, _PTR, _PTR, _INT, _PTR, _OPT, _STATS],
     "region_refactor": [_PTR, _PTR, _PTR, _PTR],
+    "save_bytes": [ctypes.POINTER(_SIZE), _PTR, _PTR],
+    "save_memory": [_PTR, _SIZE, _PTR, _PTR],
+    "save_file": [ctypes.c_char_p, _PTR, _PTR, _OPT],
+    "load_memory": [_OUT, _OUT, _PTR, _SIZE, _ENUM, _OPT],
+    "load_file": [_OUT, _OUT, ctypes.c_char_p, _ENUM, _OPT],
+    "map_file": [_OUT, _OUT, ctypes.c_char_p, _ENUM, _OPT],
 }
-_FREES = ("symbolic_free", "factor_free", "work_free", "plan_free", "region_free")
+_FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free")
 
 
 def library_path():
@@ -135,6 +152,8 @@ def _load():
     lib.sl_stats_size.restype = _SIZE
     lib.sl_options_init.argtypes = [_OPT, _SIZE]
     lib.sl_options_init.restype = None
+    lib.sl_matrix_view.argtypes = [_PTR]
+    lib.sl_matrix_view.restype = Csc
     lib.sl_symbolic_view.argtypes = [_PTR]
     lib.sl_symbolic_view.restype = SymbolicArrays
     for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats"):

@@ -1,5 +1,9 @@
 """The package against scipy.sparse.linalg.splu, with malformed input, and from several threads."""
+import ctypes
 import gc
+import os
+import pickle
+import re
 import subprocess
 import sys
 import threading
@@ -12,6 +16,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 import sparse_local as sl
+from sparse_local import _library
 
 
 def grid(side, shift=0.1):
@@ -181,6 +186,171 @@ def test_inverse_and_determinant(A, F):
     b = right_hand_sides(400, 3)
     X, error = F.refine(A, 0.9 * F.solve(b), b)
     assert error < 1e-14 and np.allclose(A @ X, b)
+
+
+# ---- half solves ----
+
+def test_parts_make_up_the_solve(A, F):
+    b = right_hand_sides(400, 3)
+    half = F.solve_part("P L", b)
+    assert np.array_equal(F.solve_part(["D", "LT", "PT"], half), F.solve(b))
+    assert np.array_equal(F.solve_part("P", b), b[F.perm])
+    assert np.allclose(F.multiply_part("P L D LT PT", b), A @ b)
+    with pytest.raises(sl.ArgumentError):
+        F.solve_part("P U", b)
+    with pytest.raises(sl.ArgumentError):
+        F.solve_part("D sqrtD", b)
+    with pytest.raises(sl.PivotError):
+        sl.Factor(grid(6, -3.0)).solve_part("sqrtD", np.ones(36))
+
+
+def test_local_halves(A, F):
+    plan = F.plan([3, 70], [9, 300, 1])
+    b = np.zeros(400)
+    b[[3, 70]] = [1, -2]
+    columns = plan.columns("L")
+    assert np.array_equal(plan.solve_part("P L", [1.0, -2.0]), F.solve_part("P L", b)[columns])
+    z, columns = right_hand_sides(400), plan.columns("LT")
+    assert columns.size < 400
+    assert np.array_equal(plan.solve_part("sqrtD LT PT", z[columns]),
+                          F.solve_part("sqrtD LT PT", z)[[9, 300, 1]])
+    with pytest.raises(sl.ArgumentError):
+        plan.solve_part("L", [1.0])
+
+
+def test_samples_have_the_covariance_of_the_inverse():
+    A = grid(4)
+    X = sl.Factor(A).sample(200000, np.random.default_rng(3))
+    inverse = np.linalg.inv(A.toarray())
+    assert np.abs(X @ X.T / 200000 - inverse).max() < 0.02 * inverse.max()
+    assert sl.Factor(A).sample().shape == (16,)
+
+
+# ---- changes, files ----
+
+def test_update(A, F):
+    B = A.copy()
+    for p in range(B.indptr[5], B.indptr[6]):
+        if B.indices[p] == 5:
+            B.data[p] += 2
+    assert F.update(B, [5]) is F
+    b = right_hand_sides(400)
+    assert np.allclose(B @ F.solve(b), b)
+    assert np.array_equal(F.update(A).solve(b), sl.Factor(A).solve(b))
+    with pytest.raises(sl.ArgumentError):
+        F.update(A, [400])
+
+
+@pytest.mark.parametrize("is_mapped", [False, True])
+def test_files(A, F, tmp_path, is_mapped):
+    path, b = tmp_path / "grid.slf", right_hand_sides(400)
+    F.save(path)
+    G = sl.Factor.load(path, map=is_mapped, checks="verified")
+    assert np.array_equal(G.solve(b), F.solve(b)) and G.n == 400
+    assert np.array_equal(G.plan([3], [5]).solve([1.0]), F.plan([3], [5]).solve([1.0]))
+    if is_mapped:
+        with pytest.raises(sl.StateError):
+            G.refactor(A)
+    else:
+        assert np.array_equal(G.refactor(2 * A).solve(b), F.refactor(2 * A).solve(b))
+    with pytest.raises(sl.Error):
+        sl.Factor.load(tmp_path / "none")
+    (tmp_path / "damaged").write_bytes(path.read_bytes()[:500])
+    with pytest.raises(sl.Error):
+        sl.Factor.load(tmp_path / "damaged", map=is_mapped)
+    with pytest.raises(sl.ArgumentError):
+        F.save("a\0b")
+    with pytest.raises(sl.ArgumentError):
+        sl.Factor.load(path, checks="no")
+
+
+def test_pickle(F):
+    G = pickle.loads(pickle.dumps(F))
+    b = right_hand_sides(400)
+    assert np.array_equal(G.solve(b), F.solve(b))
+    assert sl.Factor.from_bytes(F.to_bytes()).n == 400
+    with pytest.raises(sl.Error):
+        sl.Factor.from_bytes(b"")
+
+
+@pytest.mark.parametrize("turn", ["tocsc", "tocsr"])
+def test_indices_of_64_bits(A, turn):
+    B = getattr(A, turn)()
+    B.indptr, B.indices = B.indptr.astype(np.int64), B.indices.astype(np.int64)
+    b = right_hand_sides(400)
+    F = sl.Factor(B)
+    assert np.array_equal(F.solve(b), sl.Factor(getattr(A, turn)()).solve(b))
+    assert np.allclose(F.refactor(3 * B).solve(b), splu(3 * A).solve(b))
+    B.indices[4] = 2**40
+    with pytest.raises(sl.PatternError):
+        sl.Factor(B)
+    B = getattr(A, turn)()
+    B.indptr, B.indices = B.indptr.astype(np.int64), B.indices.astype(np.int64)
+    B.indptr[3] = B.indptr[4] + 1
+    with pytest.raises(sl.PatternError):
+        sl.Factor(B)
+
+
+# ---- the structs of the header ----
+
+HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
+
+
+@pytest.mark.skipif(not os.path.exists(HEADER), reason="no header beside the package")
+@pytest.mark.parametrize("name", ["Options", "Stats", "Csc", "Csc64", "SymbolicArrays"])
+def test_structs_are_those_of_the_header(tmp_path, name):
+    """Every member of the C struct, in order, at the same offset, and nothing after the last."""
+    struct = {"Options": "sl_options", "Stats": "sl_stats", "Csc": "sl_csc", "Csc64": "sl_csc64",
+              "SymbolicArrays": "sl_symbolic_arrays"}[name]
+    ours = dict(leaves(getattr(_library, name)))
+    with open(os.path.join(HEADER, "sparse_local.h")) as file:
+        theirs = c_members(file.read(), struct)
+    paths = ["size_of_all"] + theirs
+    lines = ["%s" % ("sizeof(%s)" % struct if path == "size_of_all" else
+                     "offsetof(%s, %s)" % (struct, path)) for path in paths]
+    source = tmp_path / "offsets.c"
+    source.write_text('#include <stddef.h>\n#include <stdio.h>\n#include "sparse_local.h"\n'
+                      "int main(void) {\n%s    return 0;\n}\n" %
+                      "".join('    printf("%%zu\\n", %s);\n' % line for line in lines))
+    subprocess.check_call(["cc", "-I", HEADER, "-o", str(tmp_path / "offsets"), str(source)])
+    numbers = subprocess.check_output([str(tmp_path / "offsets")], text=True).split()
+    assert int(numbers[0]) == ctypes.sizeof(getattr(_library, name))
+    assert [int(text) for text in numbers[1:]] == list(ours.values())
+
+
+def leaves(struct, prefix="", start=0):
+    """The members of a ctypes struct that are not structs, with their offsets."""
+    for name, kind in struct._fields_:
+        offset = start + getattr(struct, name).offset
+        if issubclass(kind, ctypes.Structure):
+            yield from leaves(kind, prefix + name + ".", offset)
+        else:
+            yield prefix + name, offset
+
+
+def c_members(text, struct):
+    """The members of a C struct as paths, in order; members of type sl_... info are opened."""
+    text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+    body = re.search(r"typedef struct %s \{(.*?)\} %s;" % (struct, struct), text, re.S).group(1)
+    paths = []
+    for line in body.split(";"):
+        if "(*" in line:
+            paths.append(re.search(r"\(\*(\w+)\)", line).group(1))
+            continue
+        match = re.match(r"\s*(?:const |unsigned )*(\w+)(.*)", line, re.S)
+        if not match:
+            continue
+        for declared in match.group(2).replace("const", "").split(","):
+            name = re.search(r"\w+", declared)
+            if not name:
+                continue
+            name = name.group(0)
+            inner = "typedef struct %s {" % match.group(1)
+            if inner in text and "*" not in declared:
+                paths += [name + "." + path for path in c_members(text, match.group(1))]
+            else:
+                paths.append(name)
+    return paths
 
 
 # ---- errors ----
