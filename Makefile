@@ -45,7 +45,7 @@ PARTS := $(wildcard src/public/*.h src/impl/*/*.h)
 SRC := src/sparse_local.in.h $(PARTS)
 MAIN := tools/cli/main.c
 NEED_PNG := tools/draw/png_write.c
-TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/% tools/packaging/% tools/cluster/%,$(wildcard tools/*/*.c))
+TOOLS := $(filter-out $(MAIN) $(NEED_PNG) tools/build/% tools/packaging/% tools/cluster/% tools/examples/%,$(wildcard tools/*/*.c))
 CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
@@ -471,6 +471,7 @@ figures: deps deps-png sparse_local.h $(B)/sparse-local ## the paper's figures i
 # ---- other languages and build systems ----
 
 include tools/packaging/packaging.mk
+include tools/docs/docs.mk
 
 # ---- the rest ----
 

@@ -69,6 +69,9 @@ OPTION_CALL(option_triplets, sl_matrix,
             sl_matrix_from_triplets(&out, 1, 1, 1, f->perm, f->perm, f->coefficients, opt, NULL))
 OPTION_CALL(option_parse, sl_matrix,
             sl_matrix_parse(&out, OPTION_TEXT, strlen(OPTION_TEXT), opt, NULL))
+static const int64_t option_wide_p[2] = {0, 1}, option_wide_i[1] = {0};
+static const sl_csc64 option_wide = {1, 1, option_wide_p, option_wide_i, NULL};
+OPTION_CALL(option_csc64, sl_matrix, sl_matrix_from_csc64(&out, &option_wide, opt, NULL))
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
 OPTION_CALL(option_permute, sl_matrix, sl_matrix_permute(&out, &f->U, f->perm, opt))
 OPTION_CALL(option_sum, sl_matrix,
@@ -169,6 +172,7 @@ static const struct {
     int reads;
 } option_calls[] = {
     {"sl_matrix_from_triplets", option_triplets, READS_NOTHING},
+    {"sl_matrix_from_csc64", option_csc64, READS_NOTHING},
     {"sl_matrix_parse", option_parse, READS_NOTHING},
     {"sl_matrix_read", option_read, READS_NOTHING},
     {"sl_matrix_transpose", option_transpose, READS_NOTHING},

@@ -15,7 +15,7 @@ INSTALL_PARTS ?=
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python test-python bench-python
+.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python test-python test-python-build bench-python
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -126,6 +126,18 @@ build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/*)
 test-python: deps-python sparse_local.h ## the package of tools/python, installed by pip, against SciPy
 	@$(MAKE) --no-print-directory build/python/installed
 	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider source/tests
+
+# The source distribution and the wheel by `build`, without a network; each is installed and runs the example, whose picture is kept.
+test-python-build: deps-python sparse_local.h ## python3 -m build, offline: both distributions are installed and draw a picture
+	@tools/build/deps.sh $(DIST)/build=python3-build $(DIST)/matplotlib=python3-matplotlib
+	@rm -rf build/python-dist && mkdir -p build/python-dist
+	@cp -r tools/python build/python-dist/source && rm -rf build/python-dist/source/build build/python-dist/source/*.egg-info
+	@mkdir build/python-dist/source/csrc && cp sparse_local.h $(SHARED_SOURCE) build/python-dist/source/csrc
+	@$(PYTHON) -m build --no-isolation --skip-dependency-check --outdir build/python-dist/out build/python-dist/source >build/python-dist/log 2>&1 || \
+	{ tail -n 40 build/python-dist/log; exit 1; }
+	@for file in build/python-dist/out/*; do \
+	$(PYTHON) -m pip install --quiet --root-user-action=ignore --no-index --no-deps --no-build-isolation --disable-pip-version-check \
+	--target $$file.site $$file && PYTHONPATH=$$file.site $(PYTHON) -B tools/python/examples/heat.py $$file.png || exit 1; done
 
 bench-python: test-python ## times the package against scipy.sparse.linalg.splu
 	@PYTHONPATH=build/python/site $(PYTHON) -B tools/python/bench.py

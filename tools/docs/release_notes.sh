@@ -1,0 +1,11 @@
+#!/bin/bash
+# release_notes.sh: prints the section of CHANGELOG.md on one version: release_notes.sh 0.1.0
+#
+# Ends with 1 if there is no such section, or if it is empty.
+
+cd "$(dirname "$0")/../.." || exit 1
+awk -v version="$1" '
+    /^## / { inside = ($2 == version); next }
+    inside { print; if ($0 != "") lines++ }
+    END { if (lines == 0) { print "CHANGELOG.md has nothing on " version >"/dev/stderr"; exit 1 } }
+' CHANGELOG.md

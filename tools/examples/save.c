@@ -1,0 +1,31 @@
+/* save.c: a factor in a file, mapped by another process without reading or copying it */
+#include "example.h"
+
+int main(void) {
+    sl_matrix *M = grid_laplacian(0.1);
+    const sl_csc A = sl_matrix_view(M);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+
+    static double b[N], x[N], y[N];
+    sl_symbolic *T = NULL;
+    sl_factor *G = NULL;
+    const char *path = "example.slf";
+    b[7] = 1.0;
+    ok(sl_symbolic_create(&S, &A, NULL, NULL));
+    ok(sl_factor_create(&F, S, &A, NULL, NULL));
+    ok(sl_factor_solve(F, x, N, b, N, 1, NULL));
+    ok(sl_save_file(path, S, F, NULL));
+    ok(sl_map_file(&T, &G, path, SL_LOAD_CHECKED, NULL));       /* here or in any other process */
+    ok(sl_factor_solve(G, y, N, b, N, 1, NULL));
+    printf("x(7) = %.15f, from the file %.15f\n", x[7], y[7]);
+    sl_factor_free(G);
+    sl_symbolic_free(T);
+    remove(path);
+
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    sl_matrix_free(M);
+
+    return x[7] != y[7];
+}
