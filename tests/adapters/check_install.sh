@@ -93,6 +93,7 @@ C
 installed_by_make() {
     make --no-print-directory -C "$root" install PREFIX="$dir/prefix" DESTDIR=
     test -f "$dir/prefix/include/sparse_local_eigen.hpp"
+    test -f "$dir/prefix/include/sparse_local_geometry_central.hpp"
     test -f "$dir/prefix/share/man/man1/sparse-local.1"
 }
 

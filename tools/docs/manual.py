@@ -10,10 +10,11 @@ comment gives as its example is missing.
 import html
 import os
 import re
+import shutil
 import sys
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-PROBLEMS = []
+PROBLEMS, PICTURES = [], []
 STYLE = """
 body { font: 16px/1.5 sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222 }
 pre { background: #f4f4f2; padding: .7em 1em; overflow-x: auto; font-size: 13px; line-height: 1.35 }
@@ -21,7 +22,9 @@ code { background: #f4f4f2; font-size: 90% } pre code, pre a { background: none;
 table { border-collapse: collapse; font-size: 14px }
 td, th { border: 1px solid #ccc; padding: .2em .6em }
 th { text-align: left; background: #f4f4f2 } a { color: #0645ad; text-decoration: none }
-a:hover { text-decoration: underline } nav { border-bottom: 1px solid #ccc; padding-bottom: .5em }
+img { max-width: 100% }
+a:hover { text-decoration: underline }
+nav { border-bottom: 1px solid #ccc; padding-bottom: .5em }
 h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 """
 PAGES = [("index", "Guide"), ("api", "API"), ("algorithms", "Algorithms"), ("format", "Format"),
@@ -135,7 +138,8 @@ def inline(text):
         return "\0%d\0" % (len(kept) - 1)
 
     text = re.sub(r"`([^`]+)`", lambda m: keep("<code>%s</code>" % html.escape(m.group(1))), text)
-    text = re.sub(r"!\[\]\(([^)]+)\)", "", text)
+    text = re.sub(r"!\[([^\]]*)\]\(([^)]+)\)",
+                  lambda m: keep(picture(m.group(2), m.group(1))), text)
     text = re.sub(r"\[([^\]]+)\]\(([^)\s]+)\)", lambda m: keep('<a href="%s">%s</a>' % (
         page_of(m.group(2)), html.escape(m.group(1)))), text)
     text = re.sub(r"\*\*([^*]+)\*\*", r"<b>\1</b>", html.escape(text, quote=False))
@@ -143,6 +147,12 @@ def inline(text):
     while "\0" in text:
         text = re.sub("\0(\\d+)\0", lambda m: kept[int(m.group(1))], text)
     return text
+
+
+def picture(path, text):
+    """A picture of the repository, which is copied beside the pages."""
+    PICTURES.append(path)
+    return '<img src="%s" alt="%s">' % (os.path.basename(path), html.escape(text))
 
 
 def page_of(target):
@@ -274,6 +284,8 @@ def main():
             file.write('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
                        "<title>sparse_local.h: %s</title>\n<style>%s</style></head>\n<body>%s\n%s\n"
                        "</body></html>\n" % (title, STYLE, nav, pages[name]))
+    for path in PICTURES:
+        shutil.copy(os.path.join(ROOT, path), output)
     print("%d pages, %d names of the API, %d examples in %s" % (len(pages), len(names),
                                                                len(examples()), output))
     for problem in PROBLEMS:

@@ -18,10 +18,8 @@ int main(void) {
     ok(sl_factor_solve(F, x, 5, b, 5, 1, NULL));
     ok(sl_factor_refine(F, &A, x, 5, b, 5, 1, 2, NULL, &stats));
     printf("x = %g %g %g, backward error %.1e\n", x[0], x[1], x[2], stats.refine.backward_error);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(fabs(x[0] + x[1] - 2.0) < 1e-14 && fabs(x[1] + x[2]) < 1e-14);
 }

@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     const sl_int source[] = {820}, wanted[] = {821, 860, 1599};
     const double heat[] = {1.0};
     double x[3];
@@ -22,10 +21,8 @@ int main(void) {
            (int)stats.plan.x_columns, N);
     sl_work_free(W);
     sl_plan_free(P);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(x[0] > x[2] && x[2] > 0.0 && stats.plan.b_columns < N);
 }

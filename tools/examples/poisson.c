@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     static double mass[N], b[N], x[N];
     sl_options opt;
     double mean = 0.0;
@@ -25,10 +24,8 @@ int main(void) {
         mean += mass[k] * x[k];
     }
     printf("x(0) = %g, mean %.1e\n", x[0], mean);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(fabs(mean) < 1e-14 && x[0] > 0.0);
 }

@@ -26,10 +26,8 @@ int main(void) {
         sum += u[j];
     }
     printf("heat %.12f, %.4f at its source\n", sum, u[820]);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(fabs(sum - 1.0) < 1e-12);
 }

@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     sl_int patch[100], k;
     double inside, outside;
     const double one = 1.0;
@@ -30,10 +29,8 @@ int main(void) {
     sl_plan_free(near);
     sl_plan_free(far);
     sl_region_free(R);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(stats.plan.in_region && fabs(inside - outside) < 1e-13 * outside);
 }

@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     enum { MOST = 512 };
     const unsigned parts = SL_PART_SQRT_D | SL_PART_LT | SL_PART_PT;
     const sl_int wanted[] = {820};
@@ -31,10 +30,8 @@ int main(void) {
     ok(sl_inverse_diagonal(F, &exact, wanted, 1, NULL, NULL));
     printf("variance %.4f, exactly %.4f\n", sum / 4000, exact);
     sl_plan_free(P);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(fabs(sum / 4000 - exact) < 0.15 * exact);
 }

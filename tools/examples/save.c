@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     static double b[N], x[N], y[N];
     sl_symbolic *T = NULL;
     sl_factor *G = NULL;
@@ -22,10 +21,8 @@ int main(void) {
     sl_factor_free(G);
     sl_symbolic_free(T);
     remove(path);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return x[7] != y[7];
 }

@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     static double b[N], x[N];
     double rcond;
     sl_stats stats, refined;
@@ -19,10 +18,8 @@ int main(void) {
     printf("growth %.1f: the residual is small\n", stats.factor.growth);
     printf("backward error %.1e\n", refined.refine.backward_error);
     printf("rcond %.1e: x has about %d correct digits\n", rcond, (int)(15.6 + log10(rcond)));
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(stats.factor.growth < 3.0 && rcond < 1e-8 && refined.refine.backward_error < 1e-14);
 }

@@ -6,7 +6,6 @@ int main(void) {
     const sl_csc A = sl_matrix_view(M);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-
     const sl_int rows[] = {0, 20, 820};
     double variance[3], covariance;
     const sl_int other[] = {821};
@@ -19,10 +18,8 @@ int main(void) {
         printf("row %d: variance %.6f\n", (int)rows[k], variance[k]);
     }
     printf("correlation of 820 and 821 is about %.3f\n", covariance / variance[2]);
-
     sl_factor_free(F);
     sl_symbolic_free(S);
     sl_matrix_free(M);
-
     return !(variance[0] > variance[2] && covariance > 0.0 && covariance < variance[2]);
 }
