@@ -261,7 +261,7 @@ void heat_distances() {
         return solver.info() == Eigen::Success && std::fabs(areas.dot(d)) < 1e-12;
     };
     /* one vertex fixed, as libigl does it */
-    const auto theirs = [from](const Sparse &L, const Vector &, const Vector &b, Vector &d) {
+    const auto theirs = [](const Sparse &L, const Vector &, const Vector &b, Vector &d) {
         Dense x;
         const MinQuadWithFixed<Theirs> fixed(L, {from});
         if (!fixed.solve(-b, Dense::Zero(1, 1), x)) return false;
