@@ -1,68 +1,71 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7e3dc765a64c1193
+ * FNV-1a of the lines after this comment, without the license: b9e7a53ba72bd71f
  *
  * Contents
  * (what a user reads)
- *     70 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    135 config.h     macros that a user may define before the include, the version, and the integer types
- *    214 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    343 options.h    options of all calls, threads, and the allocator
- *    472 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    596 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    768 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    887 factor.h     the numerical factorization P A P' = L D L'
- *   1090 solve.h      full solves, and the workspace of all solves
- *   1200 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1294 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1406 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1515 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1651 batch.h      many independent solves by one call, distributed over threads
- *   1701 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1879 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   1998 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2101 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *     73 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    140 config.h     macros that a user may define before the include, the version, and the integer types
+ *    219 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    364 options.h    options of all calls, threads, and the allocator
+ *    493 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    635 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    807 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    926 factor.h     the numerical factorization P A P' = L D L'
+ *   1129 solve.h      full solves, and the workspace of all solves
+ *   1239 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1333 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1445 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1554 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1690 batch.h      many independent solves by one call, distributed over threads
+ *   1740 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1918 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2037 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2140 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2275 change.h     a factor that follows small changes of its matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2246 base.h   2492 status.h   2555 options.h   2617 alloc.h   2741 hash.h   2885 file_map.h
- *   2986 sort.h   3056 parallel.h
+ *   2346 base.h   2592 status.h   2655 options.h   2717 alloc.h   2841 hash.h   2985 file_map.h
+ *   3086 sort.h   3156 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3094 panel.h   3126 step.h   3183 pivot_rule.h   3268 front.h   3345 pairs.h
- *   3563 inverse_front.h   3655 table.h   3676 simd.h   3770 simd_scalar.h   3889 simd_avx2.h
- *   4083 simd_avx512.h   4189 simd_neon.h   4369 dispatch.h
+ *   3194 panel.h   3226 step.h   3283 pivot_rule.h   3368 front.h   3445 pairs.h
+ *   3663 inverse_front.h   3755 table.h   3785 simd.h   3879 simd_scalar.h   3998 simd_avx2.h
+ *   4192 simd_avx512.h   4298 simd_neon.h   4478 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4451 csc.h   4565 csc_build.h   4704 csc64.h   4781 csc_triangle.h   4852 csc_products.h
- *   4976 permute.h   5045 sum.h   5130 output_file.h   5356 matrix_market.h
+ *   4560 csc.h   4674 csc_build.h   4813 csc64.h   4890 csc_triangle.h   4961 csc_products.h
+ *   5085 permute.h   5154 sum.h   5239 output_file.h   5465 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5835 graph.h   6001 coarsen.h   6278 labels.h   6490 subgraph.h   6701 heap.h   6764 bisect.h
- *   7014 separator.h   7305 mindeg.h   7501 dissect.h   7851 levelset.h   7981 geometric.h
- *   8192 septree.h   8257 metis.h   8414 metis_refined.h   8540 nd.h   8747 compress.h
- *   8876 quotient.h   9287 order.h
+ *   5944 graph.h   6110 coarsen.h   6387 labels.h   6599 subgraph.h   6810 heap.h   6873 bisect.h
+ *   7123 separator.h   7414 mindeg.h   7610 dissect.h   7960 levelset.h   8090 geometric.h
+ *   8301 septree.h   8366 metis.h   8523 metis_refined.h   8649 nd.h   8856 compress.h
+ *   8985 quotient.h   9396 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9509 symbolic_types.h   9554 etree.h   9634 counts.h   9704 supernodes.h   9965 structure.h
- *  10106 schedule.h  10321 symbolic.h  10702 reach.h
+ *   9618 symbolic_types.h   9663 etree.h   9743 counts.h   9813 supernodes.h  10074 structure.h
+ *  10215 schedule.h  10430 symbolic.h  10811 reach.h
  * (factor: the numbers of L and D)
- *  11013 factor_types.h  11361 pivot_search.h  11732 pivoted.h  11801 scatter.h  11974 uplooking.h
- *  12051 null_vectors.h  12346 multifrontal.h  12608 nullspace.h  12859 growth.h
- *  12953 factor_setup.h  13223 factor.h  13434 leftlooking.h  13621 factor_query.h
- *  13757 combination.h
+ *  11122 factor_types.h  11473 pivot_search.h  11844 pivoted.h  11913 scatter.h  12086 uplooking.h
+ *  12163 null_vectors.h  12458 multifrontal.h  12720 nullspace.h  12971 growth.h
+ *  13065 factor_setup.h  13335 factor.h  13548 leftlooking.h  13735 factor_query.h
+ *  13871 combination.h
  * (solve: full and local solves)
- *  13819 region_types.h  13937 work.h  14044 query.h  14245 singular.h  14476 backward.h
- *  14511 sweep.h  14686 compile.h  14895 plan.h  15002 local.h  15160 parts.h  15463 refine.h
- *  15646 refine_local.h  15871 rcond.h  16041 defects.h
+ *  13933 region_types.h  14051 work.h  14158 query.h  14359 singular.h  14590 backward.h
+ *  14625 sweep.h  14800 compile.h  15009 plan.h  15116 local.h  15274 parts.h  15577 refine.h
+ *  15760 refine_local.h  15985 rcond.h  16155 defects.h
  * (inverse: entries of the inverse, regions)
- *  16098 traversal.h  16376 traversal_run.h  16557 row_sets.h  16588 unit_vectors.h
- *  16847 bilinear.h  17035 entries.h  17338 block.h  17596 reserve.h  17807 selected.h
- *  18018 selected_query.h  18126 region_choose.h  18378 region.h
+ *  16212 traversal.h  16490 traversal_run.h  16671 row_sets.h  16702 unit_vectors.h
+ *  16961 bilinear.h  17149 entries.h  17452 block.h  17710 reserve.h  17921 selected.h
+ *  18132 selected_query.h  18240 region_choose.h  18492 region.h
+ * (change: a factor that follows changes of its matrix)
+ *  18739 update.h  19110 rank.h  19452 edges.h
  * (save: factors in files)
- *  18625 format.h  18841 decode.h  18989 check.h  19348 write.h  19554 load.h
+ *  19616 format.h  19832 decode.h  19980 check.h  20339 write.h  20545 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  19910 batch_solve.h  20138 batch_factor.h  20352 batch_diagonal.h
+ *  20901 batch_solve.h  21129 batch_factor.h  21343 batch_diagonal.h
  * (last: undefine every internal macro)
- *  20500 undef.h
+ *  21491 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  20631 multi_rhs.inl.h  21005 kernel_set.inl.h  21009 unit_triangle.inl.h  21050 two_rhs.inl.h
- *  21222 product.inl.h  21363 front.inl.h  21590 inverse_front.inl.h  21895 small_supernode.inl.h
- *  22063 single_rhs.inl.h
+ *  21622 multi_rhs.inl.h  21996 kernel_set.inl.h  22000 unit_triangle.inl.h  22041 two_rhs.inl.h
+ *  22213 product.inl.h  22354 front.inl.h  22581 inverse_front.inl.h  22886 small_supernode.inl.h
+ *  23054 single_rhs.inl.h  23318 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -124,6 +127,8 @@
  *            Anal. Appl. 17(4), 1996
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
  *            method, 1989.
+ *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
+ *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
  *  [Hi02]    Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
  *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
@@ -331,6 +336,22 @@ typedef enum sl_inverse_method {
     SL_INVERSE_FORWARD,  /* forward sweeps of the requested rows */
     SL_INVERSE_SELECTED  /* selected inversion on their reach */
 } sl_inverse_method;
+
+/** How a change of a factor was computed. */
+typedef enum sl_change_method {
+    SL_CHANGE_NONE = 0, /* nothing changed */
+    SL_CHANGE_UPDATE,   /* rank-one changes of the columns on their paths */
+    SL_CHANGE_REACH,    /* sl_factor_refactor_changed */
+    SL_CHANGE_REFACTOR  /* sl_factor_refactor */
+} sl_change_method;
+
+/** Why sl_factor_change took its way. */
+typedef enum sl_change_reason {
+    SL_CHANGE_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
+    SL_CHANGE_UNSUITED,     /* null pivots, 2x2 pivots, or F has no numbers */
+    SL_CHANGE_DRIFT,        /* the errors of earlier changes have reached their limit */
+    SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
+} sl_change_reason;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
@@ -574,6 +595,23 @@ typedef struct sl_refine_info {
     double backward_error; /* what remains, the maximum over all right-hand sides */
 } sl_refine_info;
 
+/** A change of a factor in place: sl_factor_update, _update_entries, _change. */
+typedef struct sl_change_info {
+    sl_change_method method; /* the way that was taken */
+    sl_change_reason reason; /* why; of sl_factor_change */
+    sl_int ranks;            /* rank-one changes that the change consists of */
+    sl_int padding;          /* not written */
+    sl_off entries;          /* doubles of L that rank-one changes read and write */
+    sl_off updates;          /* rank-one changes since the last complete factorization */
+    /* an estimate of the backward error that they have added: the sum over all passes of epsilon
+     * times the largest number a pivot was computed from, relative to the largest |a| */
+    double drift;
+    double flops_update;   /* of the rank-one changes; 0 if F cannot be changed so */
+    double flops_changed;  /* of sl_factor_refactor_changed; of sl_factor_change, else 0 */
+    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
+    double seconds;        /* processor seconds */
+} sl_change_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -586,8 +624,9 @@ typedef struct sl_stats {
     sl_selected_info selected;
     sl_region_info region;
     sl_refine_info refine;
+    sl_change_info change;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[28];
+    sl_off reserved[19];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -2233,6 +2272,67 @@ SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, co
 SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
                                             sl_load_checks checks, const sl_options *opt);
 
+/* src/public/change.h: a factor that follows small changes of its matrix */
+
+/** Changes a factor of A into one of A + V diag(sigma) V'. Plans stay valid; regions and selected
+ *  inverses of the old numbers are refused.
+ *
+ *  Only the columns of L on the paths from the rows of V to the roots change. Vectors are taken in
+ *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 4 of one vector.
+ *
+ *  A vector must not create entries outside of L: all its rows have to be in the column of L that
+ *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
+ *
+ *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
+ *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
+ *  of both signs a change may also fail because it meets a null pivot on its way.
+ *
+ *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of
+ *  definite matrices it stayed above the measured one. If growth or drift are too large, refactor.
+ *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
+ *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
+ *
+ *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
+ *                   SL_ERR_NOT_FINITE for an overflow: then it has no numbers.
+ *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
+ *  sigma  [in]      k weights of any sign; NULL: all 1.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  stats  [out]     change, factor; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V has not n rows; SL_ERR_PATTERN: V is malformed, or
+ *           its row error.row is not in the column of L of error.column; SL_ERR_PIVOT: a pivot
+ *           would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE: an entry of V at
+ *           error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE: growth beyond its
+ *           limit; SL_ERR_STATE: F has no numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots
+ *           were skipped, or there are 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
+ *           writes these columns once. A pass that may fail takes another forward sweep; several
+ *           such passes, and pivots of both signs, a copy of the columns.
+ *  Threads  exclusive use of F.
+ *  Source   [DH01], with the factorization of [Bie76] for several vectors.
+ *  Example  tests/core/test_change.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
+                                                 sl_work *W, sl_stats *stats);
+
+/** Changes a factor by entries of A: a_ij and a_ji by delta.
+ *
+ *  The library finds rank-one changes: one for the weight of an edge of a graph, which changes a_ij
+ *  by -w and a_ii and a_jj by w, one for an entry of the diagonal, and up to three for any other
+ *  entry.
+ *
+ *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
+ *                       sides; repeated ones add up. L must have an entry there; all entries of A
+ *                       do.
+ *  deltas         [in]  count changes.
+ *  F, W, stats, Returns, Cost, Threads  as in sl_factor_update; SL_ERR_ARGUMENT: also an index out
+ *                       of range, at error.row and error.column.
+ *  Example  tests/core/test_change.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows,
+                                                         const sl_int *columns,
+                                                         const double *deltas, sl_int count,
+                                                         sl_work *W, sl_stats *stats);
+
 #ifdef __cplusplus
 }
 #endif
@@ -3658,6 +3758,13 @@ typedef void (*sli_inverse_phase_kernel)(const sli_inverse_front *f, sl_int j0,
  * arrays are 64-byte aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
 
+/* Changes the `columns` columns of one row tile l by k = 1, 2, 4 or 8 vectors: w(r) -= l y(r), then
+ * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
+typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
+/* The same for k = 1 and four row tiles. w: [4][8] */
+typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
+                    double *w);
+
 typedef struct sli_kernels {
   sl_isa isa;
   sli_forward_kernel forward[SLI_NRHS_KINDS];
@@ -3671,6 +3778,8 @@ typedef struct sli_kernels {
   sli_gather_kernel gather;
   sli_inverse_phase_kernel inverse_phase;
   sli_takahashi_kernel takahashi;
+  sli_change_kernel change[SLI_NRHS_KINDS];
+  sli_change_tiles_kernel change_tiles;
 } sli_kernels;
 
 /* src/impl/kernels/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
@@ -11062,7 +11171,10 @@ struct sl_factor {
   /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
    * numbers keeps it */
   sli_hash identity;
-  uint64_t generation; /* counts factorizations, also those that give the same numbers again */
+  /* counts factorizations and changes, also those that give the same numbers again */
+  uint64_t generation;
+  sl_off updates; /* rank-one changes since the last complete factorization */
+  double drift;   /* the rounding errors that they have added, relative to the largest entry */
   sli_hash analysis;   /* the identity of S */
   double *L;           /* the panels of all supernodes */
   double *D;           /* n pivots */
@@ -13364,6 +13476,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   sli_failure failure;
   sl_int t;
   memset(&failure, 0, sizeof failure);
+  F->updates = 0;
+  F->drift = 0.0;
   sli_factor_identify(F, from);
   for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
     if (!sli_is_finite(from->coefficients[t])) {
@@ -18621,6 +18735,883 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R) {
   return v;
 }
 
+/* change: a factor that follows changes of its matrix */
+/* src/impl/change/update.h: one pass of a rank-k change: the columns on the paths of up to 8 vectors */
+
+/* L D L' + W M W' = K N K' for W of n x k, column by column [DH01]. With the row y of W and the
+ * column l of L that belong to pivot d:
+ *
+ *     e = d + y' M y,  W := W - l y',  l := l + W b  with b = M y / e,  M := M - M y y' M / e.
+ *
+ * e is the new pivot. W loses row and column, and is nonzero on the paths of its columns only. M is
+ * kept as U diag(alpha) U' with a unit upper triangular U, and updated in this form [Bie76]: so its
+ * signs stay those of the changes, and rounding is that of k changes one after the other. */
+
+/* The state of a change. Vectors in a compact vector of their reach, interleaved. */
+typedef struct sli_update {
+  sl_factor *F;
+  const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
+  const double *sigma;
+  double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
+  int keeps_signs; /* a pivot that changes its sign is refused */
+  int is_trial;    /* pivots are checked, and not changed */
+  int is_tried;    /* the trial of this pass has succeeded */
+  sl_int ranks, lanes; /* vectors of the pass, and the lanes that hold them */
+  int kind;
+  double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
+  double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
+  double entry;  /* the largest |a| that is known of the columns of the pass */
+  double growth; /* the largest growth of rows in them */
+  sli_reach R;
+  sl_int pivot; /* the pivot that was refused, and its value */
+  double value;
+
+  sli_step *steps; /* of the reach */
+  sl_int *rows;
+  double *x;     /* lanes for each column of the reach */
+  double *gain;  /* for each column: what the pass adds to its sum of magnitudes */
+  double *local; /* [tile][lane][8]: the rows of the current step */
+  double *c;     /* 2 lanes for each column of the current step: y and -b */
+  double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
+} sli_update;
+
+static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
+                int has_trial) {
+  const uint64_t many = (uint64_t)lanes;
+  u->steps = SLI_TAKE(b, sli_step, R->count);
+  u->rows = SLI_TAKE(b, sl_int, R->n_rows);
+  u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
+  u->gain = SLI_TAKE(b, double, R->columns);
+  u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
+  u->c = SLI_TAKE(b, double, 2 * many * (uint64_t)R->widest);
+  u->trial = SLI_TAKE(b, double, has_trial ? many * (uint64_t)R->columns : 0);
+  u->scratch =
+    SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
+}
+
+/* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
+ * O(descendants). */
+static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+  const sl_symbolic *S = F->S;
+  const sl_int own = S->super_of[k];
+  double sum = 0.0;
+  sl_int d, j;
+  for (d = own; d >= S->first_descendant[own];) {
+    const sli_step *step = &S->steps[d];
+    const sl_int *rows = S->rows + S->rows_begin[d];
+    const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
+    const sl_int r = d == own ? k - step->column : step->width + at;
+    if (d != own && at == step->below) { /* no descendant has a row there */
+      d = S->first_descendant[d] - 1;
+      continue;
+    }
+    for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
+      const double l = F->L[step->panel + sli_panel_at(step->width, r, j)];
+      sum += fabs(l * F->D[step->column + j] * l);
+    }
+    d--;
+  }
+  return 2.0 * sum + fabs(F->D[k]);
+}
+
+/* Is pivot k, now d, null? magnitude: of its change alone. */
+static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
+  const double tolerance = F->rule.null_tolerance;
+  const double known = F->extents[F->S->super_of[k]].magnitude;
+  if (sli_is_null(d, magnitude, tolerance)) {
+    return 1;
+  }
+  return sli_is_null(d, magnitude + known, tolerance) &&
+       sli_is_null(d, magnitude + sli_update_magnitude(F, k), tolerance);
+}
+
+/* Counts a pivot that changed from d to e. */
+SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
+  const double size = fabs(e);
+  info->positive += (e > 0.0) - (d > 0.0);
+  info->negative += (e < 0.0) - (d < 0.0);
+  info->pivot_min = size < info->pivot_min ? size : info->pivot_min;
+  info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
+}
+
+/* Changes pivot k. y: its row of W, entries `stride` apart. Writes y and -b to c. */
+static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_int stride,
+                  double *c) {
+  sl_factor *F = u->F;
+  const double d = F->D[k];
+  double e = d, magnitude = fabs(d), b[SLI_TILE], any = 0.0;
+  sl_int i, r;
+  for (r = 0; r < u->lanes; r++) {
+    c[r] = y[stride * r];
+    c[u->lanes + r] = 0.0;
+    any = fmax(any, fabs(c[r]));
+  }
+  if (any == 0.0) {
+    return SL_OK;
+  }
+  for (r = 0; r < u->ranks; r++) {
+    const double before = e;
+    double f = c[r], p;
+    for (i = 0; i < r; i++) {
+      f += u->U[i][r] * c[i];
+    }
+    b[r] = u->alpha[r] * f;
+    e += b[r] * f;
+    magnitude += fabs(b[r] * f);
+    u->alpha[r] *= before / e;
+    p = -f / before;
+    for (i = 0; i < r; i++) {
+      const double t = u->U[i][r];
+      u->U[i][r] = t + b[i] * p;
+      b[i] += t * b[r];
+    }
+    if (!(fabs(e) > 0.0)) { /* 0 or NaN: the next quotient would be infinite */
+      break;
+    }
+  }
+  if (!u->is_trial) {
+    u->most = fmax(u->most, magnitude);
+  }
+  u->value = e;
+  u->pivot = k;
+  if (!sli_is_finite(e)) {
+    return SL_ERR_NOT_FINITE;
+  }
+  if ((u->keeps_signs && !(e * d > 0.0)) ||
+    r < u->ranks ||
+    (fabs(e) < fabs(d) && !u->is_tried && sli_update_is_null(F, k, e, magnitude))) {
+    return SL_ERR_PIVOT;
+  }
+  if (u->is_trial) {
+    return SL_OK;
+  }
+  for (r = 0; r < u->ranks; r++) {
+    c[u->lanes + r] = -b[r] / e;
+  }
+  sli_update_count(&F->stats.factor, d, e);
+  F->D[k] = e;
+  return SL_OK;
+}
+
+/* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
+static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
+  const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
+  double *l = u->F->L + step->panel + sli_panel_at(step->width, first, first);
+  double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
+  const sl_int start = step->column - SLI_TILE * step->first_tile;
+  sl_int j, i, r;
+  for (j = 0; j < columns; j++, l += SLI_TILE, at += 2 * (ptrdiff_t)u->lanes) {
+    const sl_status status = sli_update_pivot(u, start + first + j, w + j, SLI_TILE, at);
+    if (status != SL_OK) {
+      return status;
+    }
+    for (i = j + 1; i < SLI_TILE; i++) {
+      double sum = l[i];
+      for (r = 0; r < u->ranks; r++) {
+        w[SLI_TILE * r + i] -= l[i] * at[r];
+        sum -= w[SLI_TILE * r + i] * at[u->lanes + r];
+      }
+      l[i] = sum;
+    }
+  }
+  return SL_OK;
+}
+
+/* Applies columns from .. to-1 to row tiles t0 .. t1-1, at most 4 of them. */
+static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0, sl_int t1,
+              sl_int from, sl_int to) {
+  const sl_int entered = step->first_tile;
+  const double *c = u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered);
+  double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t0 - entered), *tiles[4];
+  sl_int t;
+  for (t = t0; t < t1; t++) {
+    tiles[t - t0] = u->F->L + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
+  }
+  if (u->kind == SLI_NRHS_1 && t1 - t0 == 4) {
+    u->F->kernels->change_tiles(tiles, to - from, c, w);
+    return;
+  }
+  for (t = t0; t < t1; t++, w += SLI_TILE * (ptrdiff_t)u->lanes) {
+    u->F->kernels->change[u->kind](tiles[t - t0], to - from, c, w);
+  }
+}
+
+/* Moves the rows of a step between the compact vector and the tiles: into the tiles, or the rows
+ * below back. */
+static void sli_update_gather(const sli_update *u, const sli_step *step, const sl_int *rows) {
+  const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
+  sl_int i, r;
+  for (i = 0; i < SLI_TILE * sli_tiles(all); i++) {
+    const sl_int from = i < own ? step->base + i : i < all ? rows[i - own] : 0;
+    const double *x = u->x + (ptrdiff_t)lanes * from;
+    double *to = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
+    for (r = 0; r < lanes; r++) {
+      to[SLI_TILE * r] = i < all ? x[r] : 0.0;
+    }
+  }
+}
+
+static void sli_update_scatter(const sli_update *u, const sli_step *step, const sl_int *rows) {
+  const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
+  sl_int i, r;
+  for (i = own; i < all; i++) {
+    const double *from =
+      u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
+    for (r = 0; r < lanes; r++) {
+      u->x[(ptrdiff_t)lanes * rows[i - own] + r] = from[SLI_TILE * r];
+    }
+  }
+}
+
+/* Adds sign |L| |D| |L'| of the columns of a step to the gains of their rows. */
+static void sli_update_gains(const sli_update *u, const sli_step *step, const sl_int *rows,
+               double sign) {
+  const sl_factor *F = u->F;
+  const sl_int start = step->column - SLI_TILE * step->first_tile;
+  sl_int r, j;
+  for (r = SLI_TILE * step->first_tile; r < step->width + step->below; r++) {
+    const double *l = F->L + step->panel + sli_panel_at(step->width, r, 0);
+    double *gain = &u->gain[r < step->width ? step->base + start + r - step->column
+                        : rows[r - step->width]];
+    double sum = r < step->width ? fabs(F->D[start + r]) : 0.0;
+    for (j = SLI_TILE * step->first_tile; j < sli_min(r, step->width); j++) {
+      sum += fabs(l[SLI_TILE * (ptrdiff_t)j] * F->D[start + j] * l[SLI_TILE * (ptrdiff_t)j]);
+    }
+    *gain += sign * sum;
+  }
+}
+
+/* Adds what the pass has added to the magnitudes of the rows of a step. If all pivots have one
+ * sign, the sum of row k is at most 2 |a_kk|, and its gain twice the change of a_kk. */
+static void sli_update_extent(sli_update *u, const sli_step *step) {
+  sli_extent *extent = &u->F->extents[u->F->S->super_of[step->column]];
+  sl_int k, at = -1;
+  double gain = 0.0;
+  for (k = 0; k < sli_step_columns(step); k++) {
+    if (u->gain[step->base + k] > gain) {
+      gain = u->gain[step->base + k];
+      at = step->column + k;
+    }
+  }
+  if (at != -1) {
+    extent->magnitude += gain;
+    extent->entry += u->sign != 0.0 ? 0.5 * gain : 0.0;
+    extent->pivot = at;
+  }
+  u->entry = fmax(u->entry, extent->entry);
+  u->growth = fmax(u->growth, extent->magnitude);
+}
+
+/* Changes the columns of one step. On failure some of them are changed. */
+static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
+  const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
+  const sl_int tiles = sli_tiles(step->width + step->below);
+  sl_int t0, t1, t;
+  sli_update_gather(u, step, rows);
+  if (u->sign == 0.0) {
+    sli_update_gains(u, step, rows, -1.0);
+  }
+  for (t0 = entered; t0 < tiles; t0 = t1) {
+    t1 = sli_min(t0 + 4, tiles);
+    if (t0 > entered) {
+      sli_update_rows(u, step, t0, t1, SLI_TILE * entered,
+              sli_min(SLI_TILE * t0, step->width));
+    }
+    for (t = t0; t < sli_min(t1, wide); t++) {
+      const sl_status status = sli_update_tile(
+        u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+      if (status != SL_OK) {
+        return status;
+      }
+      if (t + 1 < t1) {
+        sli_update_rows(u, step, t + 1, t1, SLI_TILE * t,
+                sli_min(SLI_TILE * (t + 1), step->width));
+      }
+    }
+  }
+  sli_update_scatter(u, step, rows);
+  if (u->sign == 0.0) {
+    sli_update_gains(u, step, rows, 1.0);
+  }
+  sli_update_extent(u, step);
+  return SL_OK;
+}
+
+/* The first pivot of column v of V, n if the column is 0. */
+static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) {
+  sl_int p, first = S->n;
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    first = V->x[p] != 0.0 ? sli_min(first, S->iperm[V->i[p]]) : first;
+  }
+  return first;
+}
+
+/* Loads the vectors of a pass, whose reach is compiled. group: their numbers. */
+static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
+  const sl_symbolic *S = u->F->S;
+  const sl_csc *V = u->V;
+  sl_int r, p;
+  u->ranks = count;
+  u->kind = sli_lanes_kind(count);
+  u->lanes = (sl_int)1 << u->kind;
+  u->most = u->entry = u->growth = 0.0;
+  memset(u->U, 0, sizeof u->U);
+  memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
+  memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
+  for (r = 0; r < count; r++) {
+    const sl_int v = group[r];
+    u->alpha[r] = u->sigma == NULL ? 1.0 : u->sigma[v];
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+      const sl_int at = V->x[p] == 0.0 ? -1 : sli_reach_index_of(&u->R, S->iperm[V->i[p]]);
+      if (at != -1) {
+        const double x = V->x[p];
+        u->x[(ptrdiff_t)at * u->lanes + r] += x;
+        u->gain[at] += u->sign == 0.0 ? fabs(u->alpha[r] * x * x)
+                        : fmax(0.0, 2.0 * u->sign * u->alpha[r] * x * x);
+      }
+    }
+  }
+}
+
+/* Checks the pivots of a pass that is loaded, with F as it is: they depend on L^-1 W alone. A
+ * forward sweep takes less time than a copy of the columns, which would undo a failure. */
+static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
+  const sli_reach *R = &u->R;
+  sl_status status = SL_OK;
+  sl_int s, j;
+  memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
+  u->F->kernels->forward[u->kind](R->count, R->steps, R->rows, u->F->L, u->trial, u->scratch);
+  u->is_trial = 1;
+  for (s = 0; s < R->count; s++) {
+    const sli_step *step = &R->steps[s];
+    for (j = 0; j < sli_step_columns(step) && status == SL_OK; j++) {
+      status = sli_update_pivot(u, step->column + j,
+                    u->trial + (ptrdiff_t)u->lanes * (step->base + j), 1, u->c);
+    }
+  }
+  u->is_trial = 0;
+  u->is_tried = status == SL_OK;
+  sli_update_load(u, group, count); /* U and alpha as they were */
+  return status;
+}
+
+/* Changes the columns on the paths of the vectors that are loaded. */
+static sl_status sli_update_run(sli_update *u) {
+  const sl_int *rows = u->R.rows;
+  sl_status status = SL_OK;
+  sl_int s;
+  for (s = 0; s < u->R.count && status == SL_OK; s++) {
+    status = sli_update_step(u, &u->R.steps[s], rows);
+    rows += u->R.steps[s].below;
+  }
+  return status;
+}
+
+/* src/impl/change/rank.h: rank-k changes of a factor: the vectors, their passes, and the log that undoes them */
+
+/* A rank-k change in progress. */
+typedef struct sli_rank {
+  sli_update u; /* first: its passes */
+  const sl_int *entry_rows, *entry_columns; /* a change given by entries */
+  const double *deltas;
+  sl_int n_entries;
+  sl_stats *stats;
+  sl_status status;
+  sl_int count;       /* vectors that change something */
+  sl_int updates;     /* those of the sign of the pivots: they come first */
+  int has_trial;      /* its only pass may fail: it is tried first */
+  int has_log;        /* a later pass may fail, or growth may become too large */
+  sl_int logged;      /* steps in the log */
+  int is_changed;     /* a pass has begun to change F */
+  double flops;       /* entries of L that the passes change, times their vectors' cost */
+  sl_off entries;     /* entries of L that the passes change */
+  sli_reach whole;    /* of all vectors */
+  uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
+  double *log, *log_D;
+  sli_extent *log_extents;
+  sli_step *log_steps;
+
+  /* a change given by entries, as vectors */
+  sl_csc V;
+  sl_int *p, *i;
+  double *x, *sigma, *diagonal;
+  uint64_t *order, *order_scratch;
+} sli_rank;
+
+/* May F be changed in place? */
+static sl_status sli_rank_check(const sl_factor *F) {
+  if (!F->is_valid || !sli_factor_may_change(F)) {
+    return SL_ERR_STATE;
+  }
+  return F->E != NULL || F->n_nulls > 0 ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+/* Checks vector v: its entries are finite, and its rows are below each other in L. */
+static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
+  const sl_symbolic *S = q->u.F->S;
+  const sl_csc *V = q->u.V;
+  const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
+  sl_int s, p, at;
+  if (!sli_is_finite(sigma)) {
+    return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma);
+  }
+  s = first < S->n ? S->super_of[first] : -1;
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    const sl_int k = S->iperm[V->i[p]];
+    const sl_int *rows = s == -1 ? NULL : S->rows + S->rows_begin[s];
+    if (!sli_is_finite(V->x[p])) {
+      return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p]);
+    }
+    if (V->x[p] == 0.0 || sigma == 0.0 || k < S->super_first[s + 1]) {
+      continue;
+    }
+    at = sli_lower_bound(rows, S->steps[s].below, k);
+    if (at == S->steps[s].below || rows[at] != k) {
+      return sli_fail_at(q->stats, SL_ERR_PATTERN, V->i[p], S->perm[first], V->x[p]);
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_rank_layout_seeds(void *data, sli_block *b) {
+  sli_rank *q = (sli_rank *)data;
+  q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+  q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+  q->whole_seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+}
+
+/* The end of the pass that begins with vector k. */
+SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
+  return sli_min(k + SLI_TILE, q->count);
+}
+
+/* Lists the vectors of a pass, updates first, and its seeds. */
+static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
+               uint64_t *seeds) {
+  uint64_t unused[SLI_TILE];
+  sl_int k;
+  for (k = first; k < last; k++) {
+    group[k - first] = sli_value(q->seeds[k]);
+    seeds[k - first] = q->seeds[k];
+  }
+  sli_sort(seeds, last - first, unused);
+}
+
+/* Measures the passes. A pass of k vectors reads and writes its entries once, with 4 k flops each.
+ */
+static void sli_rank_measure(sli_rank *q) {
+  sl_int k, last, group[SLI_TILE];
+  uint64_t seeds[SLI_TILE];
+  q->flops = 0.0;
+  q->entries = 0;
+  for (k = 0; k < q->count; k = last) {
+    sli_reach R;
+    last = sli_rank_pass(q, k);
+    sli_rank_group(q, k, last, group, seeds);
+    sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+    q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
+    q->entries += R.entries;
+  }
+}
+
+/* Checks and sorts the vectors, those of the sign of the pivots first, and measures their reach. */
+static void sli_rank_sort(void *data) {
+  sli_rank *q = (sli_rank *)data;
+  const sl_symbolic *S = q->u.F->S;
+  const sl_csc *V = q->u.V;
+  sl_int v, rest = 0;
+  q->count = 0;
+  for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
+    const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
+    const sl_int first = sli_update_first(S, V, v);
+    q->status = sli_rank_check_vector(q, v, first);
+    if (first < S->n && sigma != 0.0) {
+      if (sigma * (q->u.sign < 0.0 ? -1.0 : 1.0) > 0.0) {
+        q->seeds[q->count++] = sli_keyed(first, v);
+      } else {
+        q->whole_seeds[rest++] = sli_keyed(first, v);
+      }
+    }
+  }
+  memset(&q->whole, 0, sizeof q->whole);
+  if (q->status != SL_OK) {
+    return;
+  }
+  q->updates = q->count;
+  sli_sort(q->seeds, q->count, q->scratch);
+  sli_sort(q->whole_seeds, rest, q->scratch);
+  if (rest > 0) {
+    memcpy(q->seeds + q->count, q->whole_seeds, (size_t)rest * sizeof *q->seeds);
+  }
+  q->count += rest;
+  if (q->count > 0) {
+    memcpy(q->whole_seeds, q->seeds, (size_t)q->count * sizeof *q->seeds);
+  }
+  sli_sort(q->whole_seeds, q->count, q->scratch);
+  sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
+  q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE);
+  q->has_trial = rest > 0 && !q->has_log;
+  sli_rank_measure(q);
+}
+
+/* Doubles of the panels of all supernodes in the reach. */
+static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_int count) {
+  uint64_t size = 0;
+  sl_int k = 0, s, next;
+  while (k < count) {
+    s = S->super_of[sli_key(seeds[k])];
+    next = sli_next_seed(S, seeds, count, &k);
+    for (; s != -1 && s < next; s = S->super_parent[s]) {
+      size += (uint64_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
+    }
+  }
+  return size;
+}
+
+static void sli_rank_layout(void *data, sli_block *b) {
+  sli_rank *q = (sli_rank *)data;
+  const sl_symbolic *S = q->u.F->S;
+  sli_update_layout(&q->u, b, &q->whole, (sl_int)1 << sli_lanes_kind(sli_min(q->count, 8)),
+            q->has_trial);
+  if (q->has_log) {
+    q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
+    q->log_D = SLI_TAKE(b, double, q->whole.columns);
+    q->log_extents = SLI_TAKE(b, sli_extent, q->whole.count);
+    q->log_steps = SLI_TAKE(b, sli_step, q->whole.count);
+  }
+}
+
+/* Saves or restores the panels, pivots and extents of the first `count` steps of the log. */
+static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
+  sl_factor *F = q->u.F;
+  double *log = q->log, *log_D = q->log_D;
+  sl_int k;
+  for (k = 0; k < count; k++) {
+    const sli_step *step = &q->log_steps[k];
+    const sl_int columns = sli_step_columns(step);
+    const sl_off from = sli_tile_offset(step->width, step->first_tile);
+    const size_t size = (size_t)(sli_panel_size(step->width, step->below) - from);
+    double *L = F->L + step->panel + from;
+    sli_extent *extent = &F->extents[F->S->super_of[step->column]];
+    memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
+    memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
+         (size_t)columns * sizeof(double));
+    memcpy(restores ? extent : &q->log_extents[k], restores ? &q->log_extents[k] : extent,
+         sizeof *extent);
+    log += size;
+    log_D += columns;
+  }
+}
+
+/* Mixes the change into the identity of F. */
+static void sli_rank_identify(sli_rank *q) {
+  sl_factor *F = q->u.F;
+  const sl_csc *V = q->u.V;
+  F->identity = sli_hash_ints(F->identity, V->p, (sl_off)V->n_cols + 1);
+  F->identity = sli_hash_ints(F->identity, V->i, sli_nnz(V));
+  F->identity = sli_hash_reals(F->identity, V->x, sli_nnz(V));
+  if (q->u.sigma != NULL) {
+    F->identity = sli_hash_reals(F->identity, q->u.sigma, V->n_cols);
+  }
+  F->generation++;
+}
+
+/* Runs all passes. */
+static sl_status sli_rank_passes(sli_rank *q) {
+  sl_factor *F = q->u.F;
+  sl_factor_info *info = &F->stats.factor;
+  sl_status status = SL_OK;
+  sl_int k, last, group[SLI_TILE];
+  uint64_t seeds[SLI_TILE];
+  for (k = 0; k < q->count && status == SL_OK; k = last) {
+    last = sli_rank_pass(q, k);
+    sli_rank_group(q, k, last, group, seeds);
+    sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
+    sli_update_load(&q->u, group, last - k);
+    status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
+    q->is_changed |= status == SL_OK;
+    status = status == SL_OK ? sli_update_run(&q->u) : status;
+    if (status == SL_OK) {
+      const double scale = fmax(info->entry_max, q->u.entry);
+      const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
+      info->growth = fmax(info->growth, q->u.sign != 0.0 ? fmin(growth, 2.0) : growth);
+      F->drift += scale > 0.0 ? DBL_EPSILON * fmax(1.0, q->u.most / scale) : 0.0;
+      if (info->growth > F->growth_limit) {
+        q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
+        q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
+        q->u.value = F->D[q->u.pivot];
+        status = SL_ERR_INACCURATE;
+      }
+    }
+  }
+  return status;
+}
+
+/* Changes F by the vectors. On failure F is as before. */
+static sl_status sli_rank_run(sli_rank *q) {
+  sl_factor *F = q->u.F;
+  const sl_stats before = F->stats;
+  const double drift = F->drift;
+  sl_status status;
+  if (q->count == 0) {
+    return SL_OK;
+  }
+  if (q->has_log) {
+    sli_reach R;
+    sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
+    q->logged = R.count;
+    sli_rank_log(q, q->logged, 0);
+  }
+  status = sli_rank_passes(q);
+  if (status == SL_OK) {
+    F->updates += q->count;
+    sli_rank_identify(q);
+    return SL_OK;
+  }
+  if (q->has_log) {
+    sli_rank_log(q, q->logged, 1);
+    F->stats = before;
+    F->drift = drift;
+  } else if (q->is_changed) { /* an overflow */
+    F->is_valid = 0;
+    F->status = status;
+    F->generation++;
+  }
+  return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
+}
+
+/* Starts a change of F. */
+static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
+  const sl_factor_info *info = &F->stats.factor;
+  memset(q, 0, sizeof *q);
+  q->u.F = F;
+  q->stats = stats;
+  q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
+  q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
+}
+
+/* Reports a change. */
+static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
+  if (stats != NULL) {
+    const sl_factor *F = q->u.F;
+    sli_factor_stats_copy(&F->stats, stats);
+    memset(&stats->change, 0, sizeof stats->change);
+    stats->change.method = q->count > 0 ? SL_CHANGE_UPDATE : SL_CHANGE_NONE;
+    stats->change.ranks = q->count;
+    stats->change.entries = q->entries;
+    stats->change.flops_update = q->flops;
+    stats->change.updates = F->updates;
+    stats->change.drift = F->drift;
+    stats->change.seconds = sli_seconds() - started;
+  }
+}
+
+static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
+                       {sli_rank_layout, NULL}};
+
+/* Prepares the stages of a change, in the caller's workspace or in `own`, and runs it. */
+static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
+  sl_work own = sli_work_own(&q->u.F->allocator);
+  sl_status status;
+  W = W == NULL ? &own : W;
+  status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
+  status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
+  status = status == SL_OK ? q->status : status;
+  status = status == SL_OK ? sli_rank_run(q) : status;
+  sli_free(&own.allocator, own.block);
+  return status;
+}
+
+SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
+                  sl_stats *stats) {
+  const double started = sli_seconds();
+  sli_rank q;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (F == NULL || V == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_rank_check(F);
+  status = status == SL_OK ? sl_csc_check(V, stats) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  if (V->n_rows != F->S->n || (sli_nnz(V) > 0 && V->x == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  sli_rank_begin(&q, F, stats);
+  q.u.V = V;
+  q.u.sigma = sigma;
+  status = sli_rank_apply(&q, sli_rank_stages, 2, W);
+  if (status == SL_OK) {
+    sli_rank_report(&q, started, stats);
+  }
+  return status;
+}
+
+/* src/impl/change/edges.h: changes given by entries of A, as rank-one changes */
+
+/* A symmetric change by d at (i, j) and (j, i) is -d (e_i - e_j)(e_i - e_j)' with d added to both
+ * diagonal entries. Where the edges of a graph change, that cancels the changes of the diagonal. */
+
+static void sli_edges_layout(void *data, sli_block *b) {
+  sli_rank *q = (sli_rank *)data;
+  const uint64_t count = (uint64_t)q->n_entries;
+  q->p = SLI_TAKE(b, sl_int, 3 * count + 1);
+  q->i = SLI_TAKE(b, sl_int, 4 * count);
+  q->x = SLI_TAKE(b, double, 4 * count);
+  q->sigma = SLI_TAKE(b, double, 3 * count);
+  q->order = SLI_TAKE(b, uint64_t, 2 * count);
+  q->order_scratch = SLI_TAKE(b, uint64_t, 2 * count);
+  q->diagonal = SLI_TAKE(b, double, 2 * count);
+}
+
+/* Appends sigma v v' with v = e_i - e_j, or v = e_i if j = -1. */
+static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
+  sl_int *end = &q->p[q->V.n_cols + 1];
+  *end = q->p[q->V.n_cols];
+  q->i[*end] = i;
+  q->x[(*end)++] = 1.0;
+  if (j != -1) {
+    q->i[*end] = j;
+    q->x[(*end)++] = -1.0;
+  }
+  q->sigma[q->V.n_cols++] = sigma;
+}
+
+/* Sorts the entries by their two pivots, the earlier one first. */
+static void sli_edges_sort(sli_rank *q) {
+  const sl_int *iperm = q->u.F->S->iperm;
+  sl_int k, pass;
+  for (pass = 0; pass < 2; pass++) {
+    for (k = 0; k < q->n_entries; k++) {
+      const sl_int e = pass == 0 ? k : sli_value(q->order[k]);
+      const sl_int a = iperm[q->entry_rows[e]], b = iperm[q->entry_columns[e]];
+      q->order[k] = sli_keyed(pass == 0 ? sli_max(a, b) : sli_min(a, b), e);
+    }
+    sli_sort(q->order, q->n_entries, q->order_scratch);
+  }
+}
+
+/* Appends the edges; returns how many changes of the diagonal they leave in q->diagonal. */
+static sl_int sli_edges_add_all(sli_rank *q) {
+  const sl_int *iperm = q->u.F->S->iperm;
+  uint64_t *rows = q->order_scratch;
+  sl_int k, terms = 0;
+  for (k = 0; k < q->n_entries;) {
+    const sl_int e = sli_value(q->order[k]);
+    const sl_int i = q->entry_rows[e], j = q->entry_columns[e];
+    const sl_int low = sli_min(iperm[i], iperm[j]), high = sli_max(iperm[i], iperm[j]);
+    double sum = 0.0;
+    for (; k < q->n_entries; k++) {
+      const sl_int f = sli_value(q->order[k]);
+      const sl_int a = iperm[q->entry_rows[f]], b = iperm[q->entry_columns[f]];
+      if (sli_min(a, b) != low || sli_max(a, b) != high) {
+        break;
+      }
+      sum += q->deltas[f];
+    }
+    if (i != j && sum != 0.0) {
+      sli_edges_add(q, i, j, -sum);
+    }
+    rows[terms] = sli_keyed(low, terms);
+    q->diagonal[terms++] = sum;
+    if (i != j) {
+      rows[terms] = sli_keyed(high, terms);
+      q->diagonal[terms++] = sum;
+    }
+  }
+  return terms;
+}
+
+/* Appends what remains on the diagonal. */
+static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
+  uint64_t *rows = q->order_scratch;
+  sl_int k;
+  sli_sort(rows, terms, q->order);
+  for (k = 0; k < terms;) {
+    const sl_int row = sli_key(rows[k]);
+    double sum = 0.0, size = 0.0;
+    for (; k < terms && sli_key(rows[k]) == row; k++) {
+      sum += q->diagonal[sli_value(rows[k])];
+      size += fabs(q->diagonal[sli_value(rows[k])]);
+    }
+    if (fabs(sum) > 8.0 * DBL_EPSILON * size) { /* the caller has rounded, too */
+      sli_edges_add(q, q->u.F->S->perm[row], -1, sum);
+    }
+  }
+}
+
+static void sli_edges_fill(void *data) {
+  sli_rank *q = (sli_rank *)data;
+  q->V.n_rows = q->u.F->S->n;
+  q->V.n_cols = 0;
+  q->V.p = q->p;
+  q->V.i = q->i;
+  q->V.x = q->x;
+  q->p[0] = 0;
+  sli_edges_sort(q);
+  sli_edges_diagonal(q, sli_edges_add_all(q));
+  q->u.V = &q->V;
+  q->u.sigma = q->sigma;
+}
+
+static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill},
+                        {sli_rank_layout_seeds, sli_rank_sort},
+                        {sli_rank_layout, NULL}};
+
+/* Checks a list of entries. */
+static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
+                   const double *deltas, sl_int count, sl_stats *stats) {
+  sl_int k;
+  if (F == NULL || count < 0 ||
+    (count > 0 && (rows == NULL || columns == NULL || deltas == NULL))) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (count > INT32_MAX / 4) {
+    return SL_ERR_TOO_LARGE;
+  }
+  for (k = 0; k < count; k++) {
+    if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k]);
+    }
+    if (!sli_is_finite(deltas[k])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k]);
+    }
+  }
+  return SL_OK;
+}
+
+/* Starts a change of F by entries. */
+static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
+                const double *deltas, sl_int count, sl_stats *stats) {
+  sli_rank_begin(q, F, stats);
+  q->entry_rows = rows;
+  q->entry_columns = columns;
+  q->deltas = deltas;
+  q->n_entries = count;
+}
+
+SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
+                      const double *deltas, sl_int count, sl_work *W,
+                      sl_stats *stats) {
+  const double started = sli_seconds();
+  sli_rank q;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  status = sli_edges_check(F, rows, columns, deltas, count, stats);
+  status = status == SL_OK ? sli_rank_check(F) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+  status = sli_rank_apply(&q, sli_edges_stages, 3, W);
+  if (status == SL_OK) {
+    sli_rank_report(&q, started, stats);
+  }
+  return status;
+}
+
 /* save: factors in files */
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
@@ -22324,6 +23315,73 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   *magnitude = size;
 }
 /* end of single_rhs.inl.h */
+/* src/impl/kernels/change.inl.h: rank-k change of the rows of a panel, for 1, 2, 4 and 8 vectors */
+
+/* Row tile by row tile: w(r) -= l y(r), then l += sum over r of b(r) w(r). All w(r) need the old l,
+ * so that they do not wait for each other. c: y(0) .. y(k-1), -b(0) .. -b(k-1) of each column. */
+#define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
+#define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
+#define SLI_STORE(r, unused) SLV_STORE(w + SLI_TILE * (r), w##r)
+#define SLI_CARRY(r, unused) /* w(i, r) -= l(i, j) y(j, r) */ \
+  SLV_BROADCAST(s, c + (r)) \
+  SLV_FNMA(w##r, a, s)
+#define SLI_CHANGE(r, ranks) /* l(i, j) += w(i, r) b(j, r) */ \
+  SLV_BROADCAST(s, c + (ranks) + (r)) \
+  SLV_FNMA(a, w##r, s)
+#define SLI_CHANGE_KERNEL(name, ranks, each) \
+  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
+                      double *w) { \
+    sl_int j; \
+    SLV_DECLARE(a) \
+    SLV_DECLARE(s) \
+    each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
+    for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
+      SLV_LOAD_PINNED(a, l) \
+      each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) \
+      SLV_STORE(l, a) \
+    } \
+    each(SLI_STORE, 0) \
+  }
+#define SLI_EACH1(op, k) op(0, k)
+#define SLI_EACH2(op, k) op(0, k) op(1, k)
+
+SLI_CHANGE_KERNEL(change1, 1, SLI_EACH1)
+SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
+SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
+SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
+#undef SLI_CARRY
+#undef SLI_CHANGE
+
+/* One vector and four row tiles, whose chains of w overlap. */
+#define SLI_CHANGE(t, unused) \
+  SLV_LOAD_PINNED(a, l##t + at) \
+  SLV_FNMA(w##t, a, y) \
+  SLV_FNMA(a, w##t, b) \
+  SLV_STORE(l##t + at, a)
+SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int columns,
+                        const double *c, double *w) {
+  double *const l0 = tiles[0], *const l1 = tiles[1], *const l2 = tiles[2], *const l3 = tiles[3];
+  ptrdiff_t at;
+  SLV_DECLARE(a)
+  SLV_DECLARE(y)
+  SLV_DECLARE(b)
+  SLI_EACH4(SLI_DECLARE, 0)
+  SLI_EACH4(SLI_LOAD, 0)
+  for (at = 0; at < SLI_TILE * (ptrdiff_t)columns; at += SLI_TILE, c += 2) {
+    SLV_BROADCAST(y, c)
+    SLV_BROADCAST(b, c + 1)
+    SLI_EACH4(SLI_CHANGE, 0)
+  }
+  SLI_EACH4(SLI_STORE, 0)
+}
+#undef SLI_CHANGE
+#undef SLI_CHANGE_KERNEL
+#undef SLI_EACH1
+#undef SLI_EACH2
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+/* end of change.inl.h */
 
 #if !defined(SLV_NAME_4)
 #define SLV_NAME_4(f) SLV_NAME(f##4)
@@ -22341,7 +23399,9 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(products8),
   SLV_NAME(gather),
   SLV_NAME(inverse_phase),
-  SLV_NAME(takahashi)};
+  SLV_NAME(takahashi),
+  {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+  SLV_NAME(change_tiles)};
 
 #undef SLV_NAME
 #undef SLV_NAME_4

@@ -23,6 +23,7 @@ extern "C" {
 #include "public/selected.h"
 #include "public/region.h"
 #include "public/save.h"
+#include "public/change.h"
 #ifdef __cplusplus
 }
 #endif
@@ -136,6 +137,10 @@ extern "C" {
 #include "impl/inverse/selected_query.h"
 #include "impl/inverse/region_choose.h"
 #include "impl/inverse/region.h"
+/* change: a factor that follows changes of its matrix */
+#include "impl/change/update.h"
+#include "impl/change/rank.h"
+#include "impl/change/edges.h"
 /* save: factors in files */
 #include "impl/save/format.h"
 #include "impl/save/decode.h"

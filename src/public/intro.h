@@ -57,6 +57,8 @@
  *            Anal. Appl. 17(4), 1996
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
  *            method, 1989.
+ *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
+ *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
  *  [Hi02]    Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
  *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination,

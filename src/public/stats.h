@@ -107,6 +107,23 @@ typedef struct sl_refine_info {
     double backward_error; /* what remains, the maximum over all right-hand sides */
 } sl_refine_info;
 
+/** A change of a factor in place: sl_factor_update, _update_entries, _change. */
+typedef struct sl_change_info {
+    sl_change_method method; /* the way that was taken */
+    sl_change_reason reason; /* why; of sl_factor_change */
+    sl_int ranks;            /* rank-one changes that the change consists of */
+    sl_int padding;          /* not written */
+    sl_off entries;          /* doubles of L that rank-one changes read and write */
+    sl_off updates;          /* rank-one changes since the last complete factorization */
+    /* an estimate of the backward error that they have added: the sum over all passes of epsilon
+     * times the largest number a pivot was computed from, relative to the largest |a| */
+    double drift;
+    double flops_update;   /* of the rank-one changes; 0 if F cannot be changed so */
+    double flops_changed;  /* of sl_factor_refactor_changed; of sl_factor_change, else 0 */
+    double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
+    double seconds;        /* processor seconds */
+} sl_change_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -119,8 +136,9 @@ typedef struct sl_stats {
     sl_selected_info selected;
     sl_region_info region;
     sl_refine_info refine;
+    sl_change_info change;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[28];
+    sl_off reserved[19];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

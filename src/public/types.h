@@ -123,6 +123,22 @@ typedef enum sl_inverse_method {
     SL_INVERSE_SELECTED  /* selected inversion on their reach */
 } sl_inverse_method;
 
+/** How a change of a factor was computed. */
+typedef enum sl_change_method {
+    SL_CHANGE_NONE = 0, /* nothing changed */
+    SL_CHANGE_UPDATE,   /* rank-one changes of the columns on their paths */
+    SL_CHANGE_REACH,    /* sl_factor_refactor_changed */
+    SL_CHANGE_REFACTOR  /* sl_factor_refactor */
+} sl_change_method;
+
+/** Why sl_factor_change took its way. */
+typedef enum sl_change_reason {
+    SL_CHANGE_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
+    SL_CHANGE_UNSUITED,     /* null pivots, 2x2 pivots, or F has no numbers */
+    SL_CHANGE_DRIFT,        /* the errors of earlier changes have reached their limit */
+    SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
+} sl_change_reason;
+
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */

@@ -150,6 +150,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     sli_failure failure;
     sl_int t;
     memset(&failure, 0, sizeof failure);
+    F->updates = 0;
+    F->drift = 0.0;
     sli_factor_identify(F, from);
     for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
         if (!sli_is_finite(from->coefficients[t])) {

@@ -57,7 +57,10 @@ struct sl_factor {
     /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
      * numbers keeps it */
     sli_hash identity;
-    uint64_t generation; /* counts factorizations, also those that give the same numbers again */
+    /* counts factorizations and changes, also those that give the same numbers again */
+    uint64_t generation;
+    sl_off updates; /* rank-one changes since the last complete factorization */
+    double drift;   /* the rounding errors that they have added, relative to the largest entry */
     sli_hash analysis;   /* the identity of S */
     double *L;           /* the panels of all supernodes */
     double *D;           /* n pivots */

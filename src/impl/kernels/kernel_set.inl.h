@@ -11,6 +11,7 @@
 #include "inverse_front.inl.h"
 #include "small_supernode.inl.h"
 #include "single_rhs.inl.h"
+#include "change.inl.h"
 
 #if !defined(SLV_NAME_4)
 #define SLV_NAME_4(f) SLV_NAME(f##4)
@@ -28,7 +29,9 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(products8),
     SLV_NAME(gather),
     SLV_NAME(inverse_phase),
-    SLV_NAME(takahashi)};
+    SLV_NAME(takahashi),
+    {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+    SLV_NAME(change_tiles)};
 
 #undef SLV_NAME
 #undef SLV_NAME_4

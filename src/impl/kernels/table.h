@@ -12,6 +12,13 @@
  * arrays are 64-byte aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
 
+/* Changes the `columns` columns of one row tile l by k = 1, 2, 4 or 8 vectors: w(r) -= l y(r), then
+ * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
+typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
+/* The same for k = 1 and four row tiles. w: [4][8] */
+typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
+                                        double *w);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_forward_kernel forward[SLI_NRHS_KINDS];
@@ -25,6 +32,8 @@ typedef struct sli_kernels {
     sli_gather_kernel gather;
     sli_inverse_phase_kernel inverse_phase;
     sli_takahashi_kernel takahashi;
+    sli_change_kernel change[SLI_NRHS_KINDS];
+    sli_change_tiles_kernel change_tiles;
 } sli_kernels;
 
 #endif

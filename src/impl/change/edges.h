@@ -1,0 +1,168 @@
+/* edges.h: changes given by entries of A, as rank-one changes */
+#ifndef SLI_CHANGE_EDGES_H
+#define SLI_CHANGE_EDGES_H
+
+#include "rank.h"
+
+/* A symmetric change by d at (i, j) and (j, i) is -d (e_i - e_j)(e_i - e_j)' with d added to both
+ * diagonal entries. Where the edges of a graph change, that cancels the changes of the diagonal. */
+
+static void sli_edges_layout(void *data, sli_block *b) {
+    sli_rank *q = (sli_rank *)data;
+    const uint64_t count = (uint64_t)q->n_entries;
+    q->p = SLI_TAKE(b, sl_int, 3 * count + 1);
+    q->i = SLI_TAKE(b, sl_int, 4 * count);
+    q->x = SLI_TAKE(b, double, 4 * count);
+    q->sigma = SLI_TAKE(b, double, 3 * count);
+    q->order = SLI_TAKE(b, uint64_t, 2 * count);
+    q->order_scratch = SLI_TAKE(b, uint64_t, 2 * count);
+    q->diagonal = SLI_TAKE(b, double, 2 * count);
+}
+
+/* Appends sigma v v' with v = e_i - e_j, or v = e_i if j = -1. */
+static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
+    sl_int *end = &q->p[q->V.n_cols + 1];
+    *end = q->p[q->V.n_cols];
+    q->i[*end] = i;
+    q->x[(*end)++] = 1.0;
+    if (j != -1) {
+        q->i[*end] = j;
+        q->x[(*end)++] = -1.0;
+    }
+    q->sigma[q->V.n_cols++] = sigma;
+}
+
+/* Sorts the entries by their two pivots, the earlier one first. */
+static void sli_edges_sort(sli_rank *q) {
+    const sl_int *iperm = q->u.F->S->iperm;
+    sl_int k, pass;
+    for (pass = 0; pass < 2; pass++) {
+        for (k = 0; k < q->n_entries; k++) {
+            const sl_int e = pass == 0 ? k : sli_value(q->order[k]);
+            const sl_int a = iperm[q->entry_rows[e]], b = iperm[q->entry_columns[e]];
+            q->order[k] = sli_keyed(pass == 0 ? sli_max(a, b) : sli_min(a, b), e);
+        }
+        sli_sort(q->order, q->n_entries, q->order_scratch);
+    }
+}
+
+/* Appends the edges; returns how many changes of the diagonal they leave in q->diagonal. */
+static sl_int sli_edges_add_all(sli_rank *q) {
+    const sl_int *iperm = q->u.F->S->iperm;
+    uint64_t *rows = q->order_scratch;
+    sl_int k, terms = 0;
+    for (k = 0; k < q->n_entries;) {
+        const sl_int e = sli_value(q->order[k]);
+        const sl_int i = q->entry_rows[e], j = q->entry_columns[e];
+        const sl_int low = sli_min(iperm[i], iperm[j]), high = sli_max(iperm[i], iperm[j]);
+        double sum = 0.0;
+        for (; k < q->n_entries; k++) {
+            const sl_int f = sli_value(q->order[k]);
+            const sl_int a = iperm[q->entry_rows[f]], b = iperm[q->entry_columns[f]];
+            if (sli_min(a, b) != low || sli_max(a, b) != high) {
+                break;
+            }
+            sum += q->deltas[f];
+        }
+        if (i != j && sum != 0.0) {
+            sli_edges_add(q, i, j, -sum);
+        }
+        rows[terms] = sli_keyed(low, terms);
+        q->diagonal[terms++] = sum;
+        if (i != j) {
+            rows[terms] = sli_keyed(high, terms);
+            q->diagonal[terms++] = sum;
+        }
+    }
+    return terms;
+}
+
+/* Appends what remains on the diagonal. */
+static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
+    uint64_t *rows = q->order_scratch;
+    sl_int k;
+    sli_sort(rows, terms, q->order);
+    for (k = 0; k < terms;) {
+        const sl_int row = sli_key(rows[k]);
+        double sum = 0.0, size = 0.0;
+        for (; k < terms && sli_key(rows[k]) == row; k++) {
+            sum += q->diagonal[sli_value(rows[k])];
+            size += fabs(q->diagonal[sli_value(rows[k])]);
+        }
+        if (fabs(sum) > 8.0 * DBL_EPSILON * size) { /* the caller has rounded, too */
+            sli_edges_add(q, q->u.F->S->perm[row], -1, sum);
+        }
+    }
+}
+
+static void sli_edges_fill(void *data) {
+    sli_rank *q = (sli_rank *)data;
+    q->V.n_rows = q->u.F->S->n;
+    q->V.n_cols = 0;
+    q->V.p = q->p;
+    q->V.i = q->i;
+    q->V.x = q->x;
+    q->p[0] = 0;
+    sli_edges_sort(q);
+    sli_edges_diagonal(q, sli_edges_add_all(q));
+    q->u.V = &q->V;
+    q->u.sigma = q->sigma;
+}
+
+static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill},
+                                                {sli_rank_layout_seeds, sli_rank_sort},
+                                                {sli_rank_layout, NULL}};
+
+/* Checks a list of entries. */
+static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
+                                   const double *deltas, sl_int count, sl_stats *stats) {
+    sl_int k;
+    if (F == NULL || count < 0 ||
+        (count > 0 && (rows == NULL || columns == NULL || deltas == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (count > INT32_MAX / 4) {
+        return SL_ERR_TOO_LARGE;
+    }
+    for (k = 0; k < count; k++) {
+        if (rows[k] < 0 || rows[k] >= F->S->n || columns[k] < 0 || columns[k] >= F->S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], columns[k], deltas[k]);
+        }
+        if (!sli_is_finite(deltas[k])) {
+            return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], columns[k], deltas[k]);
+        }
+    }
+    return SL_OK;
+}
+
+/* Starts a change of F by entries. */
+static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
+                              const double *deltas, sl_int count, sl_stats *stats) {
+    sli_rank_begin(q, F, stats);
+    q->entry_rows = rows;
+    q->entry_columns = columns;
+    q->deltas = deltas;
+    q->n_entries = count;
+}
+
+SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
+                                          const double *deltas, sl_int count, sl_work *W,
+                                          sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_rank q;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    status = sli_edges_check(F, rows, columns, deltas, count, stats);
+    status = status == SL_OK ? sli_rank_check(F) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+    status = sli_rank_apply(&q, sli_edges_stages, 3, W);
+    if (status == SL_OK) {
+        sli_rank_report(&q, started, stats);
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,349 @@
+/* rank.h: rank-k changes of a factor: the vectors, their passes, and the log that undoes them */
+#ifndef SLI_CHANGE_RANK_H
+#define SLI_CHANGE_RANK_H
+
+#include "../../public/change.h"
+#include "../solve/work.h"
+#include "update.h"
+
+/* A rank-k change in progress. */
+typedef struct sli_rank {
+    sli_update u; /* first: its passes */
+    const sl_int *entry_rows, *entry_columns; /* a change given by entries */
+    const double *deltas;
+    sl_int n_entries;
+    sl_stats *stats;
+    sl_status status;
+    sl_int count;       /* vectors that change something */
+    sl_int updates;     /* those of the sign of the pivots: they come first */
+    int has_trial;      /* its only pass may fail: it is tried first */
+    int has_log;        /* a later pass may fail, or growth may become too large */
+    sl_int logged;      /* steps in the log */
+    int is_changed;     /* a pass has begun to change F */
+    double flops;       /* entries of L that the passes change, times their vectors' cost */
+    sl_off entries;     /* entries of L that the passes change */
+    sli_reach whole;    /* of all vectors */
+    uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
+    double *log, *log_D;
+    sli_extent *log_extents;
+    sli_step *log_steps;
+
+    /* a change given by entries, as vectors */
+    sl_csc V;
+    sl_int *p, *i;
+    double *x, *sigma, *diagonal;
+    uint64_t *order, *order_scratch;
+} sli_rank;
+
+/* May F be changed in place? */
+static sl_status sli_rank_check(const sl_factor *F) {
+    if (!F->is_valid || !sli_factor_may_change(F)) {
+        return SL_ERR_STATE;
+    }
+    return F->E != NULL || F->n_nulls > 0 ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+/* Checks vector v: its entries are finite, and its rows are below each other in L. */
+static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
+    const sl_symbolic *S = q->u.F->S;
+    const sl_csc *V = q->u.V;
+    const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
+    sl_int s, p, at;
+    if (!sli_is_finite(sigma)) {
+        return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, -1, v, sigma);
+    }
+    s = first < S->n ? S->super_of[first] : -1;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        const sl_int k = S->iperm[V->i[p]];
+        const sl_int *rows = s == -1 ? NULL : S->rows + S->rows_begin[s];
+        if (!sli_is_finite(V->x[p])) {
+            return sli_fail_at(q->stats, SL_ERR_NOT_FINITE, V->i[p], v, V->x[p]);
+        }
+        if (V->x[p] == 0.0 || sigma == 0.0 || k < S->super_first[s + 1]) {
+            continue;
+        }
+        at = sli_lower_bound(rows, S->steps[s].below, k);
+        if (at == S->steps[s].below || rows[at] != k) {
+            return sli_fail_at(q->stats, SL_ERR_PATTERN, V->i[p], S->perm[first], V->x[p]);
+        }
+    }
+    return SL_OK;
+}
+
+static void sli_rank_layout_seeds(void *data, sli_block *b) {
+    sli_rank *q = (sli_rank *)data;
+    q->seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+    q->scratch = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+    q->whole_seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
+}
+
+/* The end of the pass that begins with vector k. */
+SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
+    return sli_min(k + SLI_TILE, q->count);
+}
+
+/* Lists the vectors of a pass, updates first, and its seeds. */
+static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
+                           uint64_t *seeds) {
+    uint64_t unused[SLI_TILE];
+    sl_int k;
+    for (k = first; k < last; k++) {
+        group[k - first] = sli_value(q->seeds[k]);
+        seeds[k - first] = q->seeds[k];
+    }
+    sli_sort(seeds, last - first, unused);
+}
+
+/* Measures the passes. A pass of k vectors reads and writes its entries once, with 4 k flops each.
+ */
+static void sli_rank_measure(sli_rank *q) {
+    sl_int k, last, group[SLI_TILE];
+    uint64_t seeds[SLI_TILE];
+    q->flops = 0.0;
+    q->entries = 0;
+    for (k = 0; k < q->count; k = last) {
+        sli_reach R;
+        last = sli_rank_pass(q, k);
+        sli_rank_group(q, k, last, group, seeds);
+        sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+        q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
+        q->entries += R.entries;
+    }
+}
+
+/* Checks and sorts the vectors, those of the sign of the pivots first, and measures their reach. */
+static void sli_rank_sort(void *data) {
+    sli_rank *q = (sli_rank *)data;
+    const sl_symbolic *S = q->u.F->S;
+    const sl_csc *V = q->u.V;
+    sl_int v, rest = 0;
+    q->count = 0;
+    for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
+        const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
+        const sl_int first = sli_update_first(S, V, v);
+        q->status = sli_rank_check_vector(q, v, first);
+        if (first < S->n && sigma != 0.0) {
+            if (sigma * (q->u.sign < 0.0 ? -1.0 : 1.0) > 0.0) {
+                q->seeds[q->count++] = sli_keyed(first, v);
+            } else {
+                q->whole_seeds[rest++] = sli_keyed(first, v);
+            }
+        }
+    }
+    memset(&q->whole, 0, sizeof q->whole);
+    if (q->status != SL_OK) {
+        return;
+    }
+    q->updates = q->count;
+    sli_sort(q->seeds, q->count, q->scratch);
+    sli_sort(q->whole_seeds, rest, q->scratch);
+    if (rest > 0) {
+        memcpy(q->seeds + q->count, q->whole_seeds, (size_t)rest * sizeof *q->seeds);
+    }
+    q->count += rest;
+    if (q->count > 0) {
+        memcpy(q->whole_seeds, q->seeds, (size_t)q->count * sizeof *q->seeds);
+    }
+    sli_sort(q->whole_seeds, q->count, q->scratch);
+    sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
+    q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE);
+    q->has_trial = rest > 0 && !q->has_log;
+    sli_rank_measure(q);
+}
+
+/* Doubles of the panels of all supernodes in the reach. */
+static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_int count) {
+    uint64_t size = 0;
+    sl_int k = 0, s, next;
+    while (k < count) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            size += (uint64_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
+        }
+    }
+    return size;
+}
+
+static void sli_rank_layout(void *data, sli_block *b) {
+    sli_rank *q = (sli_rank *)data;
+    const sl_symbolic *S = q->u.F->S;
+    sli_update_layout(&q->u, b, &q->whole, (sl_int)1 << sli_lanes_kind(sli_min(q->count, 8)),
+                      q->has_trial);
+    if (q->has_log) {
+        q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
+        q->log_D = SLI_TAKE(b, double, q->whole.columns);
+        q->log_extents = SLI_TAKE(b, sli_extent, q->whole.count);
+        q->log_steps = SLI_TAKE(b, sli_step, q->whole.count);
+    }
+}
+
+/* Saves or restores the panels, pivots and extents of the first `count` steps of the log. */
+static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
+    sl_factor *F = q->u.F;
+    double *log = q->log, *log_D = q->log_D;
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        const sli_step *step = &q->log_steps[k];
+        const sl_int columns = sli_step_columns(step);
+        const sl_off from = sli_tile_offset(step->width, step->first_tile);
+        const size_t size = (size_t)(sli_panel_size(step->width, step->below) - from);
+        double *L = F->L + step->panel + from;
+        sli_extent *extent = &F->extents[F->S->super_of[step->column]];
+        memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
+        memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
+               (size_t)columns * sizeof(double));
+        memcpy(restores ? extent : &q->log_extents[k], restores ? &q->log_extents[k] : extent,
+               sizeof *extent);
+        log += size;
+        log_D += columns;
+    }
+}
+
+/* Mixes the change into the identity of F. */
+static void sli_rank_identify(sli_rank *q) {
+    sl_factor *F = q->u.F;
+    const sl_csc *V = q->u.V;
+    F->identity = sli_hash_ints(F->identity, V->p, (sl_off)V->n_cols + 1);
+    F->identity = sli_hash_ints(F->identity, V->i, sli_nnz(V));
+    F->identity = sli_hash_reals(F->identity, V->x, sli_nnz(V));
+    if (q->u.sigma != NULL) {
+        F->identity = sli_hash_reals(F->identity, q->u.sigma, V->n_cols);
+    }
+    F->generation++;
+}
+
+/* Runs all passes. */
+static sl_status sli_rank_passes(sli_rank *q) {
+    sl_factor *F = q->u.F;
+    sl_factor_info *info = &F->stats.factor;
+    sl_status status = SL_OK;
+    sl_int k, last, group[SLI_TILE];
+    uint64_t seeds[SLI_TILE];
+    for (k = 0; k < q->count && status == SL_OK; k = last) {
+        last = sli_rank_pass(q, k);
+        sli_rank_group(q, k, last, group, seeds);
+        sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
+        sli_update_load(&q->u, group, last - k);
+        status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
+        q->is_changed |= status == SL_OK;
+        status = status == SL_OK ? sli_update_run(&q->u) : status;
+        if (status == SL_OK) {
+            const double scale = fmax(info->entry_max, q->u.entry);
+            const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
+            info->growth = fmax(info->growth, q->u.sign != 0.0 ? fmin(growth, 2.0) : growth);
+            F->drift += scale > 0.0 ? DBL_EPSILON * fmax(1.0, q->u.most / scale) : 0.0;
+            if (info->growth > F->growth_limit) {
+                q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
+                q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
+                q->u.value = F->D[q->u.pivot];
+                status = SL_ERR_INACCURATE;
+            }
+        }
+    }
+    return status;
+}
+
+/* Changes F by the vectors. On failure F is as before. */
+static sl_status sli_rank_run(sli_rank *q) {
+    sl_factor *F = q->u.F;
+    const sl_stats before = F->stats;
+    const double drift = F->drift;
+    sl_status status;
+    if (q->count == 0) {
+        return SL_OK;
+    }
+    if (q->has_log) {
+        sli_reach R;
+        sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
+        q->logged = R.count;
+        sli_rank_log(q, q->logged, 0);
+    }
+    status = sli_rank_passes(q);
+    if (status == SL_OK) {
+        F->updates += q->count;
+        sli_rank_identify(q);
+        return SL_OK;
+    }
+    if (q->has_log) {
+        sli_rank_log(q, q->logged, 1);
+        F->stats = before;
+        F->drift = drift;
+    } else if (q->is_changed) { /* an overflow */
+        F->is_valid = 0;
+        F->status = status;
+        F->generation++;
+    }
+    return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
+}
+
+/* Starts a change of F. */
+static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
+    const sl_factor_info *info = &F->stats.factor;
+    memset(q, 0, sizeof *q);
+    q->u.F = F;
+    q->stats = stats;
+    q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
+    q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
+}
+
+/* Reports a change. */
+static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
+    if (stats != NULL) {
+        const sl_factor *F = q->u.F;
+        sli_factor_stats_copy(&F->stats, stats);
+        memset(&stats->change, 0, sizeof stats->change);
+        stats->change.method = q->count > 0 ? SL_CHANGE_UPDATE : SL_CHANGE_NONE;
+        stats->change.ranks = q->count;
+        stats->change.entries = q->entries;
+        stats->change.flops_update = q->flops;
+        stats->change.updates = F->updates;
+        stats->change.drift = F->drift;
+        stats->change.seconds = sli_seconds() - started;
+    }
+}
+
+static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
+                                             {sli_rank_layout, NULL}};
+
+/* Prepares the stages of a change, in the caller's workspace or in `own`, and runs it. */
+static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
+    sl_work own = sli_work_own(&q->u.F->allocator);
+    sl_status status;
+    W = W == NULL ? &own : W;
+    status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
+    status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
+    status = status == SL_OK ? q->status : status;
+    status = status == SL_OK ? sli_rank_run(q) : status;
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
+                                  sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_rank q;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (F == NULL || V == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_rank_check(F);
+    status = status == SL_OK ? sl_csc_check(V, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    if (V->n_rows != F->S->n || (sli_nnz(V) > 0 && V->x == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    sli_rank_begin(&q, F, stats);
+    q.u.V = V;
+    q.u.sigma = sigma;
+    status = sli_rank_apply(&q, sli_rank_stages, 2, W);
+    if (status == SL_OK) {
+        sli_rank_report(&q, started, stats);
+    }
+    return status;
+}
+
+#endif

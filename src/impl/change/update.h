@@ -1,0 +1,378 @@
+/* update.h: one pass of a rank-k change: the columns on the paths of up to 8 vectors */
+#ifndef SLI_CHANGE_UPDATE_H
+#define SLI_CHANGE_UPDATE_H
+
+#include "../analysis/reach.h"
+#include "../factor/factor.h"
+#include "../solve/query.h"
+
+/* L D L' + W M W' = K N K' for W of n x k, column by column [DH01]. With the row y of W and the
+ * column l of L that belong to pivot d:
+ *
+ *     e = d + y' M y,  W := W - l y',  l := l + W b  with b = M y / e,  M := M - M y y' M / e.
+ *
+ * e is the new pivot. W loses row and column, and is nonzero on the paths of its columns only. M is
+ * kept as U diag(alpha) U' with a unit upper triangular U, and updated in this form [Bie76]: so its
+ * signs stay those of the changes, and rounding is that of k changes one after the other. */
+
+/* The state of a change. Vectors in a compact vector of their reach, interleaved. */
+typedef struct sli_update {
+    sl_factor *F;
+    const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
+    const double *sigma;
+    double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
+    int keeps_signs; /* a pivot that changes its sign is refused */
+    int is_trial;    /* pivots are checked, and not changed */
+    int is_tried;    /* the trial of this pass has succeeded */
+    sl_int ranks, lanes; /* vectors of the pass, and the lanes that hold them */
+    int kind;
+    double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
+    double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
+    double entry;  /* the largest |a| that is known of the columns of the pass */
+    double growth; /* the largest growth of rows in them */
+    sli_reach R;
+    sl_int pivot; /* the pivot that was refused, and its value */
+    double value;
+
+    sli_step *steps; /* of the reach */
+    sl_int *rows;
+    double *x;     /* lanes for each column of the reach */
+    double *gain;  /* for each column: what the pass adds to its sum of magnitudes */
+    double *local; /* [tile][lane][8]: the rows of the current step */
+    double *c;     /* 2 lanes for each column of the current step: y and -b */
+    double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
+} sli_update;
+
+static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
+                              int has_trial) {
+    const uint64_t many = (uint64_t)lanes;
+    u->steps = SLI_TAKE(b, sli_step, R->count);
+    u->rows = SLI_TAKE(b, sl_int, R->n_rows);
+    u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
+    u->gain = SLI_TAKE(b, double, R->columns);
+    u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
+    u->c = SLI_TAKE(b, double, 2 * many * (uint64_t)R->widest);
+    u->trial = SLI_TAKE(b, double, has_trial ? many * (uint64_t)R->columns : 0);
+    u->scratch =
+        SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
+}
+
+/* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
+ * O(descendants). */
+static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+    const sl_symbolic *S = F->S;
+    const sl_int own = S->super_of[k];
+    double sum = 0.0;
+    sl_int d, j;
+    for (d = own; d >= S->first_descendant[own];) {
+        const sli_step *step = &S->steps[d];
+        const sl_int *rows = S->rows + S->rows_begin[d];
+        const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
+        const sl_int r = d == own ? k - step->column : step->width + at;
+        if (d != own && at == step->below) { /* no descendant has a row there */
+            d = S->first_descendant[d] - 1;
+            continue;
+        }
+        for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
+            const double l = F->L[step->panel + sli_panel_at(step->width, r, j)];
+            sum += fabs(l * F->D[step->column + j] * l);
+        }
+        d--;
+    }
+    return 2.0 * sum + fabs(F->D[k]);
+}
+
+/* Is pivot k, now d, null? magnitude: of its change alone. */
+static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
+    const double tolerance = F->rule.null_tolerance;
+    const double known = F->extents[F->S->super_of[k]].magnitude;
+    if (sli_is_null(d, magnitude, tolerance)) {
+        return 1;
+    }
+    return sli_is_null(d, magnitude + known, tolerance) &&
+           sli_is_null(d, magnitude + sli_update_magnitude(F, k), tolerance);
+}
+
+/* Counts a pivot that changed from d to e. */
+SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
+    const double size = fabs(e);
+    info->positive += (e > 0.0) - (d > 0.0);
+    info->negative += (e < 0.0) - (d < 0.0);
+    info->pivot_min = size < info->pivot_min ? size : info->pivot_min;
+    info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
+}
+
+/* Changes pivot k. y: its row of W, entries `stride` apart. Writes y and -b to c. */
+static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_int stride,
+                                  double *c) {
+    sl_factor *F = u->F;
+    const double d = F->D[k];
+    double e = d, magnitude = fabs(d), b[SLI_TILE], any = 0.0;
+    sl_int i, r;
+    for (r = 0; r < u->lanes; r++) {
+        c[r] = y[stride * r];
+        c[u->lanes + r] = 0.0;
+        any = fmax(any, fabs(c[r]));
+    }
+    if (any == 0.0) {
+        return SL_OK;
+    }
+    for (r = 0; r < u->ranks; r++) {
+        const double before = e;
+        double f = c[r], p;
+        for (i = 0; i < r; i++) {
+            f += u->U[i][r] * c[i];
+        }
+        b[r] = u->alpha[r] * f;
+        e += b[r] * f;
+        magnitude += fabs(b[r] * f);
+        u->alpha[r] *= before / e;
+        p = -f / before;
+        for (i = 0; i < r; i++) {
+            const double t = u->U[i][r];
+            u->U[i][r] = t + b[i] * p;
+            b[i] += t * b[r];
+        }
+        if (!(fabs(e) > 0.0)) { /* 0 or NaN: the next quotient would be infinite */
+            break;
+        }
+    }
+    if (!u->is_trial) {
+        u->most = fmax(u->most, magnitude);
+    }
+    u->value = e;
+    u->pivot = k;
+    if (!sli_is_finite(e)) {
+        return SL_ERR_NOT_FINITE;
+    }
+    if ((u->keeps_signs && !(e * d > 0.0)) ||
+        r < u->ranks ||
+        (fabs(e) < fabs(d) && !u->is_tried && sli_update_is_null(F, k, e, magnitude))) {
+        return SL_ERR_PIVOT;
+    }
+    if (u->is_trial) {
+        return SL_OK;
+    }
+    for (r = 0; r < u->ranks; r++) {
+        c[u->lanes + r] = -b[r] / e;
+    }
+    sli_update_count(&F->stats.factor, d, e);
+    F->D[k] = e;
+    return SL_OK;
+}
+
+/* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
+static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
+    double *l = u->F->L + step->panel + sli_panel_at(step->width, first, first);
+    double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
+    const sl_int start = step->column - SLI_TILE * step->first_tile;
+    sl_int j, i, r;
+    for (j = 0; j < columns; j++, l += SLI_TILE, at += 2 * (ptrdiff_t)u->lanes) {
+        const sl_status status = sli_update_pivot(u, start + first + j, w + j, SLI_TILE, at);
+        if (status != SL_OK) {
+            return status;
+        }
+        for (i = j + 1; i < SLI_TILE; i++) {
+            double sum = l[i];
+            for (r = 0; r < u->ranks; r++) {
+                w[SLI_TILE * r + i] -= l[i] * at[r];
+                sum -= w[SLI_TILE * r + i] * at[u->lanes + r];
+            }
+            l[i] = sum;
+        }
+    }
+    return SL_OK;
+}
+
+/* Applies columns from .. to-1 to row tiles t0 .. t1-1, at most 4 of them. */
+static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0, sl_int t1,
+                            sl_int from, sl_int to) {
+    const sl_int entered = step->first_tile;
+    const double *c = u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered);
+    double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t0 - entered), *tiles[4];
+    sl_int t;
+    for (t = t0; t < t1; t++) {
+        tiles[t - t0] = u->F->L + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
+    }
+    if (u->kind == SLI_NRHS_1 && t1 - t0 == 4) {
+        u->F->kernels->change_tiles(tiles, to - from, c, w);
+        return;
+    }
+    for (t = t0; t < t1; t++, w += SLI_TILE * (ptrdiff_t)u->lanes) {
+        u->F->kernels->change[u->kind](tiles[t - t0], to - from, c, w);
+    }
+}
+
+/* Moves the rows of a step between the compact vector and the tiles: into the tiles, or the rows
+ * below back. */
+static void sli_update_gather(const sli_update *u, const sli_step *step, const sl_int *rows) {
+    const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
+    sl_int i, r;
+    for (i = 0; i < SLI_TILE * sli_tiles(all); i++) {
+        const sl_int from = i < own ? step->base + i : i < all ? rows[i - own] : 0;
+        const double *x = u->x + (ptrdiff_t)lanes * from;
+        double *to = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
+        for (r = 0; r < lanes; r++) {
+            to[SLI_TILE * r] = i < all ? x[r] : 0.0;
+        }
+    }
+}
+
+static void sli_update_scatter(const sli_update *u, const sli_step *step, const sl_int *rows) {
+    const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
+    sl_int i, r;
+    for (i = own; i < all; i++) {
+        const double *from =
+            u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
+        for (r = 0; r < lanes; r++) {
+            u->x[(ptrdiff_t)lanes * rows[i - own] + r] = from[SLI_TILE * r];
+        }
+    }
+}
+
+/* Adds sign |L| |D| |L'| of the columns of a step to the gains of their rows. */
+static void sli_update_gains(const sli_update *u, const sli_step *step, const sl_int *rows,
+                             double sign) {
+    const sl_factor *F = u->F;
+    const sl_int start = step->column - SLI_TILE * step->first_tile;
+    sl_int r, j;
+    for (r = SLI_TILE * step->first_tile; r < step->width + step->below; r++) {
+        const double *l = F->L + step->panel + sli_panel_at(step->width, r, 0);
+        double *gain = &u->gain[r < step->width ? step->base + start + r - step->column
+                                                : rows[r - step->width]];
+        double sum = r < step->width ? fabs(F->D[start + r]) : 0.0;
+        for (j = SLI_TILE * step->first_tile; j < sli_min(r, step->width); j++) {
+            sum += fabs(l[SLI_TILE * (ptrdiff_t)j] * F->D[start + j] * l[SLI_TILE * (ptrdiff_t)j]);
+        }
+        *gain += sign * sum;
+    }
+}
+
+/* Adds what the pass has added to the magnitudes of the rows of a step. If all pivots have one
+ * sign, the sum of row k is at most 2 |a_kk|, and its gain twice the change of a_kk. */
+static void sli_update_extent(sli_update *u, const sli_step *step) {
+    sli_extent *extent = &u->F->extents[u->F->S->super_of[step->column]];
+    sl_int k, at = -1;
+    double gain = 0.0;
+    for (k = 0; k < sli_step_columns(step); k++) {
+        if (u->gain[step->base + k] > gain) {
+            gain = u->gain[step->base + k];
+            at = step->column + k;
+        }
+    }
+    if (at != -1) {
+        extent->magnitude += gain;
+        extent->entry += u->sign != 0.0 ? 0.5 * gain : 0.0;
+        extent->pivot = at;
+    }
+    u->entry = fmax(u->entry, extent->entry);
+    u->growth = fmax(u->growth, extent->magnitude);
+}
+
+/* Changes the columns of one step. On failure some of them are changed. */
+static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
+    const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
+    const sl_int tiles = sli_tiles(step->width + step->below);
+    sl_int t0, t1, t;
+    sli_update_gather(u, step, rows);
+    if (u->sign == 0.0) {
+        sli_update_gains(u, step, rows, -1.0);
+    }
+    for (t0 = entered; t0 < tiles; t0 = t1) {
+        t1 = sli_min(t0 + 4, tiles);
+        if (t0 > entered) {
+            sli_update_rows(u, step, t0, t1, SLI_TILE * entered,
+                            sli_min(SLI_TILE * t0, step->width));
+        }
+        for (t = t0; t < sli_min(t1, wide); t++) {
+            const sl_status status = sli_update_tile(
+                u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+            if (status != SL_OK) {
+                return status;
+            }
+            if (t + 1 < t1) {
+                sli_update_rows(u, step, t + 1, t1, SLI_TILE * t,
+                                sli_min(SLI_TILE * (t + 1), step->width));
+            }
+        }
+    }
+    sli_update_scatter(u, step, rows);
+    if (u->sign == 0.0) {
+        sli_update_gains(u, step, rows, 1.0);
+    }
+    sli_update_extent(u, step);
+    return SL_OK;
+}
+
+/* The first pivot of column v of V, n if the column is 0. */
+static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) {
+    sl_int p, first = S->n;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        first = V->x[p] != 0.0 ? sli_min(first, S->iperm[V->i[p]]) : first;
+    }
+    return first;
+}
+
+/* Loads the vectors of a pass, whose reach is compiled. group: their numbers. */
+static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
+    const sl_symbolic *S = u->F->S;
+    const sl_csc *V = u->V;
+    sl_int r, p;
+    u->ranks = count;
+    u->kind = sli_lanes_kind(count);
+    u->lanes = (sl_int)1 << u->kind;
+    u->most = u->entry = u->growth = 0.0;
+    memset(u->U, 0, sizeof u->U);
+    memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
+    memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
+    for (r = 0; r < count; r++) {
+        const sl_int v = group[r];
+        u->alpha[r] = u->sigma == NULL ? 1.0 : u->sigma[v];
+        for (p = V->p[v]; p < V->p[v + 1]; p++) {
+            const sl_int at = V->x[p] == 0.0 ? -1 : sli_reach_index_of(&u->R, S->iperm[V->i[p]]);
+            if (at != -1) {
+                const double x = V->x[p];
+                u->x[(ptrdiff_t)at * u->lanes + r] += x;
+                u->gain[at] += u->sign == 0.0 ? fabs(u->alpha[r] * x * x)
+                                              : fmax(0.0, 2.0 * u->sign * u->alpha[r] * x * x);
+            }
+        }
+    }
+}
+
+/* Checks the pivots of a pass that is loaded, with F as it is: they depend on L^-1 W alone. A
+ * forward sweep takes less time than a copy of the columns, which would undo a failure. */
+static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
+    const sli_reach *R = &u->R;
+    sl_status status = SL_OK;
+    sl_int s, j;
+    memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
+    u->F->kernels->forward[u->kind](R->count, R->steps, R->rows, u->F->L, u->trial, u->scratch);
+    u->is_trial = 1;
+    for (s = 0; s < R->count; s++) {
+        const sli_step *step = &R->steps[s];
+        for (j = 0; j < sli_step_columns(step) && status == SL_OK; j++) {
+            status = sli_update_pivot(u, step->column + j,
+                                      u->trial + (ptrdiff_t)u->lanes * (step->base + j), 1, u->c);
+        }
+    }
+    u->is_trial = 0;
+    u->is_tried = status == SL_OK;
+    sli_update_load(u, group, count); /* U and alpha as they were */
+    return status;
+}
+
+/* Changes the columns on the paths of the vectors that are loaded. */
+static sl_status sli_update_run(sli_update *u) {
+    const sl_int *rows = u->R.rows;
+    sl_status status = SL_OK;
+    sl_int s;
+    for (s = 0; s < u->R.count && status == SL_OK; s++) {
+        status = sli_update_step(u, &u->R.steps[s], rows);
+        rows += u->R.steps[s].below;
+    }
+    return status;
+}
+
+#endif
