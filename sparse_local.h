@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b9e7a53ba72bd71f
+ * FNV-1a of the lines after this comment, without the license: ff8f2820f477c8d0
  *
  * Contents
  * (what a user reads)
@@ -24,48 +24,48 @@
  *   2275 change.h     a factor that follows small changes of its matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2346 base.h   2592 status.h   2655 options.h   2717 alloc.h   2841 hash.h   2985 file_map.h
- *   3086 sort.h   3156 parallel.h
+ *   2371 base.h   2617 status.h   2680 options.h   2742 alloc.h   2866 hash.h   3010 file_map.h
+ *   3111 sort.h   3181 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3194 panel.h   3226 step.h   3283 pivot_rule.h   3368 front.h   3445 pairs.h
- *   3663 inverse_front.h   3755 table.h   3785 simd.h   3879 simd_scalar.h   3998 simd_avx2.h
- *   4192 simd_avx512.h   4298 simd_neon.h   4478 dispatch.h
+ *   3219 panel.h   3251 step.h   3308 pivot_rule.h   3393 front.h   3470 pairs.h
+ *   3688 inverse_front.h   3780 table.h   3810 simd.h   3904 simd_scalar.h   4023 simd_avx2.h
+ *   4217 simd_avx512.h   4323 simd_neon.h   4503 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4560 csc.h   4674 csc_build.h   4813 csc64.h   4890 csc_triangle.h   4961 csc_products.h
- *   5085 permute.h   5154 sum.h   5239 output_file.h   5465 matrix_market.h
+ *   4585 csc.h   4699 csc_build.h   4838 csc64.h   4915 csc_triangle.h   4986 csc_products.h
+ *   5110 permute.h   5179 sum.h   5264 output_file.h   5490 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5944 graph.h   6110 coarsen.h   6387 labels.h   6599 subgraph.h   6810 heap.h   6873 bisect.h
- *   7123 separator.h   7414 mindeg.h   7610 dissect.h   7960 levelset.h   8090 geometric.h
- *   8301 septree.h   8366 metis.h   8523 metis_refined.h   8649 nd.h   8856 compress.h
- *   8985 quotient.h   9396 order.h
+ *   5969 graph.h   6135 coarsen.h   6412 labels.h   6624 subgraph.h   6835 heap.h   6898 bisect.h
+ *   7148 separator.h   7439 mindeg.h   7635 dissect.h   7985 levelset.h   8115 geometric.h
+ *   8326 septree.h   8391 metis.h   8548 metis_refined.h   8674 nd.h   8881 compress.h
+ *   9010 quotient.h   9421 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9618 symbolic_types.h   9663 etree.h   9743 counts.h   9813 supernodes.h  10074 structure.h
- *  10215 schedule.h  10430 symbolic.h  10811 reach.h
+ *   9643 symbolic_types.h   9688 etree.h   9768 counts.h   9838 supernodes.h  10099 structure.h
+ *  10240 schedule.h  10455 symbolic.h  10836 reach.h
  * (factor: the numbers of L and D)
- *  11122 factor_types.h  11473 pivot_search.h  11844 pivoted.h  11913 scatter.h  12086 uplooking.h
- *  12163 null_vectors.h  12458 multifrontal.h  12720 nullspace.h  12971 growth.h
- *  13065 factor_setup.h  13335 factor.h  13548 leftlooking.h  13735 factor_query.h
- *  13871 combination.h
+ *  11147 factor_types.h  11498 pivot_search.h  11869 pivoted.h  11938 scatter.h  12111 uplooking.h
+ *  12188 null_vectors.h  12483 multifrontal.h  12745 nullspace.h  12996 growth.h
+ *  13090 factor_setup.h  13360 factor.h  13573 leftlooking.h  13760 factor_query.h
+ *  13896 combination.h
  * (solve: full and local solves)
- *  13933 region_types.h  14051 work.h  14158 query.h  14359 singular.h  14590 backward.h
- *  14625 sweep.h  14800 compile.h  15009 plan.h  15116 local.h  15274 parts.h  15577 refine.h
- *  15760 refine_local.h  15985 rcond.h  16155 defects.h
+ *  13958 region_types.h  14076 work.h  14183 query.h  14384 singular.h  14615 backward.h
+ *  14650 sweep.h  14825 compile.h  15034 plan.h  15141 local.h  15299 parts.h  15602 refine.h
+ *  15785 refine_local.h  16010 rcond.h  16180 defects.h
  * (inverse: entries of the inverse, regions)
- *  16212 traversal.h  16490 traversal_run.h  16671 row_sets.h  16702 unit_vectors.h
- *  16961 bilinear.h  17149 entries.h  17452 block.h  17710 reserve.h  17921 selected.h
- *  18132 selected_query.h  18240 region_choose.h  18492 region.h
+ *  16237 traversal.h  16515 traversal_run.h  16696 row_sets.h  16727 unit_vectors.h
+ *  16986 bilinear.h  17174 entries.h  17477 block.h  17735 reserve.h  17946 selected.h
+ *  18157 selected_query.h  18265 region_choose.h  18517 region.h
  * (change: a factor that follows changes of its matrix)
- *  18739 update.h  19110 rank.h  19452 edges.h
+ *  18764 update.h  19135 rank.h  19477 edges.h  19640 choose.h
  * (save: factors in files)
- *  19616 format.h  19832 decode.h  19980 check.h  20339 write.h  20545 load.h
+ *  19839 format.h  20055 decode.h  20203 check.h  20562 write.h  20768 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  20901 batch_solve.h  21129 batch_factor.h  21343 batch_diagonal.h
+ *  21124 batch_solve.h  21352 batch_factor.h  21566 batch_diagonal.h
  * (last: undefine every internal macro)
- *  21491 undef.h
+ *  21714 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  21622 multi_rhs.inl.h  21996 kernel_set.inl.h  22000 unit_triangle.inl.h  22041 two_rhs.inl.h
- *  22213 product.inl.h  22354 front.inl.h  22581 inverse_front.inl.h  22886 small_supernode.inl.h
- *  23054 single_rhs.inl.h  23318 change.inl.h
+ *  21850 multi_rhs.inl.h  22224 kernel_set.inl.h  22228 unit_triangle.inl.h  22269 two_rhs.inl.h
+ *  22441 product.inl.h  22582 front.inl.h  22809 inverse_front.inl.h  23114 small_supernode.inl.h
+ *  23282 single_rhs.inl.h  23546 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2332,6 +2332,31 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
                                                          const sl_int *columns,
                                                          const double *deltas, sl_int count,
                                                          sl_work *W, sl_stats *stats);
+
+/** Changes a factor by entries of A in the cheapest way: by rank-one changes, by recomputing the
+ *  columns of L that the change reaches, or by a refactorization.
+ *
+ *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
+ *  not taken if there are null or 2x2 pivots, and if stats.change.drift has reached 1e-11, which
+ *  takes some 40,000 changes of moderate size. Where they are refused because a pivot changes its
+ *  sign, a refactorization decides whether A can be factored.
+ *
+ *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
+ *                           sl_factor_refactor.
+ *  A              [in]      the changed matrix, in the analyzed pattern.
+ *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
+ *                           sl_factor_update_entries.
+ *  W              [in,out]  workspace; NULL: allocated for this call.
+ *  stats          [out]     change, factor; may be NULL.
+ *  Returns  as sl_factor_refactor and sl_factor_update_entries.
+ *  Cost     that of the way, O(nnz) to compare the pattern of A, and at most a few percent of a
+ *           refactorization to count flops.
+ *  Threads  exclusive use of F.
+ *  Example  tests/core/test_change_choice.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                                                 const sl_int *columns, const double *deltas,
+                                                 sl_int count, sl_work *W, sl_stats *stats);
 
 #ifdef __cplusplus
 }
@@ -19612,6 +19637,204 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
   return status;
 }
 
+/* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
+
+/* Seconds of the three ways, from their counts. Rank-one changes are bound by memory: reading and
+ * writing an entry of L takes as long as the flops of 4 vectors. Fronts have a fixed cost, too. */
+#define SLI_CHANGE_ENTRY 0.9e-9
+#define SLI_CHANGE_FLOP 0.04e-9
+#define SLI_CHANGE_FRONT_FLOP 0.1e-9
+#define SLI_CHANGE_FRONT 400e-9
+/* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
+#define SLI_CHANGE_DRIFT 1e-11
+
+/* A choice between the three ways. */
+typedef struct sli_way {
+  sl_int *columns;    /* count: the columns of A that store changed entries */
+  uint64_t *seeds, *scratch;
+  sl_int n_seeds;
+  double flops_update, flops_changed, flops_refactor;
+  double update, changed, refactor; /* seconds */
+  sl_change_reason reason;
+} sli_way;
+
+/* Flops of the elimination of supernode s alone. */
+static double sli_way_front(const sl_symbolic *S, sl_int s) {
+  const double w = S->steps[s].width, h = w + S->steps[s].below;
+  return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
+}
+
+/* Flops of the updates that supernode s gathers from its descendants, as sli_left_factor does. */
+static double sli_way_gather(const sl_symbolic *S, sl_int s) {
+  const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+  double flops = 0.0;
+  sl_int d;
+  for (d = s - 1; d >= S->first_descendant[s];) {
+    const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
+    const sl_int first = sli_lower_bound(of, below, start);
+    const sl_int m = sli_lower_bound(of + first, below - first, end);
+    if (m > 0) {
+      flops += (double)S->steps[d].width * m * (2.0 * (below - first) - m);
+      d--;
+    } else {
+      d = S->first_descendant[d] - 1;
+    }
+  }
+  return flops;
+}
+
+/* Counts the reach of the change: of the fronts alone, or with what they gather. */
+static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
+  sl_int k = 0, s, next, fronts = 0;
+  double flops = 0.0;
+  while (k < c->n_seeds) {
+    s = S->super_of[sli_key(c->seeds[k])];
+    next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
+    for (; s != -1 && s < next; s = S->super_parent[s]) {
+      fronts++;
+      flops += sli_way_front(S, s) + (gathers ? sli_way_gather(S, s) : 0.0);
+    }
+  }
+  c->flops_changed = flops;
+  c->changed = SLI_CHANGE_FRONT_FLOP * flops + SLI_CHANGE_FRONT * fronts;
+}
+
+/* Chooses. can_update: rank-one changes are possible. */
+static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
+  const sl_symbolic *S = F->S;
+  const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL;
+  c->flops_refactor = S->stats.symbolic.flops;
+  c->refactor = SLI_CHANGE_FRONT_FLOP * c->flops_refactor + SLI_CHANGE_FRONT * S->n_supers;
+  c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
+  if (!F->is_valid) {
+    return SL_CHANGE_REFACTOR;
+  }
+  if (F->drift > SLI_CHANGE_DRIFT) {
+    c->reason = SL_CHANGE_DRIFT;
+    return SL_CHANGE_REFACTOR;
+  }
+  if (can_reach) {
+    sli_way_measure(c, S, 0); /* a lower bound: to count the descendants takes time */
+    if (!can_update || c->update > c->changed) {
+      sli_way_measure(c, S, 1);
+    }
+  }
+  if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
+    return SL_CHANGE_UPDATE;
+  }
+  return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
+}
+
+/* The columns of A that store the changed entries. */
+static void sli_way_columns(sli_way *c, const sli_rank *q) {
+  const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
+  sl_int k;
+  for (k = 0; k < q->n_entries; k++) {
+    const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
+    c->columns[k] = is_upper ? sli_max(i, j) : sli_min(i, j);
+  }
+}
+
+/* Sorts the vectors of q, for their number and their cost. */
+static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
+  sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
+  status = status == SL_OK ? q->status : status;
+  c->flops_update = q->flops;
+  c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_FLOP * q->flops;
+  c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
+  return status;
+}
+
+static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
+                sl_change_method *method) {
+  sl_factor *F = q->u.F;
+  const int can_update = F->E == NULL && F->n_nulls == 0 && F->is_valid;
+  sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
+  if (status != SL_OK) {
+    return status;
+  }
+  c->n_seeds = sli_changed_seeds(F->S, A, c->columns, q->n_entries, c->seeds, c->scratch);
+  *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE
+                         : sli_way_make(c, F, can_update);
+  if (*method == SL_CHANGE_UPDATE) {
+    q->status = SL_OK;
+    status = sli_rank_apply(q, sli_edges_stages, 3, W);
+    if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
+      c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
+      *method = SL_CHANGE_REFACTOR;
+    }
+  }
+  if (*method == SL_CHANGE_REACH) {
+    status = sl_factor_refactor_changed(F, A, c->columns, q->n_entries, q->stats);
+  } else if (*method == SL_CHANGE_REFACTOR) {
+    status = sl_factor_refactor(F, A, q->stats);
+  }
+  return status;
+}
+
+SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                  const sl_int *columns, const double *deltas, sl_int count,
+                  sl_work *W, sl_stats *stats) {
+  const double started = sli_seconds();
+  sl_change_method method = SL_CHANGE_NONE;
+  sli_block b = {NULL, 0, 0};
+  sli_way c;
+  sli_rank q;
+  sl_work own;
+  uint64_t entries = 0;
+  sl_status status;
+  sl_int k;
+  int pass;
+  sli_stats_clear_error(stats);
+  status = sli_edges_check(F, rows, columns, deltas, count, stats);
+  status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
+  status = status == SL_OK ? sli_factor_check(F->S, A) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(&c, 0, sizeof c);
+  sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c.columns = SLI_TAKE(&b, sl_int, count);
+    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_way_columns(&c, &q);
+  for (k = 0; k < count; k++) {
+    entries += (uint64_t)(A->p[c.columns[k] + 1] - A->p[c.columns[k]]);
+  }
+  own = sli_work_own(&F->allocator);
+  W = W == NULL ? &own : W;
+  if (entries > INT32_MAX) {
+    status = SL_ERR_TOO_LARGE;
+  } else {
+    sli_block seeds = {NULL, 0, 0};
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+      c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
+      c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
+      status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
+    }
+    status = status == SL_OK ? sli_work_grow(W, 1) : status;
+    status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
+    sli_free(&F->allocator, seeds.base);
+  }
+  sli_free(&F->allocator, b.base);
+  sli_free(&own.allocator, own.block);
+  if (status == SL_OK) {
+    sli_rank_report(&q, started, stats);
+  }
+  if (status == SL_OK && stats != NULL) {
+    stats->change.method = method;
+    stats->change.reason = c.reason;
+    stats->change.flops_update = c.flops_update;
+    stats->change.flops_changed = c.flops_changed;
+    stats->change.flops_refactor = c.flops_refactor;
+  }
+  return status;
+}
+
 /* save: factors in files */
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
@@ -21608,6 +21831,11 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_REGION_PASSES
 #undef SLI_REGION_DETOUR
 #undef SLI_ZEROS_SMALL
+#undef SLI_CHANGE_ENTRY
+#undef SLI_CHANGE_FLOP
+#undef SLI_CHANGE_FRONT_FLOP
+#undef SLI_CHANGE_FRONT
+#undef SLI_CHANGE_DRIFT
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */

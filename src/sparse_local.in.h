@@ -141,6 +141,7 @@ extern "C" {
 #include "impl/change/update.h"
 #include "impl/change/rank.h"
 #include "impl/change/edges.h"
+#include "impl/change/choose.h"
 /* save: factors in files */
 #include "impl/save/format.h"
 #include "impl/save/decode.h"

@@ -64,4 +64,29 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
                                                          const double *deltas, sl_int count,
                                                          sl_work *W, sl_stats *stats);
 
+/** Changes a factor by entries of A in the cheapest way: by rank-one changes, by recomputing the
+ *  columns of L that the change reaches, or by a refactorization.
+ *
+ *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
+ *  not taken if there are null or 2x2 pivots, and if stats.change.drift has reached 1e-11, which
+ *  takes some 40,000 changes of moderate size. Where they are refused because a pivot changes its
+ *  sign, a refactorization decides whether A can be factored.
+ *
+ *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
+ *                           sl_factor_refactor.
+ *  A              [in]      the changed matrix, in the analyzed pattern.
+ *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
+ *                           sl_factor_update_entries.
+ *  W              [in,out]  workspace; NULL: allocated for this call.
+ *  stats          [out]     change, factor; may be NULL.
+ *  Returns  as sl_factor_refactor and sl_factor_update_entries.
+ *  Cost     that of the way, O(nnz) to compare the pattern of A, and at most a few percent of a
+ *           refactorization to count flops.
+ *  Threads  exclusive use of F.
+ *  Example  tests/core/test_change_choice.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                                                 const sl_int *columns, const double *deltas,
+                                                 sl_int count, sl_work *W, sl_stats *stats);
+
 #endif

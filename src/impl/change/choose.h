@@ -1,0 +1,204 @@
+/* choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
+#ifndef SLI_CHANGE_CHOOSE_H
+#define SLI_CHANGE_CHOOSE_H
+
+#include "../factor/leftlooking.h"
+#include "edges.h"
+
+/* Seconds of the three ways, from their counts. Rank-one changes are bound by memory: reading and
+ * writing an entry of L takes as long as the flops of 4 vectors. Fronts have a fixed cost, too. */
+#define SLI_CHANGE_ENTRY 0.9e-9
+#define SLI_CHANGE_FLOP 0.04e-9
+#define SLI_CHANGE_FRONT_FLOP 0.1e-9
+#define SLI_CHANGE_FRONT 400e-9
+/* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
+#define SLI_CHANGE_DRIFT 1e-11
+
+/* A choice between the three ways. */
+typedef struct sli_way {
+    sl_int *columns;    /* count: the columns of A that store changed entries */
+    uint64_t *seeds, *scratch;
+    sl_int n_seeds;
+    double flops_update, flops_changed, flops_refactor;
+    double update, changed, refactor; /* seconds */
+    sl_change_reason reason;
+} sli_way;
+
+/* Flops of the elimination of supernode s alone. */
+static double sli_way_front(const sl_symbolic *S, sl_int s) {
+    const double w = S->steps[s].width, h = w + S->steps[s].below;
+    return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
+}
+
+/* Flops of the updates that supernode s gathers from its descendants, as sli_left_factor does. */
+static double sli_way_gather(const sl_symbolic *S, sl_int s) {
+    const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+    double flops = 0.0;
+    sl_int d;
+    for (d = s - 1; d >= S->first_descendant[s];) {
+        const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
+        const sl_int first = sli_lower_bound(of, below, start);
+        const sl_int m = sli_lower_bound(of + first, below - first, end);
+        if (m > 0) {
+            flops += (double)S->steps[d].width * m * (2.0 * (below - first) - m);
+            d--;
+        } else {
+            d = S->first_descendant[d] - 1;
+        }
+    }
+    return flops;
+}
+
+/* Counts the reach of the change: of the fronts alone, or with what they gather. */
+static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
+    sl_int k = 0, s, next, fronts = 0;
+    double flops = 0.0;
+    while (k < c->n_seeds) {
+        s = S->super_of[sli_key(c->seeds[k])];
+        next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
+        for (; s != -1 && s < next; s = S->super_parent[s]) {
+            fronts++;
+            flops += sli_way_front(S, s) + (gathers ? sli_way_gather(S, s) : 0.0);
+        }
+    }
+    c->flops_changed = flops;
+    c->changed = SLI_CHANGE_FRONT_FLOP * flops + SLI_CHANGE_FRONT * fronts;
+}
+
+/* Chooses. can_update: rank-one changes are possible. */
+static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
+    const sl_symbolic *S = F->S;
+    const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL;
+    c->flops_refactor = S->stats.symbolic.flops;
+    c->refactor = SLI_CHANGE_FRONT_FLOP * c->flops_refactor + SLI_CHANGE_FRONT * S->n_supers;
+    c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
+    if (!F->is_valid) {
+        return SL_CHANGE_REFACTOR;
+    }
+    if (F->drift > SLI_CHANGE_DRIFT) {
+        c->reason = SL_CHANGE_DRIFT;
+        return SL_CHANGE_REFACTOR;
+    }
+    if (can_reach) {
+        sli_way_measure(c, S, 0); /* a lower bound: to count the descendants takes time */
+        if (!can_update || c->update > c->changed) {
+            sli_way_measure(c, S, 1);
+        }
+    }
+    if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
+        return SL_CHANGE_UPDATE;
+    }
+    return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
+}
+
+/* The columns of A that store the changed entries. */
+static void sli_way_columns(sli_way *c, const sli_rank *q) {
+    const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
+    sl_int k;
+    for (k = 0; k < q->n_entries; k++) {
+        const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
+        c->columns[k] = is_upper ? sli_max(i, j) : sli_min(i, j);
+    }
+}
+
+/* Sorts the vectors of q, for their number and their cost. */
+static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
+    sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
+    status = status == SL_OK ? q->status : status;
+    c->flops_update = q->flops;
+    c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_FLOP * q->flops;
+    c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
+    return status;
+}
+
+static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
+                                sl_change_method *method) {
+    sl_factor *F = q->u.F;
+    const int can_update = F->E == NULL && F->n_nulls == 0 && F->is_valid;
+    sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
+    if (status != SL_OK) {
+        return status;
+    }
+    c->n_seeds = sli_changed_seeds(F->S, A, c->columns, q->n_entries, c->seeds, c->scratch);
+    *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE
+                                               : sli_way_make(c, F, can_update);
+    if (*method == SL_CHANGE_UPDATE) {
+        q->status = SL_OK;
+        status = sli_rank_apply(q, sli_edges_stages, 3, W);
+        if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
+            c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
+            *method = SL_CHANGE_REFACTOR;
+        }
+    }
+    if (*method == SL_CHANGE_REACH) {
+        status = sl_factor_refactor_changed(F, A, c->columns, q->n_entries, q->stats);
+    } else if (*method == SL_CHANGE_REFACTOR) {
+        status = sl_factor_refactor(F, A, q->stats);
+    }
+    return status;
+}
+
+SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
+                                  const sl_int *columns, const double *deltas, sl_int count,
+                                  sl_work *W, sl_stats *stats) {
+    const double started = sli_seconds();
+    sl_change_method method = SL_CHANGE_NONE;
+    sli_block b = {NULL, 0, 0};
+    sli_way c;
+    sli_rank q;
+    sl_work own;
+    uint64_t entries = 0;
+    sl_status status;
+    sl_int k;
+    int pass;
+    sli_stats_clear_error(stats);
+    status = sli_edges_check(F, rows, columns, deltas, count, stats);
+    status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
+    status = status == SL_OK ? sli_factor_check(F->S, A) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&c, 0, sizeof c);
+    sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c.columns = SLI_TAKE(&b, sl_int, count);
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_way_columns(&c, &q);
+    for (k = 0; k < count; k++) {
+        entries += (uint64_t)(A->p[c.columns[k] + 1] - A->p[c.columns[k]]);
+    }
+    own = sli_work_own(&F->allocator);
+    W = W == NULL ? &own : W;
+    if (entries > INT32_MAX) {
+        status = SL_ERR_TOO_LARGE;
+    } else {
+        sli_block seeds = {NULL, 0, 0};
+        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+            c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
+            c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
+            status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
+        }
+        status = status == SL_OK ? sli_work_grow(W, 1) : status;
+        status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
+        sli_free(&F->allocator, seeds.base);
+    }
+    sli_free(&F->allocator, b.base);
+    sli_free(&own.allocator, own.block);
+    if (status == SL_OK) {
+        sli_rank_report(&q, started, stats);
+    }
+    if (status == SL_OK && stats != NULL) {
+        stats->change.method = method;
+        stats->change.reason = c.reason;
+        stats->change.flops_update = c.flops_update;
+        stats->change.flops_changed = c.flops_changed;
+        stats->change.flops_refactor = c.flops_refactor;
+    }
+    return status;
+}
+
+#endif
