@@ -1,71 +1,72 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ff8f2820f477c8d0
+ * FNV-1a of the lines after this comment, without the license: 22f9e3a202a2bee0
  *
  * Contents
  * (what a user reads)
- *     73 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    140 config.h     macros that a user may define before the include, the version, and the integer types
- *    219 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    364 options.h    options of all calls, threads, and the allocator
- *    493 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    635 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    807 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    926 factor.h     the numerical factorization P A P' = L D L'
- *   1129 solve.h      full solves, and the workspace of all solves
- *   1239 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1333 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1445 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1554 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1690 batch.h      many independent solves by one call, distributed over threads
- *   1740 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1918 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2037 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2140 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2275 change.h     a factor that follows small changes of its matrix
+ *     74 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    142 config.h     macros that a user may define before the include, the version, and the integer types
+ *    221 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    367 options.h    options of all calls, threads, and the allocator
+ *    496 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    638 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    810 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    929 factor.h     the numerical factorization P A P' = L D L'
+ *   1132 solve.h      full solves, and the workspace of all solves
+ *   1242 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1336 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1448 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1557 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1693 batch.h      many independent solves by one call, distributed over threads
+ *   1743 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1921 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2040 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2143 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2278 change.h     a factor that follows small changes of its matrix
+ *   2364 pins.h       rows held at given values, on top of a factor that stays as it is
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2371 base.h   2617 status.h   2680 options.h   2742 alloc.h   2866 hash.h   3010 file_map.h
- *   3111 sort.h   3181 parallel.h
+ *   2464 base.h   2710 status.h   2773 options.h   2835 alloc.h   2959 hash.h   3103 file_map.h
+ *   3204 sort.h   3274 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3219 panel.h   3251 step.h   3308 pivot_rule.h   3393 front.h   3470 pairs.h
- *   3688 inverse_front.h   3780 table.h   3810 simd.h   3904 simd_scalar.h   4023 simd_avx2.h
- *   4217 simd_avx512.h   4323 simd_neon.h   4503 dispatch.h
+ *   3312 panel.h   3344 step.h   3401 pivot_rule.h   3486 front.h   3563 pairs.h
+ *   3781 inverse_front.h   3873 table.h   3903 simd.h   3997 simd_scalar.h   4116 simd_avx2.h
+ *   4310 simd_avx512.h   4416 simd_neon.h   4596 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4585 csc.h   4699 csc_build.h   4838 csc64.h   4915 csc_triangle.h   4986 csc_products.h
- *   5110 permute.h   5179 sum.h   5264 output_file.h   5490 matrix_market.h
+ *   4678 csc.h   4792 csc_build.h   4931 csc64.h   5008 csc_triangle.h   5079 csc_products.h
+ *   5203 permute.h   5272 sum.h   5357 output_file.h   5583 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5969 graph.h   6135 coarsen.h   6412 labels.h   6624 subgraph.h   6835 heap.h   6898 bisect.h
- *   7148 separator.h   7439 mindeg.h   7635 dissect.h   7985 levelset.h   8115 geometric.h
- *   8326 septree.h   8391 metis.h   8548 metis_refined.h   8674 nd.h   8881 compress.h
- *   9010 quotient.h   9421 order.h
+ *   6062 graph.h   6228 coarsen.h   6505 labels.h   6717 subgraph.h   6928 heap.h   6991 bisect.h
+ *   7241 separator.h   7532 mindeg.h   7728 dissect.h   8078 levelset.h   8208 geometric.h
+ *   8419 septree.h   8484 metis.h   8641 metis_refined.h   8767 nd.h   8974 compress.h
+ *   9103 quotient.h   9514 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9643 symbolic_types.h   9688 etree.h   9768 counts.h   9838 supernodes.h  10099 structure.h
- *  10240 schedule.h  10455 symbolic.h  10836 reach.h
+ *   9736 symbolic_types.h   9781 etree.h   9861 counts.h   9931 supernodes.h  10192 structure.h
+ *  10333 schedule.h  10548 symbolic.h  10929 reach.h
  * (factor: the numbers of L and D)
- *  11147 factor_types.h  11498 pivot_search.h  11869 pivoted.h  11938 scatter.h  12111 uplooking.h
- *  12188 null_vectors.h  12483 multifrontal.h  12745 nullspace.h  12996 growth.h
- *  13090 factor_setup.h  13360 factor.h  13573 leftlooking.h  13760 factor_query.h
- *  13896 combination.h
+ *  11240 factor_types.h  11591 pivot_search.h  11962 pivoted.h  12031 scatter.h  12204 uplooking.h
+ *  12281 null_vectors.h  12576 multifrontal.h  12838 nullspace.h  13089 growth.h
+ *  13183 factor_setup.h  13453 factor.h  13666 leftlooking.h  13853 factor_query.h
+ *  13989 combination.h
  * (solve: full and local solves)
- *  13958 region_types.h  14076 work.h  14183 query.h  14384 singular.h  14615 backward.h
- *  14650 sweep.h  14825 compile.h  15034 plan.h  15141 local.h  15299 parts.h  15602 refine.h
- *  15785 refine_local.h  16010 rcond.h  16180 defects.h
+ *  14051 region_types.h  14169 work.h  14276 query.h  14477 singular.h  14708 backward.h
+ *  14743 sweep.h  14918 compile.h  15127 plan.h  15234 local.h  15392 parts.h  15695 refine.h
+ *  15878 refine_local.h  16103 rcond.h  16273 defects.h
  * (inverse: entries of the inverse, regions)
- *  16237 traversal.h  16515 traversal_run.h  16696 row_sets.h  16727 unit_vectors.h
- *  16986 bilinear.h  17174 entries.h  17477 block.h  17735 reserve.h  17946 selected.h
- *  18157 selected_query.h  18265 region_choose.h  18517 region.h
+ *  16330 traversal.h  16608 traversal_run.h  16789 row_sets.h  16820 unit_vectors.h
+ *  17079 bilinear.h  17267 entries.h  17570 block.h  17828 reserve.h  18039 selected.h
+ *  18250 selected_query.h  18358 region_choose.h  18610 region.h
  * (change: a factor that follows changes of its matrix)
- *  18764 update.h  19135 rank.h  19477 edges.h  19640 choose.h
+ *  18857 update.h  19228 rank.h  19570 edges.h  19733 choose.h  19931 pins.h
  * (save: factors in files)
- *  19839 format.h  20055 decode.h  20203 check.h  20562 write.h  20768 load.h
+ *  20540 format.h  20756 decode.h  20904 check.h  21263 write.h  21469 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21124 batch_solve.h  21352 batch_factor.h  21566 batch_diagonal.h
+ *  21825 batch_solve.h  22053 batch_factor.h  22267 batch_diagonal.h
  * (last: undefine every internal macro)
- *  21714 undef.h
+ *  22415 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  21850 multi_rhs.inl.h  22224 kernel_set.inl.h  22228 unit_triangle.inl.h  22269 two_rhs.inl.h
- *  22441 product.inl.h  22582 front.inl.h  22809 inverse_front.inl.h  23114 small_supernode.inl.h
- *  23282 single_rhs.inl.h  23546 change.inl.h
+ *  22551 multi_rhs.inl.h  22925 kernel_set.inl.h  22929 unit_triangle.inl.h  22970 two_rhs.inl.h
+ *  23142 product.inl.h  23283 front.inl.h  23510 inverse_front.inl.h  23815 small_supernode.inl.h
+ *  23983 single_rhs.inl.h  24247 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -129,6 +130,7 @@
  *            method, 1989.
  *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
  *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
+ *  [Hager89] Hager: Updating the inverse of a matrix, 1989.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
  *  [Hi02]    Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
  *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
@@ -359,6 +361,7 @@ typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
 typedef struct sl_plan sl_plan;         /* the reaches of a b-set and an x-set; immutable */
 typedef struct sl_work sl_work;         /* workspace of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
+typedef struct sl_pins sl_pins;         /* rows held at given values */
 typedef struct sl_region sl_region;     /* a part of the matrix where local solves can stop early */
 
 /* src/public/options.h: options of all calls, threads, and the allocator */
@@ -2357,6 +2360,96 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
 SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
                                                  const sl_int *columns, const double *deltas,
                                                  sl_int count, sl_work *W, sl_stats *stats);
+
+/* src/public/pins.h: rows held at given values, on top of a factor that stays as it is */
+
+/** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
+ *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
+ *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep.
+ *
+ *  Singular matrices: with SL_NULL_PIVOT_SKIP and a known null vector (sl_factor_create), one pin
+ *  makes a component regular, if the null vector is not 0 there. In components without pins x is 0
+ *  in the null row, and b has to be consistent, which is not checked. Weights (options.mass) are
+ *  not used.
+ *
+ *  out  [out]  the set, or NULL on error; release with sl_pins_free.
+ *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
+ *              changes, solves are refused until sl_pins_refactor.
+ *  opt  [in]   allocator; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
+ *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
+ *  Source   capacitance matrix of a change of low rank, as in [Hager89].
+ *  Example  tests/core/test_pins.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
+                                               const sl_options *opt);
+
+/** Releases a set of pins; NULL is allowed. */
+SL_API void sl_pins_free(sl_pins *P);
+
+/** Adds a pin: x is held at a value in one row of A. It becomes the last one of P.
+ *
+ *  row    [in]   in 0..n-1.
+ *  stats  [out]  error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
+ *           combination of the others, to rounding; SL_ERR_STATE: F has changed;
+ *           SL_ERR_UNSUPPORTED: the null vector of the row's component is not known; SL_ERR_MEMORY;
+ *           SL_ERR_TOO_LARGE. On error P is as before.
+ *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
+ *           the path, and 4 per row below its supernodes.
+ *  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
+
+/** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
+ *  value 1.
+ *
+ *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
+ *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row);
+ *                SL_ERR_UNSUPPORTED: null pivots, and rows of several trees of the factor.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
+                                                     const double *values, sl_int count,
+                                                     sl_stats *stats);
+
+/** Releases pin number `index`, 0-based. Those after it move down by one.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT.  Cost  O(k^2).  Threads  exclusive use of P.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
+
+/** The number k of pins and equalities. */
+SL_API sl_int sl_pins_count(const sl_pins *P);
+
+/** Takes the present numbers of the factor, after it has changed.
+ *
+ *  Returns  as sl_pins_add. On error solves are refused until a later call succeeds.
+ *  Cost     k forward sweeps and O(k^3).  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
+
+/** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
+ *  in their rows, and A x = b in all others.
+ *
+ *  plan   [in]   a local solve of the rows that the plan names; NULL: a full one. b is 0 outside of
+ *                the b-set, the pins are not: they need not be in either set. A plan in a region is
+ *                not supported.
+ *  X      [out]  nx x nrhs (full: n x nrhs), column-major, leading dimension ldx elements. May be B
+ *                itself (then ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs (full: n x nrhs), column-major, leading dimension ldb elements. Its
+ *                values in rows that are pins are not used.
+ *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
+ *                of the pins.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
+ *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side.
+ *  Threads  any number at once on one P, each with its own W.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
+                                              size_t ldx, const double *B, size_t ldb,
+                                              const double *G, size_t ldg, sl_int nrhs, sl_work *W);
 
 #ifdef __cplusplus
 }
@@ -19832,6 +19925,614 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     stats->change.flops_changed = c.flops_changed;
     stats->change.flops_refactor = c.flops_refactor;
   }
+  return status;
+}
+
+/* src/impl/change/pins.h: rows held at given values, and other equalities, without a change of the factor */
+
+/* Minimize x' A x / 2 - b' x with c_p' x = g_p for the columns c_p of a matrix C:
+ *
+ *     A x = b + C f,  K f = g - C' A^-1 b,  K = C' A^-1 C.
+ *
+ * With Y = L^-1 P C, kept in the reaches of its columns, K = Y' D^-1 Y, and C' A^-1 b = Y' D^-1 y
+ * after the forward sweep y = L^-1 P b: a solve takes one forward and one backward sweep.
+ *
+ * In a singular component with null vector z, whose null pivot is N, let D(N) = delta. L is that of
+ * a regular A + delta e e', e the unit vector of N. The solution of A is then that of this matrix
+ * plus v z, where z' (b + C f) = 0, and v is the unknown that belongs to this equation. */
+
+/* One equality. */
+typedef struct sli_pin {
+  sl_int null; /* the null pivot of its component; -1: none */
+  double z;    /* z' c of the null vector, scaled to 1 at the null pivot; 0: none */
+  sl_int count;
+  sl_int *rows; /* count: the rows of c, and its entries */
+  double *values;
+  sli_reach R; /* of c */
+  double *y;   /* R.columns: L^-1 P c */
+} sli_pin;
+
+struct sl_pins {
+  sl_allocator allocator;
+  const sl_factor *F; /* borrowed */
+  sli_numbers numbers;
+  double sign;      /* of all pivots */
+  double delta;     /* takes the place of null pivots */
+  double *divisors; /* n: D, with 1 at null pivots; NULL: there are none */
+  sl_int count, capacity;
+  sli_pin **pins;  /* capacity */
+  double *K;       /* capacity x capacity, row-major: the factor L D L' of K, D on the diagonal */
+  double *scratch; /* 2 capacity */
+};
+
+/* D^-1 of a column where null pivots are delta. */
+SLI_INLINE double sli_pins_inverse(const sl_pins *P, sl_int column) {
+  const double d = P->F->D[column];
+  return 1.0 / (P->divisors != NULL && d == SLI_NULL_PIVOT ? P->delta : d);
+}
+
+/* The null pivot of the tree of a reach, which is not empty. Null pivots without a known null
+ * vector, or several in one tree, are not supported. */
+static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *null) {
+  const sl_int last = R->count - 1;
+  sl_int s, first, count;
+  *null = -1;
+  if (F->n_nulls == 0) {
+    return SL_OK;
+  }
+  for (s = 0; s < last; s++) {
+    if (R->steps[s].up == -1) { /* an equality over several trees */
+      return SL_ERR_UNSUPPORTED;
+    }
+  }
+  s = F->S->super_of[R->steps[last].column];
+  first = sli_lower_bound(F->nulls, F->n_nulls, F->S->super_first[F->S->first_descendant[s]]);
+  count = sli_lower_bound(F->nulls, F->n_nulls, F->S->super_first[s + 1]) - first;
+  if (count == 0) {
+    return SL_OK;
+  }
+  *null = F->nulls[first];
+  return count > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+/* y := L^-1 P c, and z' c. */
+static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
+  const sl_factor *F = P->F;
+  const sl_symbolic *S = F->S;
+  sl_status status;
+  sl_int k;
+  memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
+  for (k = 0; k < pin->count; k++) {
+    pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
+  }
+  F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y,
+                  scratch);
+  pin->z = 0.0;
+  status = sli_pin_null(F, &pin->R, &pin->null);
+  if (status == SL_OK && pin->null != -1) {
+    for (k = 0; k < pin->count; k++) {
+      pin->z += pin->values[k] * F->z[S->iperm[pin->rows[k]]];
+    }
+    pin->z /= F->z[pin->null];
+    pin->y[sli_reach_index_of(&pin->R, pin->null)] = pin->z;
+  }
+  return status;
+}
+
+/* Makes an equality. */
+static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
+                const double *values, sl_int count, sl_stats *stats) {
+  const sl_symbolic *S = P->F->S;
+  sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sli_set set = sli_set_of(S, rows, count);
+  sli_reach R;
+  sli_pin *pin = NULL;
+  double *scratch = NULL;
+  const sl_int *unused;
+  sl_status status = SL_OK;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_set_layout_seeds(&set, &seeds);
+    scratch = SLI_TAKE(&seeds, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+    status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
+  }
+  status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
+  if (status == SL_OK) {
+    sli_set_measure(S, &set, &R);
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    pin = (sli_pin *)sli_take(&kept, 1, sizeof *pin);
+    sli_set_layout_reach(&set, &kept, &R);
+    if (pass == 1) {
+      memset(pin, 0, sizeof *pin);
+    }
+    {
+      sl_int *copy = SLI_TAKE(&kept, sl_int, count);
+      double *x = SLI_TAKE(&kept, double, count);
+      double *y = SLI_TAKE(&kept, double, R.columns);
+      if (pass == 1) {
+        pin->rows = copy;
+        pin->values = x;
+        pin->y = y;
+      }
+    }
+    status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    pin->count = count;
+    memcpy(pin->rows, rows, (size_t)count * sizeof *rows);
+    memcpy(pin->values, values, (size_t)count * sizeof *values);
+    sli_set_fill(S, &set, &pin->R, &unused);
+    status = sli_pin_sweep(P, pin, scratch);
+    *out = pin;
+  }
+  if (status != SL_OK) {
+    sli_free(&P->allocator, kept.base);
+    *out = NULL;
+  }
+  sli_free(&P->allocator, seeds.base);
+  return status;
+}
+
+/* sums(r) += sum over the shared columns of a(k) D(k)^-1 x(k, r). x: the vector of a reach. */
+static void sli_pin_dot(const sl_pins *P, const sli_pin *pin, const sli_reach *R, const double *x,
+            sl_int lanes, double *sums) {
+  sli_intersection m = sli_intersection_of(&pin->R, R);
+  sl_int k, r;
+  while (sli_intersection_next(&m)) {
+    for (k = 0; k < m.count; k++) {
+      const double a = pin->y[m.in_a + k] * sli_pins_inverse(P, m.column + k);
+      const double *row = x + (ptrdiff_t)lanes * (m.in_b + k);
+      for (r = 0; r < lanes; r++) {
+        sums[r] += a * row[r];
+      }
+    }
+  }
+}
+
+/* x += y f' in the shared columns. */
+static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_int lanes,
+            const double *f) {
+  sli_intersection m = sli_intersection_of(&pin->R, R);
+  sl_int k, r;
+  while (sli_intersection_next(&m)) {
+    for (k = 0; k < m.count; k++) {
+      double *row = x + (ptrdiff_t)lanes * (m.in_b + k);
+      for (r = 0; r < lanes; r++) {
+        row[r] += pin->y[m.in_a + k] * f[r];
+      }
+    }
+  }
+}
+
+/* Appends the last of P->count + 1 equalities to the factor of K. A pin that depends on the others
+ * leaves a pivot of rounding errors. */
+static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
+  const sl_int k = P->count;
+  const size_t ld = (size_t)P->capacity;
+  double *row = P->K + (size_t)k * ld, own = 0.0, d;
+  sl_int i, j;
+  sli_pin_dot(P, pin, &pin->R, pin->y, 1, &own);
+  d = own;
+  for (i = 0; i < k; i++) {
+    row[i] = 0.0;
+    sli_pin_dot(P, P->pins[i], &pin->R, pin->y, 1, &row[i]);
+    for (j = 0; j < i; j++) { /* row(i) = l(i) d(i) */
+      row[i] -= P->K[(size_t)i * ld + (size_t)j] * row[j];
+    }
+  }
+  for (i = 0; i < k; i++) {
+    const double x = row[i];
+    row[i] = x / P->K[(size_t)i * ld + (size_t)i];
+    d -= x * row[i];
+  }
+  row[k] = d;
+  if (!sli_is_finite(d)) {
+    return SL_ERR_NOT_FINITE;
+  }
+  return d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
+}
+
+/* Removes equality p: the rows below it take over what its column contributed, a rank-one update of
+ * their factor. */
+static void sli_pins_remove(sl_pins *P, sl_int p) {
+  const size_t ld = (size_t)P->capacity;
+  double *w = P->scratch, alpha = P->K[(size_t)p * ld + (size_t)p];
+  sl_int i, j;
+  for (i = p + 1; i < P->count; i++) {
+    w[i] = P->K[(size_t)i * ld + (size_t)p];
+  }
+  for (j = p + 1; j < P->count; j++) {
+    double *at = &P->K[(size_t)j * ld + (size_t)j];
+    const double y = w[j], d = *at, e = d + alpha * y * y, b = alpha * y / e;
+    alpha *= d / e;
+    *at = e;
+    for (i = j + 1; i < P->count; i++) {
+      double *l = &P->K[(size_t)i * ld + (size_t)j];
+      w[i] -= y * *l;
+      *l += b * w[i];
+    }
+  }
+  for (i = p; i + 1 < P->count; i++) {
+    double *to = P->K + (size_t)i * ld;
+    const double *from = to + ld;
+    memmove(to, from, (size_t)p * sizeof *to);
+    memmove(to + p, from + p + 1, (size_t)(i + 1 - p) * sizeof *to);
+    P->pins[i] = P->pins[i + 1];
+  }
+  P->count--;
+}
+
+/* Makes room for one more equality. */
+static sl_status sli_pins_grow(sl_pins *P) {
+  const sl_int capacity = P->capacity < 4 ? 8 : 2 * P->capacity;
+  sli_block b = {NULL, 0, 0};
+  sli_pin **pins = NULL;
+  double *K = NULL, *scratch = NULL;
+  sl_status status = SL_OK;
+  sl_int i;
+  int pass;
+  if (P->count < P->capacity) {
+    return SL_OK;
+  }
+  if (P->capacity > INT32_MAX / 4) {
+    return SL_ERR_TOO_LARGE;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    pins = SLI_TAKE(&b, sli_pin *, capacity);
+    K = SLI_TAKE(&b, double, (uint64_t)capacity *(uint64_t)capacity);
+    scratch = SLI_TAKE(&b, double, 2 * (uint64_t)capacity);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (i = 0; i < P->count; i++) {
+    pins[i] = P->pins[i];
+    memcpy(K + (size_t)i * (size_t)capacity, P->K + (size_t)i * (size_t)P->capacity,
+         ((size_t)i + 1) * sizeof *K);
+  }
+  sli_free(&P->allocator, P->pins); /* the first array of its block */
+  P->pins = pins;
+  P->K = K;
+  P->scratch = scratch;
+  P->capacity = capacity;
+  return SL_OK;
+}
+
+/* Takes the numbers of F. */
+static sl_status sli_pins_take(sl_pins *P) {
+  const sl_factor *F = P->F;
+  const sl_factor_info *info = &F->stats.factor;
+  sl_int k;
+  if (!F->is_valid) {
+    return SL_ERR_STATE;
+  }
+  if (F->E != NULL || (info->positive > 0 && info->negative > 0) ||
+    (P->divisors == NULL && F->n_nulls > 0)) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  P->sign = info->negative > 0 ? -1.0 : 1.0;
+  P->delta = P->sign * (info->pivot_max > 0.0 ? info->pivot_max : 1.0);
+  P->numbers = sli_numbers_of(F);
+  for (k = 0; P->divisors != NULL && k < F->S->n; k++) {
+    P->divisors[k] = F->D[k] == SLI_NULL_PIVOT ? 1.0 : F->D[k];
+  }
+  return SL_OK;
+}
+
+SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
+  const sl_allocator a = sli_allocator(opt);
+  sli_block b = {NULL, 0, 0};
+  sl_pins *P = NULL;
+  double *divisors = NULL;
+  sl_status status = SL_OK;
+  int pass;
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+    return SL_ERR_ARGUMENT;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    P = (sl_pins *)sli_take(&b, 1, sizeof *P);
+    divisors = F->null_pivots == SL_NULL_PIVOT_SKIP ? SLI_TAKE(&b, double, F->S->n) : NULL;
+    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+  }
+  if (status == SL_OK) {
+    memset(P, 0, sizeof *P);
+    P->allocator = a;
+    P->F = F;
+    P->divisors = divisors;
+    status = sli_pins_take(P);
+    if (status == SL_OK) {
+      *out = P;
+    } else {
+      sl_pins_free(P);
+    }
+  }
+  return status;
+}
+
+SL_API void sl_pins_free(sl_pins *P) {
+  if (P != NULL) {
+    const sl_allocator a = P->allocator;
+    sl_int k;
+    for (k = 0; k < P->count; k++) {
+      sli_free(&a, P->pins[k]);
+    }
+    sli_free(&a, P->pins);
+    sli_free(&a, P);
+  }
+}
+
+SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
+                    sl_int count, sl_stats *stats) {
+  sli_pin *pin = NULL;
+  sl_status status;
+  sl_int k;
+  sli_stats_clear_error(stats);
+  if (P == NULL || count < 1 || rows == NULL || values == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
+    return SL_ERR_STATE;
+  }
+  for (k = 0; k < count; k++) {
+    if (!sli_is_finite(values[k])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
+    }
+  }
+  status = sli_pins_grow(P);
+  status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  status = sli_pins_append(P, pin);
+  if (status != SL_OK) {
+    sli_free(&P->allocator, pin);
+    return sli_fail_at(stats, status, rows[0], -1, 0.0);
+  }
+  P->pins[P->count++] = pin;
+  return SL_OK;
+}
+
+SL_API sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats) {
+  const double one = 1.0;
+  return sl_pins_add_equality(P, &row, &one, 1, stats);
+}
+
+SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
+  sli_pin *pin;
+  if (P == NULL || index < 0 || index >= P->count) {
+    return SL_ERR_ARGUMENT;
+  }
+  pin = P->pins[index];
+  sli_pins_remove(P, index);
+  sli_free(&P->allocator, pin);
+  return SL_OK;
+}
+
+SL_API sl_int sl_pins_count(const sl_pins *P) {
+  return P == NULL ? 0 : P->count;
+}
+
+SL_API sl_status sl_pins_refactor(sl_pins *P) {
+  sli_block b = {NULL, 0, 0};
+  double *scratch = NULL;
+  sl_status status;
+  sl_int count, k;
+  int pass;
+  if (P == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  P->numbers.generation = 0; /* until all of them are there */
+  status = sli_pins_take(P);
+  P->numbers.generation = 0;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  count = P->count;
+  P->count = 0;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status = sli_pin_sweep(P, P->pins[k], scratch);
+    status = status == SL_OK ? sli_pins_append(P, P->pins[k]) : status;
+    P->count++;
+  }
+  P->count = count;
+  P->numbers.generation = status == SL_OK ? P->F->generation : 0;
+  sli_free(&P->allocator, b.base);
+  return status;
+}
+
+/* ---- solves ---- */
+
+/* Arrays of a solve. */
+typedef struct sli_pins_work {
+  unsigned char *memory; /* of the sweeps */
+  double *f;             /* count x lanes: g - C' A^-1 b, then f */
+  double *v;             /* count x lanes: v, in the first row of each singular component */
+  double *h, *z;         /* count: K^-1 z of a component, z */
+} sli_pins_work;
+
+static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
+              sl_int nrhs) {
+  w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs), 1);
+  w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
+  w->v = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
+  w->h = SLI_TAKE(b, double, P->count);
+  w->z = SLI_TAKE(b, double, P->count);
+}
+
+/* f := K^-1 f, lanes numbers in each row. */
+static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
+  const size_t ld = (size_t)P->capacity;
+  sl_int i, j, r;
+  for (i = 0; i < P->count; i++) {
+    for (j = 0; j < i; j++) {
+      for (r = 0; r < lanes; r++) {
+        f[i * lanes + r] -= P->K[(size_t)i * ld + (size_t)j] * f[j * lanes + r];
+      }
+    }
+  }
+  for (i = P->count - 1; i >= 0; i--) {
+    for (r = 0; r < lanes; r++) {
+      f[i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
+    }
+    for (j = i + 1; j < P->count; j++) {
+      for (r = 0; r < lanes; r++) {
+        f[i * lanes + r] -= P->K[(size_t)j * ld + (size_t)i] * f[j * lanes + r];
+      }
+    }
+  }
+}
+
+/* Makes z' (b + C f) 0 in the component of pin p, the first one there: f -= K^-1 z v. y: after the
+ * forward sweep; at the null pivot it is z' b. */
+static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
+               sl_int p, const double *y, sl_int lanes) {
+  const sl_int null = P->pins[p]->null, at = sli_reach_index_of(&q->forward, null);
+  double *v = w->v + p * lanes;
+  double s = 0.0;
+  sl_int k, r;
+  for (k = 0; k < P->count; k++) {
+    w->z[k] = w->h[k] = P->pins[k]->null == null ? P->pins[k]->z : 0.0;
+  }
+  sli_pins_apply(P, w->h, 1);
+  for (r = 0; r < lanes; r++) {
+    v[r] = at == -1 ? 0.0 : y[(ptrdiff_t)at * lanes + r];
+  }
+  for (k = 0; k < P->count; k++) {
+    s += w->z[k] * w->h[k];
+    for (r = 0; r < lanes; r++) {
+      v[r] += w->z[k] * w->f[k * lanes + r];
+    }
+  }
+  for (r = 0; r < lanes; r++) {
+    v[r] = s != 0.0 ? v[r] / s : 0.0;
+  }
+  for (k = 0; k < P->count; k++) {
+    for (r = 0; r < lanes; r++) {
+      w->f[k * lanes + r] -= w->h[k] * v[r];
+    }
+  }
+}
+
+/* Is pin p the first one of a singular component? */
+static int sli_pins_is_first(const sl_pins *P, sl_int p) {
+  sl_int k = 0;
+  while (P->pins[k]->null != P->pins[p]->null) {
+    k++;
+  }
+  return k == p && P->pins[p]->null != -1;
+}
+
+/* Sets x at the null pivots: v in a component with pins, 0 in the others. */
+static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
+               sl_int lanes) {
+  sl_int m, p, at;
+  for (m = 0; m < P->F->n_nulls; m++) {
+    at = sli_reach_index_of(&q->backward, P->F->nulls[m]);
+    if (at != -1) {
+      memset(x + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
+    }
+  }
+  for (p = 0; p < P->count; p++) {
+    if (sli_pins_is_first(P, p)) {
+      at = sli_reach_index_of(&q->backward, P->pins[p]->null);
+      if (at != -1) {
+        memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes,
+             (size_t)lanes * sizeof(double));
+      }
+    }
+  }
+}
+
+/* Solves one block of up to 8 right-hand sides. */
+static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
+               sli_dense x_at, const double *B, sli_dense b_at, const double *G,
+               size_t ldg, sl_int nrhs) {
+  const sl_factor *F = P->F;
+  const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
+  const int kind = sli_lanes_kind(nrhs);
+  const sl_int lanes = (sl_int)1 << kind;
+  sl_int p, r;
+  sli_pack(q, v.y, B, b_at, lanes, nrhs);
+  sli_sweep_forward(F, q, &v, nrhs);
+  for (p = 0; p < P->count; p++) {
+    double sums[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    sli_pin_dot(P, P->pins[p], &q->forward, v.y, lanes, sums);
+    for (r = 0; r < lanes; r++) {
+      w->f[p * lanes + r] = r < nrhs ? G[(size_t)p + ldg * (size_t)r] - sums[r] : 0.0;
+    }
+  }
+  sli_pins_apply(P, w->f, lanes);
+  for (p = 0; p < P->count; p++) {
+    if (sli_pins_is_first(P, p)) {
+      sli_pins_balance(P, q, w, p, v.y, lanes);
+    }
+  }
+  if (!q->is_shared) {
+    sli_sweep_transfer(q, v.y, v.x, lanes);
+  }
+  for (p = 0; p < P->count; p++) {
+    sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
+  }
+  sli_pins_shift(P, q, w, v.x, lanes);
+  F->kernels->backward[kind](q->backward.count, q->backward.steps,
+                 q->backward.rows + q->backward.n_rows, F->L,
+                 P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
+  sli_unpack(q, X, x_at, v.x, lanes, nrhs);
+}
+
+SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
+                 const double *B, size_t ldb, const double *G, size_t ldg,
+                 sl_int nrhs, sl_work *W) {
+  sli_block counted = {NULL, 0, 0};
+  sli_pins_work w;
+  sli_query all;
+  const sli_query *q = plan == NULL ? &all : &plan->query;
+  sl_work own;
+  sl_status status;
+  sl_int r;
+  if (P == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  all = sli_query_all(P->F->S);
+  status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, SLI_COLUMN_MAJOR, nrhs);
+  if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || ldg < (size_t)P->count))) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
+    return SL_ERR_STATE;
+  }
+  if (q->region != NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  if (nrhs == 0 || q->nx == 0) {
+    return SL_OK;
+  }
+  own = sli_work_own(&P->allocator);
+  W = W == NULL ? &own : W;
+  if (sli_vectors_bytes(q, nrhs) == SIZE_MAX) {
+    return SL_ERR_TOO_LARGE;
+  }
+  sli_pins_layout(&w, &counted, P, q, nrhs);
+  counted.used = counted.used > 0 ? counted.used : 1;
+  status = sli_work_block(W, &counted);
+  if (status == SL_OK) {
+    sli_pins_layout(&w, &counted, P, q, nrhs);
+    for (r = 0; r < nrhs; r += 8) {
+      const sl_int block = sli_min(8, nrhs - r);
+      sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
+               q->nb == 0 ? B : B + (size_t)r * ldb,
+               sli_dense_of(SLI_COLUMN_MAJOR, ldb),
+               P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
+    }
+  }
+  sli_free(&own.allocator, own.block);
   return status;
 }
 

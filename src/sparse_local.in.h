@@ -24,6 +24,7 @@ extern "C" {
 #include "public/region.h"
 #include "public/save.h"
 #include "public/change.h"
+#include "public/pins.h"
 #ifdef __cplusplus
 }
 #endif
@@ -142,6 +143,7 @@ extern "C" {
 #include "impl/change/rank.h"
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"
+#include "impl/change/pins.h"
 /* save: factors in files */
 #include "impl/save/format.h"
 #include "impl/save/decode.h"

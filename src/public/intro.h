@@ -59,6 +59,7 @@
  *            method, 1989.
  *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
  *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
+ *  [Hager89] Hager: Updating the inverse of a matrix, 1989.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
  *  [Hi02]    Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
  *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination,

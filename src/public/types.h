@@ -145,6 +145,7 @@ typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
 typedef struct sl_plan sl_plan;         /* the reaches of a b-set and an x-set; immutable */
 typedef struct sl_work sl_work;         /* workspace of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
+typedef struct sl_pins sl_pins;         /* rows held at given values */
 typedef struct sl_region sl_region;     /* a part of the matrix where local solves can stop early */
 
 #endif

@@ -1,0 +1,96 @@
+/* pins.h: rows held at given values, on top of a factor that stays as it is */
+#ifndef SL_PUBLIC_PINS_H
+#define SL_PUBLIC_PINS_H
+
+#include "options.h"
+#include "stats.h"
+
+/** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
+ *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
+ *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep.
+ *
+ *  Singular matrices: with SL_NULL_PIVOT_SKIP and a known null vector (sl_factor_create), one pin
+ *  makes a component regular, if the null vector is not 0 there. In components without pins x is 0
+ *  in the null row, and b has to be consistent, which is not checked. Weights (options.mass) are
+ *  not used.
+ *
+ *  out  [out]  the set, or NULL on error; release with sl_pins_free.
+ *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
+ *              changes, solves are refused until sl_pins_refactor.
+ *  opt  [in]   allocator; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
+ *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  Cost     O(1); with SL_NULL_PIVOT_SKIP 8 bytes per row.
+ *  Source   capacitance matrix of a change of low rank, as in [Hager89].
+ *  Example  tests/core/test_pins.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F,
+                                               const sl_options *opt);
+
+/** Releases a set of pins; NULL is allowed. */
+SL_API void sl_pins_free(sl_pins *P);
+
+/** Adds a pin: x is held at a value in one row of A. It becomes the last one of P.
+ *
+ *  row    [in]   in 0..n-1.
+ *  stats  [out]  error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
+ *           combination of the others, to rounding; SL_ERR_STATE: F has changed;
+ *           SL_ERR_UNSUPPORTED: the null vector of the row's component is not known; SL_ERR_MEMORY;
+ *           SL_ERR_TOO_LARGE. On error P is as before.
+ *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
+ *           the path, and 4 per row below its supernodes.
+ *  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
+
+/** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
+ *  value 1.
+ *
+ *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
+ *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row);
+ *                SL_ERR_UNSUPPORTED: null pivots, and rows of several trees of the factor.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
+                                                     const double *values, sl_int count,
+                                                     sl_stats *stats);
+
+/** Releases pin number `index`, 0-based. Those after it move down by one.
+ *
+ *  Returns  SL_OK; SL_ERR_ARGUMENT.  Cost  O(k^2).  Threads  exclusive use of P.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
+
+/** The number k of pins and equalities. */
+SL_API sl_int sl_pins_count(const sl_pins *P);
+
+/** Takes the present numbers of the factor, after it has changed.
+ *
+ *  Returns  as sl_pins_add. On error solves are refused until a later call succeeds.
+ *  Cost     k forward sweeps and O(k^3).  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
+
+/** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
+ *  in their rows, and A x = b in all others.
+ *
+ *  plan   [in]   a local solve of the rows that the plan names; NULL: a full one. b is 0 outside of
+ *                the b-set, the pins are not: they need not be in either set. A plan in a region is
+ *                not supported.
+ *  X      [out]  nx x nrhs (full: n x nrhs), column-major, leading dimension ldx elements. May be B
+ *                itself (then ldx = ldb). On error untouched.
+ *  B      [in]   nb x nrhs (full: n x nrhs), column-major, leading dimension ldb elements. Its
+ *                values in rows that are pins are not used.
+ *  G      [in]   k x nrhs, column-major, leading dimension ldg elements: the values, in the order
+ *                of the pins.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
+ *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side.
+ *  Threads  any number at once on one P, each with its own W.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
+                                              size_t ldx, const double *B, size_t ldb,
+                                              const double *G, size_t ldg, sl_int nrhs, sl_work *W);
+
+#endif

@@ -1,0 +1,354 @@
+/* test_pins.c: sl_pins: solutions against dense ones, full and local, added and released pins */
+#include "tests/lib/factored.h"
+
+enum { PINS = 12 };
+
+/* A system and its pins, as the tests keep them. */
+typedef struct pinned_t {
+    factored_t y;
+    sl_pins *P;
+    double *dense, *C; /* n x n; n x PINS, column-major */
+    sl_int n, count;
+} pinned_t;
+
+static pinned_t pinned_make(gen_kind_t kind, sl_int size, int sign, const sl_options *opt) {
+    pinned_t p = {factored_make(kind, size, sign, 0, opt), NULL, NULL, NULL, 0, 0};
+    p.n = p.y.M.view.n_cols;
+    p.dense = ref_dense(&p.y.M.view);
+    p.C = test_reals((size_t)p.n * PINS);
+    SL_CHECK(sl_pins_create(&p.P, p.y.F, NULL));
+    return p;
+}
+
+static void pinned_free(pinned_t *p) {
+    sl_pins_free(p->P);
+    factored_free(&p->y);
+    free(p->dense);
+    free(p->C);
+}
+
+static void pin(pinned_t *p, sl_int row) {
+    SL_CHECK(sl_pins_add(p->P, row, NULL));
+    p->C[(size_t)p->n * (size_t)p->count++ + (size_t)row] = 1.0;
+    assert_int_equal(sl_pins_count(p->P), p->count);
+}
+
+static void release(pinned_t *p, sl_int index) {
+    size_t n = (size_t)p->n;
+    SL_CHECK(sl_pins_release(p->P, index));
+    p->count--;
+    memmove(p->C + n * (size_t)index, p->C + n * (size_t)(index + 1),
+            n * (size_t)(p->count - index) * sizeof(double));
+    memset(p->C + n * (size_t)p->count, 0, n * sizeof(double));
+}
+
+/* Checks full solves with 1, 3 and 9 right-hand sides, and local ones, against [A C; C' 0]. */
+static void assert_pinned(const pinned_t *p, uint64_t seed) {
+    size_t n = (size_t)p->n, k = (size_t)p->count, m = n + k;
+    double *K = test_reals(m * m), *wanted = test_reals(m * 9), *B = test_reals(n * 9);
+    double *G = test_reals(k * 9 + 1), *X = test_reals(n * 9), largest = 0.0;
+    gen_reals(B, n * 9, seed);
+    gen_reals(G, k * 9, seed + 1);
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = 0; i < n; i++) {
+            K[i + j * m] = p->dense[i + j * n];
+        }
+        for (size_t c = 0; c < k; c++) {
+            K[n + c + j * m] = K[j + (n + c) * m] = p->C[j + c * n];
+        }
+    }
+    for (size_t r = 0; r < 9; r++) {
+        memcpy(wanted + r * m, B + r * n, n * sizeof(double));
+        memcpy(wanted + r * m + n, G + r * k, k * sizeof(double));
+    }
+    ref_solve((sl_int)m, K, wanted, 9);
+    for (size_t r = 0; r < 9; r++) {
+        for (size_t i = 0; i < n; i++) {
+            largest = fmax(largest, fabs(wanted[i + r * m]));
+        }
+    }
+    for (sl_int nrhs = 1; nrhs <= 9; nrhs += nrhs == 1 ? 2 : 6) {
+        memset(X, 0, n * 9 * sizeof(double));
+        SL_CHECK(sl_pins_solve(p->P, NULL, X, n, B, n, G, k, nrhs, NULL));
+        for (size_t r = 0; r < (size_t)nrhs; r++) {
+            for (size_t i = 0; i < n; i++) {
+                assert_true(fabs(X[i + r * n] - wanted[i + r * m]) <= 1e-11 * largest);
+            }
+        }
+    }
+    sl_int *bset = test_ints(n), *xset = test_ints(n);
+    gen_set(bset, p->n < 3 ? p->n : 3, p->n, seed + 2);
+    gen_set(xset, p->n < 4 ? p->n : 4, p->n, seed + 3);
+    sl_int nb = p->n < 3 ? p->n : 3, nx = p->n < 4 ? p->n : 4;
+    double b[6], x[8], *full = test_reals(n * 2);
+    sl_plan *plan = NULL;
+    gen_reals(b, 6, seed + 4);
+    for (sl_int i = 0; i < 2 * nb; i++) {
+        full[bset[i % nb] + (i / nb) * p->n] = b[i];
+    }
+    SL_CHECK(sl_pins_solve(p->P, NULL, X, n, full, n, G, k, 2, NULL));
+    for (int kind = 0; kind < 3; kind++) { /* all, no b, and everywhere in x */
+        if (kind == 1) {
+            memset(full, 0, n * 2 * sizeof(double));
+            SL_CHECK(sl_pins_solve(p->P, NULL, X, n, full, n, G, k, 2, NULL));
+        }
+        SL_CHECK(sl_plan_create(&plan, p->y.S, bset, kind == 0 ? nb : 0, xset, nx, NULL, NULL));
+        SL_CHECK(sl_pins_solve(p->P, plan, x, (size_t)nx, b, (size_t)nb, G, k, 2, NULL));
+        for (sl_int i = 0; i < 2 * nx; i++) {
+            assert_true(fabs(x[i] - X[xset[i % nx] + (i / nx) * p->n]) <= 1e-11 * largest);
+        }
+        sl_plan_free(plan);
+    }
+    free(bset);
+    free(xset);
+    free(full);
+    free(K);
+    free(wanted);
+    free(B);
+    free(G);
+    free(X);
+}
+
+static void pins_hold_rows_of_definite_matrices(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[7] = {GEN_ONE,   GEN_DIAGONAL, GEN_PATH,      GEN_STAR,
+                                        GEN_GRID2, GEN_GRID3,    GEN_COMPONENTS};
+    isa_list_t isas = isas_present();
+    uint64_t seed = 3;
+    for (int kind = 0; kind < 7; kind++) {
+        for (int k = 0; k < 2 * isas.count; k++) {
+            sl_options opt = options_none();
+            opt.isa = isas.isa[k / 2];
+            pinned_t p = pinned_make(kinds[kind], 60, k % 2 ? 1 : -1, &opt);
+            sl_int *rows = test_ints((size_t)p.n), many = p.n < PINS ? p.n : PINS;
+            gen_set(rows, many, p.n, gen_bits(&seed));
+            assert_pinned(&p, gen_bits(&seed)); /* no pins: a solve */
+            for (sl_int m = 0; m < many; m++) {
+                pin(&p, rows[m]);
+            }
+            assert_pinned(&p, gen_bits(&seed));
+            for (sl_int m = 0; m < many / 2; m++) {
+                release(&p, gen_below(&seed, p.count));
+            }
+            assert_pinned(&p, gen_bits(&seed));
+            while (p.count > 0) {
+                release(&p, p.count - 1);
+            }
+            assert_pinned(&p, gen_bits(&seed));
+            free(rows);
+            pinned_free(&p);
+        }
+    }
+}
+
+static void equalities_hold(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
+    const sl_int rows[5] = {3, 40, 41, 3, 70};
+    const double values[5] = {1.0, -2.0, 0.5, 1.0, 3.0};
+    SL_CHECK(sl_pins_add_equality(p.P, rows, values, 5, NULL));
+    for (int k = 0; k < 5; k++) {
+        p.C[rows[k]] += values[k];
+    }
+    p.count++;
+    pin(&p, 40);
+    pin(&p, 7);
+    assert_pinned(&p, 5);
+    release(&p, 0);
+    assert_pinned(&p, 6);
+    pinned_free(&p);
+}
+
+/* One pin makes a Laplacian regular, wherever it is, the null row included. */
+static void a_pin_makes_a_laplacian_regular(void **state) {
+    (void)state;
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    for (int weights = 0; weights < 2; weights++) {
+        double mass[64];
+        for (int k = 0; k < 64; k++) {
+            mass[k] = 1.0 + k % 3;
+        }
+        opt.mass = weights ? mass : NULL;
+        pinned_t p = pinned_make(GEN_SINGULAR, 64, 1, &opt);
+        assert_true(p.n <= 64);
+        sl_int null, count;
+        SL_CHECK(sl_factor_null_rows(p.y.F, &null, 1, &count));
+        assert_int_equal(count, 1);
+        for (sl_int row = 0; row < p.n; row++) {
+            pin(&p, row);
+            assert_pinned(&p, 5);
+            release(&p, 0);
+        }
+        pin(&p, null);
+        for (sl_int m = 1; m < PINS; m++) {
+            pin(&p, (null + 5 * m) % p.n);
+        }
+        assert_pinned(&p, 6);
+        release(&p, 0); /* the others still make it regular */
+        assert_pinned(&p, 7);
+        while (p.count > 1) {
+            release(&p, 0);
+            assert_pinned(&p, 8);
+        }
+        pinned_free(&p);
+    }
+}
+
+/* Two components, a pin in each of them. */
+static void pins_of_several_components(void **state) {
+    (void)state;
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    gen_list_t t = gen_list(50);
+    for (sl_int k = 0; k + 1 < 50; k++) {
+        if (k != 19) {
+            gen_add(&t, k, k + 1, -1.0);
+        }
+    }
+    gen_laplacian(&t);
+    pinned_t p = {{gen_store(&t, gen_style(0), 1), NULL, NULL}, NULL, NULL, NULL, 50, 0};
+    SL_CHECK(sl_symbolic_create(&p.y.S, &p.y.M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&p.y.F, p.y.S, &p.y.M.view, &opt, NULL));
+    p.dense = ref_dense(&p.y.M.view);
+    p.C = test_reals(50 * PINS);
+    SL_CHECK(sl_pins_create(&p.P, p.y.F, NULL));
+    pin(&p, 3);
+    pin(&p, 33);
+    assert_pinned(&p, 5);
+    pin(&p, 13);
+    pin(&p, 49);
+    assert_pinned(&p, 6);
+    release(&p, 0);
+    release(&p, 0);
+    assert_pinned(&p, 7);
+    const sl_int both[2] = {2, 30};
+    const double ones[2] = {1.0, 1.0};
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add_equality(p.P, both, ones, 2, NULL));
+    assert_pinned(&p, 8);
+    pinned_free(&p);
+    gen_list_free(&t);
+}
+
+static void a_changed_factor_is_refused_until_the_refactorization(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 60, 1, NULL);
+    double *x = test_reals((size_t)p.n), g[3] = {1.0, 2.0, 3.0}, two = 2.0;
+    sl_int i = 9;
+    size_t n = (size_t)p.n;
+    pin(&p, 3);
+    pin(&p, 20);
+    pin(&p, 21);
+    SL_CHECK(sl_factor_update_entries(p.y.F, &i, &i, &two, 1, NULL, NULL));
+    p.dense[(size_t)i * (n + 1)] += two;
+    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_add(p.P, 4, NULL));
+    SL_CHECK(sl_pins_refactor(p.P));
+    assert_pinned(&p, 3);
+    free(x);
+    pinned_free(&p);
+}
+
+static void invalid_arguments_are_refused(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 60, 1, NULL);
+    sl_stats stats;
+    size_t n = (size_t)p.n;
+    double *x = test_reals(n), one = 1.0, nan = NAN;
+    sl_int row = 3, set[2] = {0, 1};
+    sl_pins *P = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(NULL, p.y.F, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(&P, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(NULL, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, -1, &stats));
+    assert_int_equal(stats.error.row, -1);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, p.n, &stats));
+    assert_int_equal(stats.error.row, p.n);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, &row, &one, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, NULL, &one, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, &row, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_add_equality(p.P, &row, &nan, 1, &stats));
+    assert_int_equal(stats.error.row, 3);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, 0));
+    pin(&p, 3);
+    pin(&p, 4);
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, 3, &stats));
+    assert_int_equal(stats.error.row, 3);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(NULL, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(NULL, NULL, x, n, x, n, x, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, NULL, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, x, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, NULL, n, x, n, x, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, x, 2, -1, NULL));
+    sl_region *R = NULL;
+    sl_plan *plan = NULL;
+    sl_options opt = options_none();
+    SL_CHECK(sl_region_create(&R, p.y.F, set, 2, NULL, NULL, NULL));
+    opt.region = R;
+    SL_CHECK(sl_plan_create(&plan, p.y.S, set, 2, set, 2, &opt, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_solve(p.P, plan, x, 2, x, 2, x, 2, 1, NULL));
+    sl_plan_free(plan);
+    sl_region_free(R);
+    free(x);
+    assert_pinned(&p, 5);
+    pinned_free(&p);
+    factored_t kkt = factored_make(GEN_KKT, 40, 1, 0, NULL);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_create(&P, kkt.F, NULL));
+    assert_null(P);
+    factored_free(&kkt);
+    assert_int_equal(sl_pins_count(NULL), 0);
+    sl_pins_free(NULL);
+}
+
+static void failing_allocations_leave_the_pins(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    factored_t y = factored_make(GEN_GRID2, 60, 1, 0, NULL);
+    sl_pins *P = NULL;
+    double b[60] = {0.0}, x[60], g[PINS] = {1.0};
+    counter.fail_at = 0;
+    SL_EXPECT(SL_ERR_MEMORY, sl_pins_create(&P, y.F, &opt));
+    assert_null(P);
+    counter.fail_at = -1;
+    SL_CHECK(sl_pins_create(&P, y.F, &opt));
+    for (sl_int k = 0; k < PINS; k++) {
+        sl_status status = SL_ERR_MEMORY;
+        for (int m = 0; status != SL_OK; m++) {
+            counter.fail_at = (int64_t)counter.calls + m;
+            status = sl_pins_add(P, 4 * k, NULL);
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            assert_int_equal(sl_pins_count(P), k + (status == SL_OK));
+        }
+        counter.fail_at = -1;
+    }
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P));
+    counter.fail_at = -1;
+    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
+    for (sl_int k = 0; k < PINS; k++) {
+        assert_true(fabs(x[4 * k] - g[k]) <= 1e-13);
+    }
+    sl_pins_free(P);
+    factored_free(&y);
+    COUNTER_CLEAN(&counter);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pins_hold_rows_of_definite_matrices),
+        cmocka_unit_test(equalities_hold),
+        cmocka_unit_test(a_pin_makes_a_laplacian_regular),
+        cmocka_unit_test(pins_of_several_components),
+        cmocka_unit_test(a_changed_factor_is_refused_until_the_refactorization),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(failing_allocations_leave_the_pins),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
