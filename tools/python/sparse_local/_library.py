@@ -67,6 +67,10 @@ _SelectedInfo = _struct("_SelectedInfo", [
 _RegionInfo = _struct("_RegionInfo", [
     ("rows", _INT), ("boundary", _INT), ("subtrees", _INT), ("entries", _OFF),
     ("is_copied", ctypes.c_int), ("seconds", _REAL), ("bytes", _SIZE)])
+_ChangeInfo = _struct("_ChangeInfo", [
+    ("method", _ENUM), ("reason", _ENUM), ("ranks", _INT), ("padding", _INT), ("entries", _OFF),
+    ("updates", _OFF), ("drift", _REAL), ("flops_update", _REAL), ("flops_changed", _REAL),
+    ("flops_refactor", _REAL), ("seconds", _REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", _INT), ("backward_error", _REAL)])
 
 
@@ -74,7 +78,8 @@ class Stats(ctypes.Structure):
     """sl_stats"""
     _fields_ = [("error", _Error), ("symbolic", _Symbolic), ("factor", _FactorInfo),
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
-                ("region", _RegionInfo), ("refine", _RefineInfo), ("reserved", _OFF * 28)]
+                ("region", _RegionInfo), ("refine", _RefineInfo),
+                ("change", _ChangeInfo), ("reserved", _OFF * 19)]
 
 
 class SymbolicArrays(ctypes.Structure):
