@@ -351,7 +351,7 @@ WITHOUT_CMOCKA = METIS= TEST_LIBS= REPLAYS= SL_DATA=
 MSAN_TESTS ?= $(CORE_TESTS)
 # zlib is not instrumented: it only reads and writes the files of tests that the sanitizer does not see.
 test-msan: deps deps-clang sparse_local.h ## the header's tests under clang's memory sanitizer: no uninitialized value is used
-	@tools/build/platform.sh msan 'x86-64, memory sanitizer' clang native \
+	@tools/build/platform.sh msan 'clang -fsanitize=memory' natively \
 	$(MAKE) --no-print-directory run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='-lz -lm' INCLUDES=-Itests/lib/cmocka \
 	OPT='-O1 -g -fno-omit-frame-pointer -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all' \
 	TEST_PROGRAMS='$(MSAN_TESTS:tests/%.c=build/msan/tests/%)'
@@ -364,19 +364,19 @@ WINDOWS = $(WITHOUT_CMOCKA) INCLUDES=-Itests/lib/cmocka CFLAGS=-Wno-float-conver
 
 test-mingw: deps-mingw sparse_local.h ## the portable tests for Windows, by gcc (plain C kernels), under Wine
 	@mkdir -p build && $(WINE) wineboot -i >/dev/null 2>&1
-	@tools/build/platform.sh mingw 'Windows x86-64' $(MINGW) Wine \
+	@tools/build/platform.sh mingw '$(MINGW)' Wine \
 	$(MAKE) --no-print-directory run-tests B=build/mingw CC=$(MINGW) $(WINDOWS) \
 	TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/mingw/tests/%)'
 
 test-mingw-clang: deps-mingw deps-clang sparse_local.h ## the same by clang, with the AVX2 and AVX-512 kernels
 	@mkdir -p build && $(WINE) wineboot -i >/dev/null 2>&1
-	@tools/build/platform.sh mingw-clang 'Windows x86-64, AVX2 and AVX-512' clang Wine \
+	@tools/build/platform.sh mingw-clang 'clang --target=x86_64-w64-mingw32' Wine \
 	$(MAKE) --no-print-directory run-tests B=build/mingw_clang CC='clang --target=x86_64-w64-mingw32' $(WINDOWS) \
 	TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/mingw_clang/tests/%)'
 
 # 8 MB of stack, as on Linux; WebAssembly has 64 kB by default.
 test-wasm: deps-wasm deps-clang sparse_local.h ## the portable tests for WebAssembly with SIMD128, under node
-	@tools/build/platform.sh wasm 'wasm32 (WASI), SIMD128' clang node \
+	@tools/build/platform.sh wasm 'clang --target=wasm32-wasi -msimd128' node \
 	$(MAKE) --no-print-directory run-tests B=build/wasm CC='clang --target=wasm32-wasi --sysroot=/usr' $(WITHOUT_CMOCKA) \
 	OPT='-O2 -msimd128' LINK='$$(CC) -Wl,-z,stack-size=8388608' LIBRARY= LIBS= RUN='node --no-warnings tests/lib/wasi/run.mjs' \
 	INCLUDES='-Itests/lib/cmocka -Itests/lib/wasi' TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/wasm/tests/%)'

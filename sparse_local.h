@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 22f9e3a202a2bee0
+ * FNV-1a of the lines after this comment, without the license: 6f7ed499d964ff52
  *
  * Contents
  * (what a user reads)
@@ -3066,11 +3066,6 @@ SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t
   return sli_hash_end(chain, bytes);
 }
 
-static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
-  uint64_t unused;
-  return sli_hash_checked(h, data, bytes, SLI_HASH_BYTES, 0, &unused);
-}
-
 #if defined(SLI_BIG_ENDIAN)
 static sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
   uint64_t unused;
@@ -3082,6 +3077,11 @@ static sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
   return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_REALS, 0, &unused);
 }
 #else
+static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
+  uint64_t unused;
+  return sli_hash_checked(h, data, bytes, SLI_HASH_BYTES, 0, &unused);
+}
+
 SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
   return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }

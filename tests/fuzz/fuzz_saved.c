@@ -206,7 +206,8 @@ static void try_bytes(const unsigned char *bytes, size_t size) {
 /* Damages a file: edits of 4 bytes, of which two name a word of it. */
 static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t count) {
     for (; count >= 4; data += 4, count -= 4) {
-        unsigned char *at = file + 4 * ((data[0] + 256u * data[1]) % (size / 4));
+        const size_t word = (data[0] + 256u * data[1]) % (size / 4);
+        unsigned char *at = file + 4 * word;
         const uint32_t value = data[3], old = saved_u32(at);
         switch (data[2] % 8) {
         case 0:
@@ -228,9 +229,7 @@ static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t c
             saved_put32(at, 0u - value);
             break;
         case 6: /* the word of another place */
-            saved_put32(at, saved_u32(file + 4 * ((at - file) / 4 + value < (ptrdiff_t)(size / 4)
-                                                      ? (size_t)(at - file) / 4 + value
-                                                      : 0)));
+            saved_put32(at, saved_u32(file + 4 * (word + value < size / 4 ? word + value : 0)));
             break;
         default:
             saved_reverse(at, 4);

@@ -112,11 +112,6 @@ SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t
     return sli_hash_end(chain, bytes);
 }
 
-static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
-    uint64_t unused;
-    return sli_hash_checked(h, data, bytes, SLI_HASH_BYTES, 0, &unused);
-}
-
 #if defined(SLI_BIG_ENDIAN)
 static sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
     uint64_t unused;
@@ -128,6 +123,11 @@ static sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
     return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_REALS, 0, &unused);
 }
 #else
+static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
+    uint64_t unused;
+    return sli_hash_checked(h, data, bytes, SLI_HASH_BYTES, 0, &unused);
+}
+
 SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
     return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
