@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6f7ed499d964ff52
+ * FNV-1a of the lines after this comment, without the license: 924b8712c0bfc3af
  *
  * Contents
  * (what a user reads)
@@ -25,48 +25,48 @@
  *   2364 pins.h       rows held at given values, on top of a factor that stays as it is
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2464 base.h   2710 status.h   2773 options.h   2835 alloc.h   2959 hash.h   3103 file_map.h
- *   3204 sort.h   3274 parallel.h
+ *   2464 base.h   2710 status.h   2773 options.h   2835 alloc.h   2960 hash.h   3104 file_map.h
+ *   3205 sort.h   3275 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3312 panel.h   3344 step.h   3401 pivot_rule.h   3486 front.h   3563 pairs.h
- *   3781 inverse_front.h   3873 table.h   3903 simd.h   3997 simd_scalar.h   4116 simd_avx2.h
- *   4310 simd_avx512.h   4416 simd_neon.h   4596 dispatch.h
+ *   3313 panel.h   3345 step.h   3402 pivot_rule.h   3487 front.h   3564 pairs.h
+ *   3782 inverse_front.h   3874 table.h   3904 simd.h   3998 simd_scalar.h   4117 simd_avx2.h
+ *   4311 simd_avx512.h   4417 simd_neon.h   4597 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4678 csc.h   4792 csc_build.h   4931 csc64.h   5008 csc_triangle.h   5079 csc_products.h
- *   5203 permute.h   5272 sum.h   5357 output_file.h   5583 matrix_market.h
+ *   4687 csc.h   4801 csc_build.h   4940 csc64.h   5017 csc_triangle.h   5088 csc_products.h
+ *   5212 permute.h   5281 sum.h   5366 output_file.h   5595 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6062 graph.h   6228 coarsen.h   6505 labels.h   6717 subgraph.h   6928 heap.h   6991 bisect.h
- *   7241 separator.h   7532 mindeg.h   7728 dissect.h   8078 levelset.h   8208 geometric.h
- *   8419 septree.h   8484 metis.h   8641 metis_refined.h   8767 nd.h   8974 compress.h
- *   9103 quotient.h   9514 order.h
+ *   6074 graph.h   6240 coarsen.h   6517 labels.h   6730 subgraph.h   6941 heap.h   7004 bisect.h
+ *   7254 separator.h   7545 mindeg.h   7741 dissect.h   8091 levelset.h   8221 geometric.h
+ *   8432 septree.h   8497 metis.h   8654 metis_refined.h   8780 nd.h   8987 compress.h
+ *   9116 quotient.h   9531 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9736 symbolic_types.h   9781 etree.h   9861 counts.h   9931 supernodes.h  10192 structure.h
- *  10333 schedule.h  10548 symbolic.h  10929 reach.h
+ *   9753 symbolic_types.h   9798 etree.h   9878 counts.h   9948 supernodes.h  10209 structure.h
+ *  10350 schedule.h  10565 symbolic.h  10946 reach.h
  * (factor: the numbers of L and D)
- *  11240 factor_types.h  11591 pivot_search.h  11962 pivoted.h  12031 scatter.h  12204 uplooking.h
- *  12281 null_vectors.h  12576 multifrontal.h  12838 nullspace.h  13089 growth.h
- *  13183 factor_setup.h  13453 factor.h  13666 leftlooking.h  13853 factor_query.h
- *  13989 combination.h
+ *  11257 factor_types.h  11609 pivot_search.h  11980 pivoted.h  12049 scatter.h  12222 uplooking.h
+ *  12299 null_vectors.h  12594 multifrontal.h  12856 nullspace.h  13107 growth.h
+ *  13201 factor_setup.h  13471 factor.h  13684 leftlooking.h  13871 factor_query.h
+ *  14007 combination.h
  * (solve: full and local solves)
- *  14051 region_types.h  14169 work.h  14276 query.h  14477 singular.h  14708 backward.h
- *  14743 sweep.h  14918 compile.h  15127 plan.h  15234 local.h  15392 parts.h  15695 refine.h
- *  15878 refine_local.h  16103 rcond.h  16273 defects.h
+ *  14069 region_types.h  14187 work.h  14291 query.h  14492 singular.h  14723 backward.h
+ *  14758 sweep.h  14930 compile.h  15139 plan.h  15246 local.h  15404 parts.h  15707 refine.h
+ *  15890 refine_local.h  16115 rcond.h  16285 defects.h
  * (inverse: entries of the inverse, regions)
- *  16330 traversal.h  16608 traversal_run.h  16789 row_sets.h  16820 unit_vectors.h
- *  17079 bilinear.h  17267 entries.h  17570 block.h  17828 reserve.h  18039 selected.h
- *  18250 selected_query.h  18358 region_choose.h  18610 region.h
+ *  16341 traversal.h  16619 traversal_run.h  16800 row_sets.h  16831 unit_vectors.h
+ *  17090 bilinear.h  17278 entries.h  17581 block.h  17839 reserve.h  18046 selected.h
+ *  18257 selected_query.h  18365 region_choose.h  18617 region.h
  * (change: a factor that follows changes of its matrix)
- *  18857 update.h  19228 rank.h  19570 edges.h  19733 choose.h  19931 pins.h
+ *  18864 update.h  19235 rank.h  19577 edges.h  19740 choose.h  19938 pins.h
  * (save: factors in files)
- *  20540 format.h  20756 decode.h  20904 check.h  21263 write.h  21469 load.h
+ *  20547 format.h  20763 decode.h  20911 check.h  21270 write.h  21476 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21825 batch_solve.h  22053 batch_factor.h  22267 batch_diagonal.h
+ *  21832 batch_solve.h  22056 batch_factor.h  22270 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22415 undef.h
+ *  22418 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22551 multi_rhs.inl.h  22925 kernel_set.inl.h  22929 unit_triangle.inl.h  22970 two_rhs.inl.h
- *  23142 product.inl.h  23283 front.inl.h  23510 inverse_front.inl.h  23815 small_supernode.inl.h
- *  23983 single_rhs.inl.h  24247 change.inl.h
+ *  22556 multi_rhs.inl.h  22930 kernel_set.inl.h  22934 unit_triangle.inl.h  22975 two_rhs.inl.h
+ *  23147 product.inl.h  23288 front.inl.h  23515 inverse_front.inl.h  23820 small_supernode.inl.h
+ *  23988 single_rhs.inl.h  24252 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2844,7 +2844,7 @@ SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
 /* Asks for huge pages; a block that gets none works as well. errno is unchanged. */
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
-  if (block != NULL && bytes >= SLI_HUGE_BLOCK) {
+  if (block != NULL && bytes >= SLI_HUGE_BLOCK) { /* untested: memory that ends */
     const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
     const int keep = errno;
     (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
@@ -2915,7 +2915,8 @@ SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
 }
 
 /* A block that is cut into arrays. A layout function runs twice over it: with base NULL it only
- * counts, with the allocated block it returns the pointers. So every size is written once. */
+ * counts, with the allocated block it returns the pointers. So every size is written once. If sizes
+ * overflow, used becomes SIZE_MAX, which sli_block_alloc and sli_work_grow refuse. */
 typedef struct sli_block {
   unsigned char *base;
   size_t used;
@@ -2925,13 +2926,13 @@ typedef struct sli_block {
 /* The next array of count elements of size bytes; NULL while counting. count has 64 bits because
  * the counts of L may pass 2^32 where size_t has 32 bits. */
 SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
-  size_t at = b->used, bytes;
-  if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
-    b->overflow = 1;
-    return NULL;
+  const size_t at = b->used;
+  size_t bytes = SIZE_MAX;
+  if (count <= (SIZE_MAX - SLI_ALIGN) / size) {
+    bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
   }
-  bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
-  if (bytes > SIZE_MAX - b->used) {
+  if (bytes > SIZE_MAX - at) {
+    b->used = SIZE_MAX;
     b->overflow = 1;
     return NULL;
   }
@@ -4618,28 +4619,36 @@ SLI_INLINE unsigned sli_xcr0(void) {
 }
 #endif
 
-/* The best instruction set that is compiled in and that the processor and the operating system
- * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
-static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
-  unsigned first[4], leaf[4], xcr0;
-  const unsigned osxsave_avx_fma = (1u << 27) | (1u << 28) | (1u << 12);
-  sli_cpuid(0, first); /* first[0]: the last leaf */
-  sli_cpuid(1, leaf);
-  if (first[0] < 7 || (leaf[2] & osxsave_avx_fma) != osxsave_avx_fma) {
-    return SL_ISA_SCALAR;
-  }
-  xcr0 = sli_xcr0(); /* 0x6: SSE and AVX state; 0xe0: AVX-512 state */
-  sli_cpuid(7, leaf);
-  if ((xcr0 & 0x6u) != 0x6u || !(leaf[1] & (1u << 5))) { /* bit 5: AVX2 */
+#define SLI_OSXSAVE (1u << 27)
+
+/* The best instruction set, from the last leaf of CPUID, ecx of leaf 1, ebx of leaf 7, and XCR0 (0
+ * without SLI_OSXSAVE). */
+SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsigned xcr0) {
+  const unsigned avx_fma = 1u << 28 | 1u << 12;
+  /* 0x6: SSE and AVX state; 0xe0: AVX-512 state; bit 5: AVX2; bit 16: AVX512F */
+  if (leaves < 7 || (ecx1 & avx_fma) != avx_fma || (xcr0 & 0x6u) != 0x6u || !(ebx7 & 1u << 5)) {
     return SL_ISA_SCALAR;
   }
 #if defined(SLI_AVX512)
-  if ((xcr0 & 0xe6u) == 0xe6u && (leaf[1] & (1u << 16))) { /* bit 16: AVX512F */
+  if ((xcr0 & 0xe0u) == 0xe0u && (ebx7 & 1u << 16)) {
     return SL_ISA_AVX512;
   }
 #endif
   return SL_ISA_AVX2;
+}
+#endif
+
+/* The best instruction set that is compiled in and that the processor and the operating system
+ * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
+static sl_isa sli_cpu_best(void) {
+#if defined(SLI_X86)
+  unsigned first[4], one[4], seven[4], xcr0;
+  sli_cpuid(0, first);
+  sli_cpuid(1, one);
+  sli_cpuid(7, seven); /* of a processor without this leaf: anything */
+  xcr0 = one[2] & SLI_OSXSAVE ? sli_xcr0() : 0; /* untested: every processor here has it */
+  return sli_isa_of(first[0], one[2], seven[1], xcr0);
 #elif defined(SLI_ARM)
   return SL_ISA_NEON;
 #else
@@ -4658,12 +4667,12 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
     return &sli_kernels_scalar;
   }
 #if defined(SLI_AVX512)
-  if (isa == SL_ISA_AVX512 && best == SL_ISA_AVX512) {
+  if (isa == SL_ISA_AVX512 && best == SL_ISA_AVX512) { /* untested: with AVX2 alone */
     return &sli_kernels_avx512;
   }
 #endif
 #if defined(SLI_X86)
-  if (isa == SL_ISA_AVX2 && best != SL_ISA_SCALAR) {
+  if (isa == SL_ISA_AVX2 && best != SL_ISA_SCALAR) { /* untested: without AVX2 */
     return &sli_kernels_avx2;
   }
 #elif defined(SLI_ARM)
@@ -5295,7 +5304,7 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
     }
     *entries += sli_nnz(A);
   }
-  return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+  return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
 }
 
 /* Appends c A. c is ignored if only patterns are summed. */
@@ -5403,9 +5412,11 @@ static int sli_is_replaceable(const char *path, int *exists) {
  * another owner or group, or is on another device: the old one is a mount point then. */
 static int sli_take_attributes(const char *name, const char *old_name) {
   struct stat made, old;
-  return stat(name, &made) == 0 && stat(old_name, &old) == 0 && made.st_dev == old.st_dev &&
-       made.st_uid == old.st_uid && made.st_gid == old.st_gid &&
-       ((made.st_mode & 0777) == (old.st_mode & 0777) || chmod(name, old.st_mode & 0777) == 0);
+  int can = stat(name, &made) == 0 && stat(old_name, &old) == 0; /* untested: one vanished */
+  can = can && made.st_dev == old.st_dev;                        /* untested: a mount point */
+  can = can && made.st_uid == old.st_uid && made.st_gid == old.st_gid; /* untested: a group */
+  return can && ((made.st_mode & 0777) == (old.st_mode & 0777) ||
+           chmod(name, old.st_mode & 0777) == 0); /* untested: an owner may */
 }
 #else
 /* The same with the means of C: what has no length, such as a device, is written in place. */
@@ -5503,7 +5514,8 @@ static int sli_create_beside(sli_output *o, int exists) {
     return errno != EACCES && errno != EPERM && errno != EROFS && errno != ENAMETOOLONG;
   }
 #if defined(SLI_POSIX)
-  if (exists && !o->is_unnamed && !sli_take_attributes(o->temporary, o->path)) {
+  if (exists && !o->is_unnamed &&
+    !sli_take_attributes(o->temporary, o->path)) { /* untested: a mount point */
     fclose(o->file);
     o->file = NULL;
     remove(o->temporary);
@@ -5569,10 +5581,10 @@ static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) 
   has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
   ok = ok && has_name;
 #endif
-  ok = fclose(o->file) == 0 && ok;
+  ok = fclose(o->file) == 0 && ok; /* untested: it has been flushed */
   if (o->temporary != NULL) {
     ok = ok && sli_replace(o, &is_only_copy);
-    if (!ok && has_name && !is_only_copy) {
+    if (!ok && has_name && !is_only_copy) { /* untested: without POSIX */
       remove(o->temporary);
     }
     sli_free(a, o->temporary);
@@ -5723,8 +5735,8 @@ SLI_INLINE int sli_is_numeric(char c) {
 static void sli_find_point(char *point) {
   char half[SLI_POINT_MAX + 3]; /* 0, the point, 5 */
   const int length = snprintf(half, sizeof half, "%.1f", 0.5);
-  if (length < 3 || length >= (int)sizeof half) {
-    memcpy(half, "0.5", 4);
+  if (length < 3 || length >= (int)sizeof half) { /* untested: no locale is like this */
+    memcpy(half, "0.5", 4);                    /* untested: the same */
   }
   half[strlen(half) - 1] = '\0';
   memcpy(point, half + 1, strlen(half));
@@ -6655,7 +6667,8 @@ SLI_INLINE void sli_borders_init(sli_borders *l, const sl_allocator *a) {
 static void sli_borders_grow(sli_borders *l) {
   sli_block b = {NULL, 0, 0};
   sl_int *vertex = NULL, *next = NULL;
-  const sl_int room = l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX;
+  const sl_int room =
+    l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX; /* untested: 2^30 */
   int pass;
   for (pass = 0; pass < 2 && !l->failed; pass++) {
     vertex = SLI_TAKE(&b, sl_int, room);
@@ -7517,7 +7530,7 @@ static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl
   f.terminal = terminal;
   sli_flow_terminals(&f);
   sli_flow_sort_edges(&f);
-  if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) {
+  if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) { /* untested: 2^30 vertices */
     sli_separator_from_border(sub);
     return;
   }
@@ -9106,6 +9119,10 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
  * its degree would be updated by every pivot. */
 #define SLI_QUOTIENT_DENSE_ROW 10
 
+#if !defined(SLI_MARKS_BEGIN) /* a test defines it as a variable */
+#define SLI_MARKS_BEGIN 2
+#endif
+
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
 
 /* The quotient graph. A variable stands for rows that have become indistinguishable. A pivot
@@ -9187,7 +9204,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
   q->pivots = q->rows = q->least = q->widest = 0;
   q->end = 0;
   q->flops = 0.0;
-  q->base = 2;
+  q->base = SLI_MARKS_BEGIN;
   for (v = 0; v < q->n; v++) {
     const sl_off degree = G->begin[v + 1] - G->begin[v];
     const int is_dense = degree > 16 && degree * degree > limit;
@@ -10002,7 +10019,7 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
   for (k = 0; k < count; k++) {
     const sl_int c = sli_value(list[k]);
     const sl_off cost = sli_new_zeros(g, c, p);
-    list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c);
+    list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c); /* untested: 2^31 */
   }
   sli_sort(list, count, scratch);
   for (k = 0; k < count; k++) {
@@ -11427,7 +11444,8 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
   double largest = F->extents[s].entry;
   sl_off m;
   for (m = first; m < last; m++) {
-    const double a = scatter_from != NULL ? x[scatter_from[m]] : x[m - first];
+    const double a =
+      scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
     const double size = fabs(a);
     if (!sli_is_finite(a)) {
       return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
@@ -13964,8 +13982,8 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
     return SL_ERR_STATE;
   }
   count = sli_factor_entries(F, NULL);
-  if (count > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (count > INT32_MAX) {      /* untested: 2^31 entries */
+    return SL_ERR_TOO_LARGE; /* untested: the same */
   }
   status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
   if (status == SL_OK) {
@@ -14174,7 +14192,7 @@ struct sl_work {
   size_t size;
 };
 
-/* Grows W to at least `bytes`. Growing discards its contents. */
+/* Grows W to at least `bytes`, SIZE_MAX if sizes overflowed. Growing discards the contents. */
 static sl_status sli_work_grow(sl_work *W, size_t bytes) {
   void *block;
   if (bytes <= W->size) {
@@ -14182,7 +14200,7 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
   }
   block = sli_alloc(&W->allocator, bytes);
   if (block == NULL) {
-    return SL_ERR_MEMORY;
+    return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : SL_ERR_MEMORY;
   }
   sli_free(&W->allocator, W->block);
   W->block = block;
@@ -14201,7 +14219,7 @@ static sl_work sli_work_own(const sl_allocator *a) {
 
 /* Grows W to what the layout in b has counted, and rewinds b to W's memory for the second run. */
 static sl_status sli_work_block(sl_work *W, sli_block *b) {
-  const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
+  const sl_status status = sli_work_grow(W, b->used);
   b->base = (unsigned char *)W->block;
   b->used = 0;
   return status;
@@ -14222,9 +14240,6 @@ static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count,
   while (k < count) {
     sli_block trial = {NULL, b.used, 0};
     stages[k].layout(q, &trial);
-    if (trial.overflow) {
-      return SL_ERR_TOO_LARGE;
-    }
     if (trial.used > W->size) {
       const sl_status status = sli_work_grow(W, trial.used);
       if (status != SL_OK) {
@@ -14347,7 +14362,7 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
   sli_vectors v;
   sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
   sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
-  return few.overflow || many.overflow ? SIZE_MAX : few.used > many.used ? few.used : many.used;
+  return few.used > many.used ? few.used : many.used;
 }
 
 /* Cuts the vectors of a block from memory that is large enough. */
@@ -14850,14 +14865,12 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
                  const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
   sl_work own;
   sl_status status;
-  size_t bytes;
   if (nrhs == 0 || q->nx == 0) {
     return SL_OK;
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  bytes = sli_vectors_bytes(q, nrhs);
-  status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+  status = sli_work_grow(W, sli_vectors_bytes(q, nrhs));
   if (status == SL_OK) {
     status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
   }
@@ -14902,8 +14915,7 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
 
 /* Grows W to what solves of a query need. */
 static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-  const size_t bytes = nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0;
-  return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+  return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0);
 }
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
@@ -16317,7 +16329,6 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   b.used = sli_vectors_bytes(&q, nrhs);
-  b.overflow = b.used == SIZE_MAX;
   status = sli_work_block(W, &b);
   if (status == SL_OK) {
     sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);
@@ -17946,7 +17957,7 @@ static size_t sli_reserve_forward_bytes(const sli_reserve *r, sl_int count) {
   sli_requests_layout(&requests, &b);
   sli_forward_layout(&forward, &b, &capacity);
   sli_forward_layout_run(&forward, &b, &capacity);
-  return b.overflow ? SIZE_MAX : b.used;
+  return b.used;
 }
 
 /* The same by a traversal. */
@@ -17965,7 +17976,7 @@ static size_t sli_reserve_traversal_bytes(const sli_reserve *r, sl_int count) {
   (void)SLI_TAKE(&b, sl_int, (uint64_t)S->n_supers + 1); /* the first request of each front */
   (void)SLI_TAKE(&b, double, sli_reserve_fronts(r, count));
   (void)SLI_TAKE(&b, double, (uint64_t)r->workers *(uint64_t)r->scratch);
-  return b.overflow ? SIZE_MAX : b.used;
+  return b.used;
 }
 
 /* sl_inverse_bilinear with up to count rows in both sets. */
@@ -17977,7 +17988,7 @@ static size_t sli_reserve_bilinear_bytes(const sli_reserve *r, sl_int count) {
   (void)SLI_TAKE(&b, uint64_t, count);
   sli_forward_layout(&forward, &b, &capacity);
   sli_forward_layout_run(&forward, &b, &capacity);
-  return b.overflow ? SIZE_MAX : b.used;
+  return b.used;
 }
 
 /* sl_inverse_block. */
@@ -17994,11 +18005,7 @@ static size_t sli_reserve_block_bytes(const sli_reserve *r, sl_int n_rows, sl_in
   q.streamed_capacity = sli_reserve_sweep(r, streamed, streamed);
   sli_inverse_block_layout_requests(&q, &b);
   sli_inverse_block_layout_sweeps(&q, &b);
-  return b.overflow ? SIZE_MAX : b.used;
-}
-
-SLI_INLINE sl_status sli_reserve_grow(sl_work *W, size_t bytes) {
-  return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+  return b.used;
 }
 
 SL_API sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F, sl_int count) {
@@ -18016,7 +18023,7 @@ SL_API sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F, sl_int 
     const size_t traversal = sli_reserve_traversal_bytes(&r, count);
     const size_t bilinear = sli_reserve_bilinear_bytes(&r, count);
     const size_t most = forward > traversal ? forward : traversal;
-    status = sli_reserve_grow(W, most > bilinear ? most : bilinear);
+    status = sli_work_grow(W, most > bilinear ? most : bilinear);
   }
   return status;
 }
@@ -18032,7 +18039,7 @@ SL_API sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_
     return SL_OK;
   }
   status = sli_reserve_of(&r, F, W);
-  return status == SL_OK ? sli_reserve_grow(W, sli_reserve_block_bytes(&r, n_rows, n_columns))
+  return status == SL_OK ? sli_work_grow(W, sli_reserve_block_bytes(&r, n_rows, n_columns))
                : status;
 }
 
@@ -18236,7 +18243,7 @@ SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
     return SL_ERR_ARGUMENT;
   }
   sli_traversal_layout_run(&run, &Z->traversal, &b);
-  return b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b.used);
+  return sli_work_grow(W, b.used);
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {
@@ -18408,7 +18415,7 @@ static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_ma
   R.extent.n_rows = boundary;
   R.extent.n_roots = n_roots;
   sli_region_layout(&R, &b);
-  return !b.overflow && b.used <= bytes_max;
+  return b.used <= bytes_max;
 }
 
 SLI_INLINE int sli_choice_fits(const sli_choice *c) {
@@ -21942,9 +21949,6 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
       return SL_ERR_STATE;
     }
     bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
-    if (bytes == SIZE_MAX) {
-      return SL_ERR_TOO_LARGE;
-    }
     b->bytes = bytes > b->bytes ? bytes : b->bytes;
     b->checks |= F->checks;
     b->blocks += sli_tiles(r->nrhs);
@@ -21983,7 +21987,6 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
     status = sli_work_grow(works[k], b->bytes);
   }
   b->works = works;
-  b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
   for (pass = 0; works == NULL && pass < 2 && status == SL_OK; pass++) {
     for (k = 0; k < b->workers; k++) {
       unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
@@ -22420,6 +22423,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_PIN
 #undef SLI_PIN_ANY
 #undef SLI_X86
+#undef SLI_OSXSAVE
 #undef SLI_ARM
 #undef SLI_AVX512
 #undef SLI_INLINE
@@ -22502,6 +22506,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #undef SLI_FLOW_NONE
 #undef SLI_FLOW_END
 #undef SLI_FLOW_ROUNDS
+#undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
 #undef SLI_DISSECT_LEAF

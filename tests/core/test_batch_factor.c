@@ -231,6 +231,26 @@ static void a_failed_allocation_leaves_the_other_factors(void **state) {
     matrix_pair_free(&y);
 }
 
+/* A sum of no terms is the zero matrix: all of its pivots are null. */
+static void batches_of_no_terms_are_zero_matrices(void **state) {
+    (void)state;
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 36, 0, 0, NULL);
+    sl_options opt = options_none();
+    sl_factor *F[2];
+    sl_int failed = -2, count = -1;
+    SL_EXPECT(SL_ERR_PIVOT, sl_batch_factor(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
+    assert_true(F[0] == NULL && F[1] == NULL && failed == 0);
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    SL_CHECK(sl_batch_factor(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
+    SL_CHECK(sl_batch_refactor(F, 2, NULL, NULL, 0, NULL, &failed, NULL));
+    for (int k = 0; k < 2; k++) {
+        SL_CHECK(sl_factor_null_rows(F[k], NULL, 0, &count));
+        assert_int_equal(count, y.n);
+        sl_factor_free(F[k]);
+    }
+    matrix_pair_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_batch_gives_the_bits_of_single_factors),
@@ -238,6 +258,7 @@ int main(void) {
         cmocka_unit_test(the_first_failure_is_reported_and_the_others_succeed),
         cmocka_unit_test(invalid_arguments_are_refused),
         cmocka_unit_test(a_failed_allocation_leaves_the_other_factors),
+        cmocka_unit_test(batches_of_no_terms_are_zero_matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

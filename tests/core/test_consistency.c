@@ -294,12 +294,37 @@ static void widely_spread_weights_are_consistent(void **state) {
     free(b);
 }
 
+static void defects_report_a_failed_allocation(void **state) {
+    (void)state;
+    enum { ROWS = 36 };
+    gen_matrix_t M = gen_matrix(GEN_SINGULAR, ROWS, 1, 0);
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    double B[ROWS] = {1.0}, y = 7.0;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY, sl_factor_defects(F, &y, 1, B, ROWS, 1, NULL));
+    assert_true(y == 7.0);
+    counter.fail_at = -1;
+    SL_CHECK(sl_factor_defects(F, &y, 1, B, ROWS, 1, NULL));
+    assert_true(y != 7.0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    COUNTER_CLEAN(&counter);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_solve_refuses_an_inconsistent_b),
         cmocka_unit_test(defects_make_any_b_consistent),
         cmocka_unit_test(matrices_with_no_and_with_several_null_vectors),
         cmocka_unit_test(widely_spread_weights_are_consistent),
+        cmocka_unit_test(defects_report_a_failed_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,6 +78,11 @@ static void residuals_and_backward_errors_by_hand(void **state) {
     assert_true(fabs(eta[1] - 0.5 / 8.0) < 1e-15);            /* 0.5 / (4 * 1 + 4) */
     SL_CHECK(sl_csc_residual(&A, B, 2, NULL, X, 2, B, 2, 3)); /* in place of B */
     SAME_VALUES(B, expected, 6);
+    const sl_csc empty = {0, 0, NULL, NULL, NULL};
+    eta[0] = eta[2] = 7.0;
+    SL_CHECK(sl_csc_residual(&empty, R, 2, NULL, X, 2, B, 2, 3));
+    SL_CHECK(sl_csc_residual(&empty, R, 2, eta, X, 2, B, 2, 3));
+    assert_true(eta[0] == 0.0 && eta[2] == 0.0);
     /* overlapping arrays with different strides, and arrays that overlap X, are refused */
     double apart[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     const double kept[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
@@ -156,14 +161,15 @@ static void missing_arrays_and_products_in_place_are_refused(void **state) {
     const double x[2] = {2, 3};
     double X[2] = {1, 1}, Y[2] = {5, 5}, B[2] = {1, 1}, eta = 7;
     const sl_csc A = {2, 2, p, i, x};
-    sl_csc bad[5] = {A, A, A, A, A};
+    sl_csc bad[6] = {A, A, A, A, A, A};
     bad[0].p = NULL;
     bad[1].i = NULL;
     bad[2].x = NULL;
     bad[3].n_rows = bad[3].n_cols = -1;
     bad[4].p = NULL;
     bad[4].n_rows = bad[4].n_cols = INT32_MAX;
-    for (int k = 0; k < 5; k++) {
+    bad[5].n_cols = -1;
+    for (int k = 0; k < 6; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&bad[k], SL_AS_STORED, Y, 2, X, 2, 1));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&bad[k], SL_AS_SYMMETRIC, Y, 2, X, 2, 1));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(&bad[k], Y, 2, &eta, X, 2, B, 2, 1));

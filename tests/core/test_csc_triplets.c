@@ -82,6 +82,11 @@ static void invalid_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT,
               sl_matrix_from_triplets(&M, 2, 2, 2, good, negative, x, NULL, &stats));
     assert_int_equal(stats.error.column, -1);
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_matrix_from_triplets(&M, 2, 2, 2, negative, good, x, NULL, &stats));
+    assert_int_equal(stats.error.row, -1);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, 2, good, bad, x, NULL, &stats));
+    assert_int_equal(stats.error.column, 5);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, -1, 2, 0, good, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, -2, 0, good, good, x, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_triplets(&M, 2, 2, -1, good, good, x, NULL, NULL));

@@ -1,7 +1,9 @@
 /* test_faults.c: METIS that fails or lies, separators of no flow, processors without popcnt, sizes
  * beyond memory: what calls cannot reach on this machine, by replaced functions and direct calls */
 #define SPARSE_LOCAL_IMPLEMENTATION
-#define SLI_FLOW_ROUNDS 1 /* no flow ends in time: each separator is a border */
+#define SLI_FLOW_ROUNDS 1           /* no flow ends in time: each separator is a border */
+#define SLI_MARKS_BEGIN marks_begin /* of minimum degree: near their largest number, on demand */
+static int marks_begin = 2;
 
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
 #include <metis.h>
@@ -127,6 +129,46 @@ static void minimum_degree_on_any_processor(void **state) {
     gen_list_free(&t);
 }
 
+/* Marks that have used up their numbers begin again, and the order stays the same. */
+static void marks_begin_again(void **state) {
+    (void)state;
+    gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 3);
+    sl_symbolic *S[2];
+    sl_options opt = options_none();
+    opt.ordering = SL_ORDERING_MINDEG;
+    for (int turn = 0; turn < 2; turn++) {
+        marks_begin = turn ? INT32_MAX - 3 * 900 - 50 : 2;
+        SL_CHECK(sl_symbolic_create(&S[turn], &M.view, &opt, NULL));
+    }
+    const sl_symbolic_arrays v = sl_symbolic_view(S[0]), w = sl_symbolic_view(S[1]);
+    assert_memory_equal(v.perm, w.perm, 900 * sizeof *v.perm);
+    marks_begin = 2;
+    sl_symbolic_free(S[0]);
+    sl_symbolic_free(S[1]);
+    gen_matrix_free(&M);
+}
+
+#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
+
+/* What CPUID and XCR0 must say for each instruction set: all of its bits. */
+static void instruction_sets_are_recognized(void **state) {
+    (void)state;
+    const unsigned avx = 1u << 28, fma = 1u << 12, avx2 = 1u << 5, avx512 = 1u << 16;
+    const sl_isa best = sli_isa_of(7, avx | fma, avx2 | avx512, 0xe6);
+    assert_true(best == SL_ISA_AVX512 || best == SL_ISA_AVX2); /* as compiled in */
+    assert_int_equal(sli_isa_of(7, avx | fma, avx2, 0xe6), SL_ISA_AVX2);
+    assert_int_equal(sli_isa_of(7, avx | fma, avx2 | avx512, 0x6), SL_ISA_AVX2);
+    assert_int_equal(sli_isa_of(7, avx | fma, avx2 | avx512, 0x66), SL_ISA_AVX2);
+    assert_int_equal(sli_isa_of(6, avx | fma, avx2 | avx512, 0xe6), SL_ISA_SCALAR);
+    assert_int_equal(sli_isa_of(7, avx, avx2 | avx512, 0xe6), SL_ISA_SCALAR);
+    assert_int_equal(sli_isa_of(7, fma, avx2 | avx512, 0xe6), SL_ISA_SCALAR);
+    assert_int_equal(sli_isa_of(7, avx | fma, avx512, 0xe6), SL_ISA_SCALAR);
+    assert_int_equal(sli_isa_of(7, avx | fma, avx2 | avx512, 0xe2), SL_ISA_SCALAR);
+    assert_int_equal(sli_isa_of(7, avx | fma, avx2 | avx512, 0), SL_ISA_SCALAR);
+}
+
+#endif
+
 /* Sums of sizes that no memory holds are noticed: they are reached where size_t has 32 bits. */
 static void sizes_beyond_memory_are_refused(void **state) {
     (void)state;
@@ -139,6 +181,9 @@ static void sizes_beyond_memory_are_refused(void **state) {
         (void)sli_take(&b, SIZE_MAX / 16, sizeof(double));
         SL_EXPECT(SL_ERR_TOO_LARGE, sli_block_alloc(&b, &opt.allocator));
         assert_null(b.base);
+        sl_work W = sli_work_own(&opt.allocator);
+        SL_EXPECT(SL_ERR_TOO_LARGE, sli_work_block(&W, &b));
+        assert_null(W.block);
     }
     assert_null(sli_alloc(&opt.allocator, SIZE_MAX));
     assert_int_equal(counter.calls, 0);
@@ -152,6 +197,10 @@ int main(void) {
 #endif
         cmocka_unit_test(borders_separate),
         cmocka_unit_test(minimum_degree_on_any_processor),
+        cmocka_unit_test(marks_begin_again),
+#if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
+        cmocka_unit_test(instruction_sets_are_recognized),
+#endif
         cmocka_unit_test(sizes_beyond_memory_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

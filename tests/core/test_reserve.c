@@ -184,6 +184,13 @@ static void wrong_arguments(void **state) {
     sl_plan *P = NULL;
     SL_CHECK(sl_work_create(&W, NULL));
     SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+    const sl_int none[1] = {0};
+    sl_plan *empty = NULL;
+    SL_CHECK(sl_plan_create(&empty, y.S, NULL, 0, none, 0, NULL, NULL));
+    SL_CHECK(sl_work_reserve_plan(W, empty, 3)); /* a solve of no x needs nothing */
+    SL_CHECK(sl_work_reserve_refined(W, empty, 3));
+    assert_int_equal(sl_work_bytes(W), 0);
+    sl_plan_free(empty);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refine(NULL, y.F, 1));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refine(W, NULL, 1));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refine(W, y.F, -1));

@@ -29,6 +29,7 @@ static const option_t options[] = {
     {"signs", READS_FACTOR},
     {"growth_limit", READS_FACTOR},
     {"error_limit", READS_FACTOR},
+    {"null_vector", READS_FACTOR},
     {"region", READS_REGION},
     {"region_bytes", READS_REGION_BYTES},
 };
@@ -106,6 +107,9 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.error_limit = 1e-6;
         break;
     case 18:
+        opt.null_vector = mass;
+        break;
+    case 19:
         opt.region = f->region;
         break;
     default:

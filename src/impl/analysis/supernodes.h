@@ -77,7 +77,7 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]);
         const sl_off cost = sli_new_zeros(g, c, p);
-        list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c);
+        list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c); /* untested: 2^31 */
     }
     sli_sort(list, count, scratch);
     for (k = 0; k < count; k++) {

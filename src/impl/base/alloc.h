@@ -14,7 +14,7 @@
 /* Asks for huge pages; a block that gets none works as well. errno is unchanged. */
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
-    if (block != NULL && bytes >= SLI_HUGE_BLOCK) {
+    if (block != NULL && bytes >= SLI_HUGE_BLOCK) { /* untested: memory that ends */
         const size_t skipped = (SLI_PAGE - (uintptr_t)block % SLI_PAGE) % SLI_PAGE;
         const int keep = errno;
         (void)sli_madvise((char *)block + skipped, (bytes - skipped) / SLI_PAGE * SLI_PAGE,
@@ -85,7 +85,8 @@ SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
 }
 
 /* A block that is cut into arrays. A layout function runs twice over it: with base NULL it only
- * counts, with the allocated block it returns the pointers. So every size is written once. */
+ * counts, with the allocated block it returns the pointers. So every size is written once. If sizes
+ * overflow, used becomes SIZE_MAX, which sli_block_alloc and sli_work_grow refuse. */
 typedef struct sli_block {
     unsigned char *base;
     size_t used;
@@ -95,13 +96,13 @@ typedef struct sli_block {
 /* The next array of count elements of size bytes; NULL while counting. count has 64 bits because
  * the counts of L may pass 2^32 where size_t has 32 bits. */
 SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
-    size_t at = b->used, bytes;
-    if (size != 0 && count > (SIZE_MAX - SLI_ALIGN) / size) {
-        b->overflow = 1;
-        return NULL;
+    const size_t at = b->used;
+    size_t bytes = SIZE_MAX;
+    if (count <= (SIZE_MAX - SLI_ALIGN) / size) {
+        bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     }
-    bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
-    if (bytes > SIZE_MAX - b->used) {
+    if (bytes > SIZE_MAX - at) {
+        b->used = SIZE_MAX;
         b->overflow = 1;
         return NULL;
     }

@@ -6,6 +6,7 @@
 #undef SLI_PIN
 #undef SLI_PIN_ANY
 #undef SLI_X86
+#undef SLI_OSXSAVE
 #undef SLI_ARM
 #undef SLI_AVX512
 #undef SLI_INLINE
@@ -88,6 +89,7 @@
 #undef SLI_FLOW_NONE
 #undef SLI_FLOW_END
 #undef SLI_FLOW_ROUNDS
+#undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
 #undef SLI_DISSECT_LEAF

@@ -124,9 +124,6 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
             return SL_ERR_STATE;
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
-        if (bytes == SIZE_MAX) {
-            return SL_ERR_TOO_LARGE;
-        }
         b->bytes = bytes > b->bytes ? bytes : b->bytes;
         b->checks |= F->checks;
         b->blocks += sli_tiles(r->nrhs);
@@ -165,7 +162,6 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
         status = sli_work_grow(works[k], b->bytes);
     }
     b->works = works;
-    b->bytes = (b->bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     for (pass = 0; works == NULL && pass < 2 && status == SL_OK; pass++) {
         for (k = 0; k < b->workers; k++) {
             unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);

@@ -195,7 +195,8 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
     double largest = F->extents[s].entry;
     sl_off m;
     for (m = first; m < last; m++) {
-        const double a = scatter_from != NULL ? x[scatter_from[m]] : x[m - first];
+        const double a =
+            scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
         const double size = fabs(a);
         if (!sli_is_finite(a)) {
             return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);

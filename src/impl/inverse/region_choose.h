@@ -56,7 +56,7 @@ static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_ma
     R.extent.n_rows = boundary;
     R.extent.n_roots = n_roots;
     sli_region_layout(&R, &b);
-    return !b.overflow && b.used <= bytes_max;
+    return b.used <= bytes_max;
 }
 
 SLI_INLINE int sli_choice_fits(const sli_choice *c) {

@@ -124,7 +124,7 @@ static size_t sli_reserve_forward_bytes(const sli_reserve *r, sl_int count) {
     sli_requests_layout(&requests, &b);
     sli_forward_layout(&forward, &b, &capacity);
     sli_forward_layout_run(&forward, &b, &capacity);
-    return b.overflow ? SIZE_MAX : b.used;
+    return b.used;
 }
 
 /* The same by a traversal. */
@@ -143,7 +143,7 @@ static size_t sli_reserve_traversal_bytes(const sli_reserve *r, sl_int count) {
     (void)SLI_TAKE(&b, sl_int, (uint64_t)S->n_supers + 1); /* the first request of each front */
     (void)SLI_TAKE(&b, double, sli_reserve_fronts(r, count));
     (void)SLI_TAKE(&b, double, (uint64_t)r->workers *(uint64_t)r->scratch);
-    return b.overflow ? SIZE_MAX : b.used;
+    return b.used;
 }
 
 /* sl_inverse_bilinear with up to count rows in both sets. */
@@ -155,7 +155,7 @@ static size_t sli_reserve_bilinear_bytes(const sli_reserve *r, sl_int count) {
     (void)SLI_TAKE(&b, uint64_t, count);
     sli_forward_layout(&forward, &b, &capacity);
     sli_forward_layout_run(&forward, &b, &capacity);
-    return b.overflow ? SIZE_MAX : b.used;
+    return b.used;
 }
 
 /* sl_inverse_block. */
@@ -172,11 +172,7 @@ static size_t sli_reserve_block_bytes(const sli_reserve *r, sl_int n_rows, sl_in
     q.streamed_capacity = sli_reserve_sweep(r, streamed, streamed);
     sli_inverse_block_layout_requests(&q, &b);
     sli_inverse_block_layout_sweeps(&q, &b);
-    return b.overflow ? SIZE_MAX : b.used;
-}
-
-SLI_INLINE sl_status sli_reserve_grow(sl_work *W, size_t bytes) {
-    return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+    return b.used;
 }
 
 SL_API sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F, sl_int count) {
@@ -194,7 +190,7 @@ SL_API sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F, sl_int 
         const size_t traversal = sli_reserve_traversal_bytes(&r, count);
         const size_t bilinear = sli_reserve_bilinear_bytes(&r, count);
         const size_t most = forward > traversal ? forward : traversal;
-        status = sli_reserve_grow(W, most > bilinear ? most : bilinear);
+        status = sli_work_grow(W, most > bilinear ? most : bilinear);
     }
     return status;
 }
@@ -210,7 +206,7 @@ SL_API sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_
         return SL_OK;
     }
     status = sli_reserve_of(&r, F, W);
-    return status == SL_OK ? sli_reserve_grow(W, sli_reserve_block_bytes(&r, n_rows, n_columns))
+    return status == SL_OK ? sli_work_grow(W, sli_reserve_block_bytes(&r, n_rows, n_columns))
                            : status;
 }
 

@@ -206,7 +206,7 @@ SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
         return SL_ERR_ARGUMENT;
     }
     sli_traversal_layout_run(&run, &Z->traversal, &b);
-    return b.overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b.used);
+    return sli_work_grow(W, b.used);
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {

@@ -30,28 +30,36 @@ SLI_INLINE unsigned sli_xcr0(void) {
 }
 #endif
 
-/* The best instruction set that is compiled in and that the processor and the operating system
- * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
-static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
-    unsigned first[4], leaf[4], xcr0;
-    const unsigned osxsave_avx_fma = (1u << 27) | (1u << 28) | (1u << 12);
-    sli_cpuid(0, first); /* first[0]: the last leaf */
-    sli_cpuid(1, leaf);
-    if (first[0] < 7 || (leaf[2] & osxsave_avx_fma) != osxsave_avx_fma) {
-        return SL_ISA_SCALAR;
-    }
-    xcr0 = sli_xcr0(); /* 0x6: SSE and AVX state; 0xe0: AVX-512 state */
-    sli_cpuid(7, leaf);
-    if ((xcr0 & 0x6u) != 0x6u || !(leaf[1] & (1u << 5))) { /* bit 5: AVX2 */
+#define SLI_OSXSAVE (1u << 27)
+
+/* The best instruction set, from the last leaf of CPUID, ecx of leaf 1, ebx of leaf 7, and XCR0 (0
+ * without SLI_OSXSAVE). */
+SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsigned xcr0) {
+    const unsigned avx_fma = 1u << 28 | 1u << 12;
+    /* 0x6: SSE and AVX state; 0xe0: AVX-512 state; bit 5: AVX2; bit 16: AVX512F */
+    if (leaves < 7 || (ecx1 & avx_fma) != avx_fma || (xcr0 & 0x6u) != 0x6u || !(ebx7 & 1u << 5)) {
         return SL_ISA_SCALAR;
     }
 #if defined(SLI_AVX512)
-    if ((xcr0 & 0xe6u) == 0xe6u && (leaf[1] & (1u << 16))) { /* bit 16: AVX512F */
+    if ((xcr0 & 0xe0u) == 0xe0u && (ebx7 & 1u << 16)) {
         return SL_ISA_AVX512;
     }
 #endif
     return SL_ISA_AVX2;
+}
+#endif
+
+/* The best instruction set that is compiled in and that the processor and the operating system
+ * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
+static sl_isa sli_cpu_best(void) {
+#if defined(SLI_X86)
+    unsigned first[4], one[4], seven[4], xcr0;
+    sli_cpuid(0, first);
+    sli_cpuid(1, one);
+    sli_cpuid(7, seven); /* of a processor without this leaf: anything */
+    xcr0 = one[2] & SLI_OSXSAVE ? sli_xcr0() : 0; /* untested: every processor here has it */
+    return sli_isa_of(first[0], one[2], seven[1], xcr0);
 #elif defined(SLI_ARM)
     return SL_ISA_NEON;
 #else
@@ -70,12 +78,12 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
         return &sli_kernels_scalar;
     }
 #if defined(SLI_AVX512)
-    if (isa == SL_ISA_AVX512 && best == SL_ISA_AVX512) {
+    if (isa == SL_ISA_AVX512 && best == SL_ISA_AVX512) { /* untested: with AVX2 alone */
         return &sli_kernels_avx512;
     }
 #endif
 #if defined(SLI_X86)
-    if (isa == SL_ISA_AVX2 && best != SL_ISA_SCALAR) {
+    if (isa == SL_ISA_AVX2 && best != SL_ISA_SCALAR) { /* untested: without AVX2 */
         return &sli_kernels_avx2;
     }
 #elif defined(SLI_ARM)

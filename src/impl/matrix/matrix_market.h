@@ -146,8 +146,8 @@ SLI_INLINE int sli_is_numeric(char c) {
 static void sli_find_point(char *point) {
     char half[SLI_POINT_MAX + 3]; /* 0, the point, 5 */
     const int length = snprintf(half, sizeof half, "%.1f", 0.5);
-    if (length < 3 || length >= (int)sizeof half) {
-        memcpy(half, "0.5", 4);
+    if (length < 3 || length >= (int)sizeof half) { /* untested: no locale is like this */
+        memcpy(half, "0.5", 4);                    /* untested: the same */
     }
     half[strlen(half) - 1] = '\0';
     memcpy(point, half + 1, strlen(half));

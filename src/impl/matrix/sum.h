@@ -29,7 +29,7 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
         }
         *entries += sli_nnz(A);
     }
-    return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+    return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
 }
 
 /* Appends c A. c is ignored if only patterns are summed. */

@@ -155,7 +155,8 @@ SLI_INLINE void sli_borders_init(sli_borders *l, const sl_allocator *a) {
 static void sli_borders_grow(sli_borders *l) {
     sli_block b = {NULL, 0, 0};
     sl_int *vertex = NULL, *next = NULL;
-    const sl_int room = l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX;
+    const sl_int room =
+        l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX; /* untested: 2^30 */
     int pass;
     for (pass = 0; pass < 2 && !l->failed; pass++) {
         vertex = SLI_TAKE(&b, sl_int, room);

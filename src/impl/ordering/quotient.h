@@ -9,6 +9,10 @@
  * its degree would be updated by every pivot. */
 #define SLI_QUOTIENT_DENSE_ROW 10
 
+#if !defined(SLI_MARKS_BEGIN) /* a test defines it as a variable */
+#define SLI_MARKS_BEGIN 2
+#endif
+
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
 
 /* The quotient graph. A variable stands for rows that have become indistinguishable. A pivot
@@ -90,7 +94,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
     q->pivots = q->rows = q->least = q->widest = 0;
     q->end = 0;
     q->flops = 0.0;
-    q->base = 2;
+    q->base = SLI_MARKS_BEGIN;
     for (v = 0; v < q->n; v++) {
         const sl_off degree = G->begin[v + 1] - G->begin[v];
         const int is_dense = degree > 16 && degree * degree > limit;

@@ -281,7 +281,7 @@ static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl
     f.terminal = terminal;
     sli_flow_terminals(&f);
     sli_flow_sort_edges(&f);
-    if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) {
+    if (sub->n > INT32_MAX / 2 || !sli_flow_maximize(&f, &last)) { /* untested: 2^30 vertices */
         sli_separator_from_border(sub);
         return;
     }

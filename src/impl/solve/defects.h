@@ -50,7 +50,6 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     b.used = sli_vectors_bytes(&q, nrhs);
-    b.overflow = b.used == SIZE_MAX;
     status = sli_work_block(W, &b);
     if (status == SL_OK) {
         sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);

@@ -78,7 +78,7 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
     sli_vectors v;
     sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
     sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
-    return few.overflow || many.overflow ? SIZE_MAX : few.used > many.used ? few.used : many.used;
+    return few.used > many.used ? few.used : many.used;
 }
 
 /* Cuts the vectors of a block from memory that is large enough. */

@@ -114,14 +114,12 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
                                  const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
     sl_work own;
     sl_status status;
-    size_t bytes;
     if (nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    bytes = sli_vectors_bytes(q, nrhs);
-    status = bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+    status = sli_work_grow(W, sli_vectors_bytes(q, nrhs));
     if (status == SL_OK) {
         status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
     }
@@ -166,8 +164,7 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
 
 /* Grows W to what solves of a query need. */
 static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-    const size_t bytes = nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0;
-    return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : sli_work_grow(W, bytes);
+    return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0);
 }
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {

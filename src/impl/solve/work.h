@@ -11,7 +11,7 @@ struct sl_work {
     size_t size;
 };
 
-/* Grows W to at least `bytes`. Growing discards its contents. */
+/* Grows W to at least `bytes`, SIZE_MAX if sizes overflowed. Growing discards the contents. */
 static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     void *block;
     if (bytes <= W->size) {
@@ -19,7 +19,7 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     }
     block = sli_alloc(&W->allocator, bytes);
     if (block == NULL) {
-        return SL_ERR_MEMORY;
+        return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : SL_ERR_MEMORY;
     }
     sli_free(&W->allocator, W->block);
     W->block = block;
@@ -38,7 +38,7 @@ static sl_work sli_work_own(const sl_allocator *a) {
 
 /* Grows W to what the layout in b has counted, and rewinds b to W's memory for the second run. */
 static sl_status sli_work_block(sl_work *W, sli_block *b) {
-    const sl_status status = b->overflow ? SL_ERR_TOO_LARGE : sli_work_grow(W, b->used);
+    const sl_status status = sli_work_grow(W, b->used);
     b->base = (unsigned char *)W->block;
     b->used = 0;
     return status;
@@ -59,9 +59,6 @@ static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count,
     while (k < count) {
         sli_block trial = {NULL, b.used, 0};
         stages[k].layout(q, &trial);
-        if (trial.overflow) {
-            return SL_ERR_TOO_LARGE;
-        }
         if (trial.used > W->size) {
             const sl_status status = sli_work_grow(W, trial.used);
             if (status != SL_OK) {
