@@ -1,384 +1,10 @@
 /* fuzz_sequence.c: takes a sequence of calls on a pool of objects from any bytes, with allocations
  * that fail in between; compares every answer with dense matrices */
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "sparse_local.h"
-
-#define PROMISE(condition) ((condition) ? (void)0 : abort())
+#include "sequence_objects.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { MOST = 12, ENTRIES = MOST * MOST, RHS = 9, SET = 2 * MOST, STEPS = 60 };
-enum { ANALYSES = 2, FACTORS = 3, PLANS = 3, SELECTED = 2, REGIONS = 2, REQUESTS = 3 };
-
-typedef struct input_t {
-    const uint8_t *at, *end;
-} input_t;
-
-static int take(input_t *in) {
-    return in->at < in->end ? *in->at++ : 0;
-}
-
-/* ---- the pool: objects, and what the dense model knows of each ---- */
-
-/* DOMINANT: strictly diagonally dominant, pivots of both signs. LAPLACIAN: null pivots are skipped.
- * WILD: anything, also values that are not finite; only equalities of bits are checked. */
-typedef enum kind_t { DOMINANT = 0, LAPLACIAN, WILD } kind_t;
-
-typedef struct analysis_t {
-    sl_symbolic *S;
-    sl_int n, p[MOST + 1], i[ENTRIES];
-} analysis_t;
-
-typedef struct values_t {
-    kind_t kind;
-    double x[ENTRIES]; /* in the order of the analyzed pattern */
-    double a[ENTRIES]; /* dense, a[i + MOST * j] */
-} values_t;
-
-typedef struct factor_t {
-    sl_factor *F;
-    int analysis;
-    int is_valid; /* it has numbers, those of v */
-    int has_mass;
-    double mass[MOST];
-    values_t v;
-} factor_t;
-
-/* Rows of a set; NULL is passed if it is all of them. */
-typedef struct set_t {
-    sl_int count, rows[SET];
-    int is_all;
-} set_t;
-
-typedef struct plan_t {
-    sl_plan *P;
-    int analysis;
-    int region; /* -1: solves go to the roots */
-    set_t b, x;
-} plan_t;
-
-typedef struct selected_t {
-    sl_selected *Z;
-    int analysis;
-    double a[ENTRIES]; /* the matrix that it is of; it may outlive its factor */
-} selected_t;
-
-typedef struct region_t {
-    sl_region *R;
-    int analysis, factor;
-    double a[ENTRIES];
-} region_t;
-
-static analysis_t analyses[ANALYSES];
-static factor_t factors[FACTORS];
-static plan_t plans[PLANS];
-static selected_t selected[SELECTED];
-static region_t regions[REGIONS];
-static sl_work *work;
-
-/* ---- memory: after `left` more allocations all fail, until the call ends ---- */
-
-static long blocks;    /* allocated now */
-static long left;      /* negative: no allocation fails */
-static int has_failed; /* an allocation of this call failed */
-
-static void *allocate(void *context, size_t bytes) {
-    (void)context;
-    if (left == 0) {
-        has_failed = 1;
-        return NULL;
-    }
-    left -= left > 0;
-    void *block = malloc(bytes > 0 ? bytes : 1);
-    blocks += block != NULL;
-    return block;
-}
-
-static void release(void *context, void *block) {
-    (void)context;
-    blocks--;
-    free(block);
-}
-
-/* Returns whether a call failed for lack of memory, which it may only if an allocation failed. */
-static int no_memory(sl_status status) {
-    PROMISE(status != SL_ERR_MEMORY || has_failed);
-    return status == SL_ERR_MEMORY;
-}
-
-static void run_backwards(void *context, sl_int count, void (*body)(void *data, sl_int k),
-                          void *data) {
-    (void)context;
-    for (sl_int k = count - 1; k >= 0; k--) {
-        body(data, k);
-    }
-}
-
-static sl_options options(void) {
-    sl_options opt;
-    memset(&opt, 0, sizeof opt);
-    opt.allocator.allocate = allocate;
-    opt.allocator.release = release;
-    return opt;
-}
-
-static sl_options threaded(int count) {
-    sl_options opt = options();
-    opt.threads.count = count;
-    opt.threads.run = run_backwards;
-    return opt;
-}
-
-/* ---- releasing: what borrows an object goes before it ---- */
-
-static void free_plan(plan_t *p) {
-    sl_plan_free(p->P);
-    p->P = NULL;
-}
-
-static void free_region(int which) {
-    for (int k = 0; k < PLANS; k++) {
-        if (plans[k].P && plans[k].region == which) {
-            free_plan(&plans[k]);
-        }
-    }
-    sl_region_free(regions[which].R);
-    regions[which].R = NULL;
-}
-
-static void free_selected(selected_t *z) {
-    sl_selected_free(z->Z);
-    z->Z = NULL;
-}
-
-static void free_factor(int which) {
-    for (int k = 0; k < REGIONS; k++) {
-        if (regions[k].factor == which) {
-            free_region(k);
-        }
-    }
-    sl_factor_free(factors[which].F);
-    factors[which].F = NULL;
-}
-
-static void free_analysis(int which) {
-    for (int k = 0; k < FACTORS; k++) {
-        if (factors[k].analysis == which) {
-            free_factor(k);
-        }
-    }
-    for (int k = 0; k < PLANS; k++) {
-        if (plans[k].analysis == which) {
-            free_plan(&plans[k]);
-        }
-    }
-    for (int k = 0; k < REGIONS; k++) {
-        if (regions[k].analysis == which) {
-            free_region(k);
-        }
-    }
-    for (int k = 0; k < SELECTED; k++) {
-        if (selected[k].analysis == which) {
-            free_selected(&selected[k]);
-        }
-    }
-    sl_symbolic_free(analyses[which].S);
-    analyses[which].S = NULL;
-}
-
-/* ---- the dense model ---- */
-
-static sl_int order_of(const factor_t *f) {
-    return analyses[f->analysis].n;
-}
-
-static sl_csc view(const analysis_t *s, const double *x) {
-    sl_csc A = {s->n, s->n, s->p, s->i, x};
-    return A;
-}
-
-static void set_dense(const analysis_t *s, values_t *v) {
-    memset(v->a, 0, sizeof v->a);
-    for (sl_int j = 0; j < s->n; j++) {
-        for (sl_int q = s->p[j]; q < s->p[j + 1]; q++) {
-            v->a[s->i[q] + MOST * j] = v->x[q];
-            v->a[j + MOST * s->i[q]] = v->x[q];
-        }
-    }
-}
-
-/* x = A^-1 b by elimination with partial pivoting. Returns det A. */
-static double dense_solve(const double *a, sl_int n, const double *b, double *x) {
-    double m[MOST][MOST + 1], det = 1.0;
-    for (sl_int i = 0; i < n; i++) {
-        for (sl_int j = 0; j < n; j++) {
-            m[i][j] = a[i + MOST * j];
-        }
-        m[i][n] = b[i];
-    }
-    for (sl_int k = 0; k < n; k++) {
-        sl_int best = k;
-        for (sl_int i = k + 1; i < n; i++) {
-            best = fabs(m[i][k]) > fabs(m[best][k]) ? i : best;
-        }
-        for (sl_int j = 0; j <= n; j++) {
-            const double keep = m[k][j];
-            m[k][j] = m[best][j];
-            m[best][j] = keep;
-        }
-        det *= best == k ? m[k][k] : -m[k][k];
-        for (sl_int i = k + 1; i < n; i++) {
-            const double l = m[i][k] / m[k][k];
-            for (sl_int j = k; j <= n; j++) {
-                m[i][j] -= l * m[k][j];
-            }
-        }
-    }
-    for (sl_int k = n - 1; k >= 0; k--) {
-        x[k] = m[k][n];
-        for (sl_int j = k + 1; j < n; j++) {
-            x[k] -= m[k][j] * x[j];
-        }
-        x[k] /= m[k][k];
-    }
-    return det;
-}
-
-static double largest(const double *x, sl_int n) {
-    double most = 0.0;
-    for (sl_int k = 0; k < n; k++) {
-        most = fmax(most, fabs(x[k]));
-    }
-    return most;
-}
-
-/* component[i] = the smallest row connected to i by nonzero entries */
-static void find_components(const double *a, sl_int n, sl_int *component) {
-    for (sl_int i = 0; i < n; i++) {
-        component[i] = i;
-    }
-    for (sl_int round = 0; round < n; round++) {
-        for (sl_int i = 0; i < n; i++) {
-            for (sl_int j = 0; j < n; j++) {
-                if (a[i + MOST * j] != 0.0 && component[j] < component[i]) {
-                    component[i] = component[j];
-                }
-            }
-        }
-    }
-}
-
-/* Sums of b over the components, at their smallest rows. The values are eighths: sums are exact. */
-static int is_consistent(const factor_t *f, const double *b) {
-    const sl_int n = order_of(f);
-    sl_int component[MOST];
-    double sum[MOST] = {0.0};
-    find_components(f->v.a, n, component);
-    for (sl_int i = 0; i < n; i++) {
-        sum[component[i]] += b[i];
-    }
-    return largest(sum, n) == 0.0;
-}
-
-/* Checks A x = b, or for a Laplacian with mass m: A x = b - c m with sum m x = 0 per component. */
-static void check_laplacian(const factor_t *f, const double *x, const double *b) {
-    const sl_int n = order_of(f);
-    sl_int component[MOST];
-    double sum_b[MOST] = {0.0}, sum_m[MOST] = {0.0}, sum_mx[MOST] = {0.0}, size = largest(b, n);
-    find_components(f->v.a, n, component);
-    for (sl_int i = 0; i < n; i++) {
-        const sl_int c = component[i];
-        sum_b[c] += b[i];
-        sum_m[c] += f->mass[i];
-        sum_mx[c] += f->mass[i] * x[i];
-        for (sl_int j = 0; j < n; j++) {
-            size = fmax(size, fabs(f->v.a[i + MOST * j] * x[j]));
-        }
-    }
-    for (sl_int i = 0; i < n; i++) {
-        const sl_int c = component[i];
-        double residual = b[i] - (f->has_mass ? sum_b[c] / sum_m[c] * f->mass[i] : 0.0);
-        for (sl_int j = 0; j < n; j++) {
-            residual -= f->v.a[i + MOST * j] * x[j];
-        }
-        PROMISE(fabs(residual) <= 1e-11 * size);
-        PROMISE(!f->has_mass || fabs(sum_mx[c]) <= 1e-11 * size * MOST);
-    }
-}
-
-static void check_solution(const factor_t *f, const double *x, const double *b) {
-    const sl_int n = order_of(f);
-    double y[MOST];
-    if (f->v.kind == LAPLACIAN) {
-        check_laplacian(f, x, b);
-    } else if (f->v.kind == DOMINANT) {
-        (void)dense_solve(f->v.a, n, b, y);
-        for (sl_int i = 0; i < n; i++) {
-            PROMISE(fabs(x[i] - y[i]) <= 1e-11 * largest(y, n));
-        }
-    }
-}
-
-static void check_same(double x, double y) {
-    PROMISE(x == y || (isnan(x) && isnan(y)));
-}
-
-/* ---- values from the input ---- */
-
-static double take_eighths(input_t *in) {
-    return (take(in) - 128) / 8.0;
-}
-
-static double take_wild(input_t *in) {
-    static const double odd[8] = {1e300, -1e300, NAN, 0.0, 1.0 / 3.0, 5e-324, INFINITY, 1e16};
-    const int byte = take(in);
-    return byte >= 248 ? odd[byte - 248] : (byte - 124) / 8.0;
-}
-
-static void take_values(input_t *in, const analysis_t *s, kind_t kind, values_t *v) {
-    double sum[MOST] = {0.0};
-    memset(v->x, 0, sizeof v->x);
-    v->kind = kind;
-    for (sl_int j = 0; j < s->n; j++) {
-        for (sl_int q = s->p[j]; q < s->p[j + 1]; q++) {
-            const sl_int i = s->i[q];
-            if (kind == WILD) {
-                v->x[q] = take_wild(in);
-            } else if (i != j) {
-                v->x[q] = kind == LAPLACIAN ? -1.0 - take(in) % 16 / 8.0 : take_eighths(in);
-                sum[i] += fabs(v->x[q]);
-                sum[j] += fabs(v->x[q]);
-            }
-        }
-    }
-    for (sl_int j = 0; j < s->n && kind != WILD; j++) {
-        for (sl_int q = s->p[j]; q < s->p[j + 1]; q++) {
-            if (s->i[q] == j) {
-                v->x[q] = kind == LAPLACIAN ? sum[j] : 1.25 * sum[j] + 1.0;
-                v->x[q] *= kind == DOMINANT && take(in) % 4 == 0 ? -1.0 : 1.0;
-            }
-        }
-    }
-    set_dense(s, v);
-}
-
-/* Any rows, some of them twice. */
-static void take_set(input_t *in, sl_int n, set_t *set) {
-    const int form = take(in);
-    set->is_all = form >= 240;
-    set->count = set->is_all ? n : n > 0 ? form % (SET + 1) : 0;
-    for (sl_int k = 0; k < set->count; k++) {
-        set->rows[k] = set->is_all ? k : take(in) % n;
-    }
-}
-
-static const sl_int *rows_of(const set_t *set) {
-    return set->is_all ? NULL : set->rows;
-}
+enum { STEPS = 60 };
 
 /* ---- the calls ---- */
 
@@ -901,6 +527,7 @@ static void reserve(input_t *in) {
     status = status ? status : sl_work_reserve_defects(work, f->F, nrhs);
     status = status ? status : sl_work_reserve_inverse(work, f->F, SET);
     status = status ? status : sl_work_reserve_block(work, f->F, SET, SET);
+    status = status ? status : sl_work_reserve_local(work, analyses[f->analysis].S, 1, MOST, nrhs);
     const int is_planned = p->P && p->analysis == f->analysis;
     status = status || !is_planned ? status : sl_work_reserve_plan(work, p->P, nrhs);
     status = status || !is_planned ? status : sl_work_reserve_refined(work, p->P, nrhs);
@@ -918,6 +545,11 @@ static void reserve(input_t *in) {
     PROMISE(sl_factor_refine(f->F, &A, X, SET, B, SET, nrhs, 0, work, &stats) == SL_OK);
     PROMISE(sl_factor_rcond(f->F, &A, &rcond, work) == SL_OK);
     PROMISE(sl_inverse_diagonal(f->F, X, NULL, 0, work, NULL) == SL_OK);
+    if (A.n_cols > 0) {
+        const sl_int row = A.n_cols / 2;
+        PROMISE(sl_local_solve(f->F, &row, 1, NULL, A.n_cols, X, SET, B, SET, nrhs, work, NULL) ==
+                SL_OK);
+    }
     if (is_planned) {
         status = sl_plan_solve(p->P, f->F, X, SET, B, SET, nrhs, work);
         PROMISE(status == SL_OK || (p->region >= 0 && status == SL_ERR_STATE));
@@ -925,6 +557,32 @@ static void reserve(input_t *in) {
         PROMISE(status == SL_OK || (p->region >= 0 && status == SL_ERR_STATE));
     }
     PROMISE(!has_failed && sl_work_bytes(work) == bytes);
+}
+
+/* sl_batch_solve_interleaved on copies of the right-hand sides; the solutions go to the X of the
+ * requests. */
+static sl_status batch_interleaved(const sl_request *requests, int count, const sl_options *opt,
+                                   sl_int *failed) {
+    static double X[REQUESTS][SET * RHS], B[REQUESTS][SET * RHS];
+    sl_request rows[REQUESTS];
+    memset(rows, 0, sizeof rows);
+    for (int k = 0; k < count; k++) {
+        rows[k] = requests[k];
+        rows[k].X = X[k];
+        rows[k].B = B[k];
+        rows[k].ldx = rows[k].ldb = RHS;
+        for (int q = 0; q < SET * RHS; q++) {
+            B[k][q] = requests[k].B[q / RHS + SET * (q % RHS)];
+            X[k][q] = 0.0;
+        }
+    }
+    const sl_status status = sl_batch_solve_interleaved(NULL, rows, count, opt, NULL, failed);
+    for (int k = 0; k < count; k++) {
+        for (int q = 0; q < SET * RHS; q++) {
+            requests[k].X[q / RHS + SET * (q % RHS)] = X[k][q];
+        }
+    }
+    return status;
 }
 
 /* A batch gives the bits of its solves. */
@@ -954,9 +612,12 @@ static void solve_batch(input_t *in) {
         q->plan = p && p->P && p->region < 0 && p->analysis == f->analysis ? p->P : NULL;
         all_valid &= f->is_valid;
     }
-    const sl_options opt = threaded(1 + take(in) % 4);
+    const int form = take(in);
+    const sl_options opt = threaded(1 + form % 4);
     memset(X, 0, sizeof X);
-    const sl_status status = sl_batch_solve(NULL, requests, count, &opt, NULL, &failed);
+    const sl_status status = form / 4 % 2
+                                 ? batch_interleaved(requests, count, &opt, &failed)
+                                 : sl_batch_solve(NULL, requests, count, &opt, NULL, &failed);
     PROMISE((failed == -1) == (status == SL_OK) || no_memory(status));
     PROMISE(all_valid || status == SL_ERR_STATE || no_memory(status));
     PROMISE(!all_valid || status == SL_OK || status == SL_ERR_INCONSISTENT || no_memory(status));
@@ -999,7 +660,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         create_analysis, create_factor, create_factor, combine, refactor,    refactor_changed,
         create_plan,     create_plan,   solve,         solve,   solve,       create_selected,
         create_region,   invert,        query,         reserve, solve_batch, release_one};
+    static void (*const more[])(input_t * in) = {
+        solve_rows,   multiply, build_matrices, look_into, batch_diagonal,
+        select_pairs, copy,     reserve_others};
     enum { CALLS = (int)(sizeof calls / sizeof calls[0]) };
+    enum { MORE = (int)(sizeof more / sizeof more[0]) };
     if (size == 0) {
         return 0;
     }
@@ -1013,8 +678,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (int step = 0; step < STEPS && in.at < in.end; step++) {
         const int byte = take(&in);
         has_failed = 0;
-        left = byte >= 13 * CALLS ? take(&in) % 24 : -1; /* one call in twelve may fail */
-        calls[byte % CALLS](&in);
+        const int may_fail = byte >= 13 * CALLS || byte / 8 == 18; /* one call in nine */
+        left = may_fail ? take(&in) % 24 : -1;
+        if (byte / 8 >= 18 && byte < 13 * CALLS) {
+            more[byte % MORE](&in);
+        } else {
+            calls[byte % CALLS](&in);
+        }
         left = -1;
     }
     for (int k = 0; k < ANALYSES; k++) {

@@ -13,19 +13,23 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 /* Sizes are small so that runs are short: two tiles of 8 rows, two blocks of 8 right-hand sides. */
 enum { MOST = 16, ENTRIES = 128, RHS = 9 };
 
-/* What a run does, chosen by the last byte of the input. A run of all parts would take five times
- * as long, and find no more: most combinations of inputs and parts are independent. */
-enum {
-    FACTOR_ONLY, /* solves with the first factor, a refactored one, a changed one, or all */
-    REFACTORED,
-    CHANGED,
-    ALL_STAGES,
-    STAGES = 3, /* the bits of the above */
-    IN_REGION = 4,
-    QUERIES = 8,
-    CONVERSIONS = 16,
-    SHOTS = 32
-};
+/* What a run does, chosen by the last byte of the input: full and local solves with one factor, and
+ * one kind of further calls. A run of everything would take five times as long and find no more:
+ * most combinations of inputs and parts are independent. */
+typedef enum stage_t { FIRST, REFACTORED, CHANGED, STAGES } stage_t;
+typedef enum part_t {
+    SOLVES,
+    SHOT,
+    REFINED_SHOT,
+    IN_REGION,
+    IN_SMALL_REGION,
+    REFINE,
+    CONDITION,
+    DEFECTS,
+    CONVERT,
+    TRANSPOSE,
+    PARTS
+} part_t;
 
 typedef struct input_t {
     const uint8_t *at, *end;
@@ -54,13 +58,15 @@ typedef struct case_t {
     sl_int signs[MOST];
     double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS], mass[MOST];
     sl_int nb, nx, nrhs;
-    int parts;
+    stage_t stage;
+    part_t part;
     sl_options for_analysis, for_factor;
 } case_t;
 
 static void take_matrix(case_t *c, input_t *in) {
     const int form = take(in);
-    const sl_int n = take(in) % (MOST + 1);
+    const int size = take(in);
+    const sl_int n = size < 128 ? size % 9 : size % (MOST + 1); /* often one tile */
     sl_off stored = 0;
     c->A.n_rows = form & 1 ? n : n + (form & 2 ? 1 : 0);
     c->A.n_cols = n;
@@ -154,8 +160,8 @@ static void take_options(case_t *c, input_t *in) {
     for (sl_int k = 0; k < c->nx; k++) {
         c->xset[k] = more & 2 ? take_row(in, n) : c->perm[n - 1 - k];
     }
-    for (sl_int q = 0; q < MOST * c->nrhs; q++) {
-        c->B[q] = take_value(in);
+    for (sl_int q = 0; q < c->nb * c->nrhs; q++) {
+        c->B[q % c->nb + MOST * (q / c->nb)] = take_value(in);
     }
     take_null_pivots(c, in, choices / 120);
 }
@@ -171,21 +177,25 @@ static sl_status solve_full(case_t *c, const sl_factor *F) {
     return sl_factor_solve(F, c->full, MOST, c->full, MOST, c->nrhs, NULL);
 }
 
-/* Calls without a plan: condition estimate, defects, refinement. */
-static void query_all(case_t *c, const sl_factor *F, sl_work *W) {
+/* Calls without a plan, and what they say about the factor. */
+static void query(case_t *c, const sl_factor *F, sl_work *W) {
     sl_int count = -1;
     double rcond = -1.0, defects[MOST * RHS];
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    sl_factor_stats(F, &stats);
-    PROMISE(sl_factor_null_rows(F, NULL, 0, &count) == SL_OK && count == stats.factor.null);
-    PROMISE(sl_factor_regularized_rows(F, NULL, NULL, 0, &count) == SL_OK);
-    PROMISE(count == stats.factor.regularized);
-    PROMISE(sl_factor_rcond(F, &c->A, &rcond, W) == SL_OK && rcond >= 0.0);
-    PROMISE(sl_factor_defects(F, defects, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
-    const sl_status refined =
-        sl_factor_refine(F, &c->A, c->full, MOST, c->B, MOST, c->nrhs, 3, W, &stats);
-    PROMISE(refined == (stats.refine.backward_error <= 1e-8 ? SL_OK : SL_ERR_INACCURATE));
+    if (c->part == CONDITION) {
+        PROMISE(sl_factor_rcond(F, &c->A, &rcond, W) == SL_OK && rcond >= 0.0);
+    } else if (c->part == DEFECTS) {
+        sl_factor_stats(F, &stats);
+        PROMISE(sl_factor_null_rows(F, NULL, 0, &count) == SL_OK && count == stats.factor.null);
+        PROMISE(sl_factor_regularized_rows(F, NULL, NULL, 0, &count) == SL_OK);
+        PROMISE(count == stats.factor.regularized);
+        PROMISE(sl_factor_defects(F, defects, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
+    } else if (c->part == REFINE) {
+        const sl_status refined =
+            sl_factor_refine(F, &c->A, c->full, MOST, c->B, MOST, c->nrhs, 3, W, &stats);
+        PROMISE(refined == (stats.refine.backward_error <= 1e-8 ? SL_OK : SL_ERR_INACCURATE));
+    }
 }
 
 static void compare(const case_t *c) {
@@ -202,39 +212,38 @@ static void compare(const case_t *c) {
 static void solve_in_region(case_t *c, const sl_symbolic *S, const sl_factor *F, sl_status shot,
                             sl_status full, sl_work *W) {
     sl_int set[2 * MOST];
+    sl_options opt;
+    sl_region *R = NULL;
+    sl_plan *P = NULL;
+    sl_stats stats;
+    const int has_boundary = c->part == IN_REGION;
+    memset(&opt, 0, sizeof opt);
+    memset(&stats, 0, sizeof stats);
     for (sl_int k = 0; k < c->nb + c->nx; k++) {
         set[k] = k < c->nb ? c->bset[k] : c->xset[k - c->nb];
     }
-    for (int has_no_limit = 0; has_no_limit < 2; has_no_limit++) {
-        sl_options opt;
-        sl_region *R = NULL;
-        sl_plan *P = NULL;
-        sl_stats stats;
-        memset(&opt, 0, sizeof opt);
-        memset(&stats, 0, sizeof stats);
-        opt.region_bytes = has_no_limit ? 0 : 1;
-        const sl_status status = sl_region_create(&R, F, set, c->nb + c->nx, NULL, &opt, &stats);
-        /* solves with weights subtract a mean */
-        PROMISE(status == SL_OK || status == SL_ERR_UNSUPPORTED);
-        if (status != SL_OK) {
-            return;
-        }
-        PROMISE(has_no_limit || stats.region.boundary == 0);
-        opt.region_bytes = 0;
-        opt.region = R;
-        PROMISE(sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, &opt, &stats) == SL_OK);
-        PROMISE(stats.plan.in_region == 1);
-        memset(c->X, 0, sizeof c->X);
-        const sl_status inside = sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W);
-        PROMISE(has_no_limit ? inside == SL_OK || inside == SL_ERR_INCONSISTENT : inside == shot);
-        if (!has_no_limit && full == SL_OK) {
-            compare(c);
-        }
-        PROMISE(sl_region_refactor(R, F, NULL, W) == SL_OK);
-        PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == inside);
-        sl_plan_free(P);
-        sl_region_free(R);
+    opt.region_bytes = has_boundary ? 0 : 1;
+    const sl_status status = sl_region_create(&R, F, set, c->nb + c->nx, NULL, &opt, &stats);
+    /* solves with weights subtract a mean */
+    PROMISE(status == SL_OK || status == SL_ERR_UNSUPPORTED);
+    if (status != SL_OK) {
+        return;
     }
+    PROMISE(has_boundary || stats.region.boundary == 0);
+    opt.region_bytes = 0;
+    opt.region = R;
+    PROMISE(sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, &opt, &stats) == SL_OK);
+    PROMISE(stats.plan.in_region == 1);
+    memset(c->X, 0, sizeof c->X);
+    const sl_status inside = sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W);
+    PROMISE(has_boundary ? inside == SL_OK || inside == SL_ERR_INCONSISTENT : inside == shot);
+    if (!has_boundary && full == SL_OK) {
+        compare(c);
+    }
+    PROMISE(sl_region_refactor(R, F, NULL, W) == SL_OK);
+    PROMISE(sl_plan_solve(P, F, c->X, MOST, c->B, MOST, c->nrhs, W) == inside);
+    sl_plan_free(P);
+    sl_region_free(R);
 }
 
 static void convert(const sl_factor *F) {
@@ -254,14 +263,14 @@ static void solve_parts(case_t *c, const sl_symbolic *S, sl_factor *F) {
     const sl_status planned = sl_plan_create(&P, S, c->bset, c->nb, c->xset, c->nx, NULL, NULL);
     PROMISE((P != NULL) == (planned == SL_OK));
     PROMISE(planned == SL_OK || planned == SL_ERR_ARGUMENT);
-    if (P == NULL || c->parts & SHOTS) {
+    if (P == NULL || c->part == SHOT) {
         const sl_status shot = sl_local_solve(F, c->bset, c->nb, c->xset, c->nx, c->X, MOST, c->B,
                                               MOST, c->nrhs, W, NULL);
         PROMISE(planned == shot || (planned == SL_OK && shot == SL_ERR_INCONSISTENT));
     }
     if (P) {
         const sl_status full = solve_full(c, F);
-        if (full == SL_OK && c->parts & SHOTS) {
+        if (full == SL_OK && c->part == SHOT) {
             compare(c);
         }
         memset(c->X, 0, sizeof c->X);
@@ -270,20 +279,18 @@ static void solve_parts(case_t *c, const sl_symbolic *S, sl_factor *F) {
         if (full == SL_OK) {
             compare(c);
         }
-        if (c->parts & QUERIES) {
+        if (c->part == REFINED_SHOT) {
             const sl_status refined =
                 sl_plan_solve_refined(P, F, c->X, MOST, c->B, MOST, c->nrhs, 3, W, NULL);
             PROMISE(refined == local || (local == SL_OK && (refined == SL_ERR_ARGUMENT ||
                                                             refined == SL_ERR_INACCURATE)));
         }
-        if (c->parts & IN_REGION) {
+        if (c->part == IN_REGION || c->part == IN_SMALL_REGION) {
             solve_in_region(c, S, F, local, full, W);
         }
     }
-    if (c->parts & QUERIES) {
-        query_all(c, F, W);
-    }
-    if (c->parts & CONVERSIONS) {
+    query(c, F, W);
+    if (c->part == CONVERT) {
         convert(F);
     }
     sl_work_free(W);
@@ -307,7 +314,6 @@ static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *
 
 /* New values on the same pattern, which may have no factor. */
 static void refactor(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in) {
-    const int stage = c->parts & STAGES;
     for (sl_int q = 0; q < c->p[c->A.n_cols]; q++) {
         c->x[q] = take_value(in);
     }
@@ -315,10 +321,9 @@ static void refactor(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in)
         PROMISE(sl_factor_solve(F, c->full, MOST, c->B, MOST, 1, NULL) == SL_ERR_STATE);
         return;
     }
-    if (stage == REFACTORED || stage == ALL_STAGES) {
+    if (c->stage == REFACTORED) {
         solve_parts(c, S, F);
-    }
-    if (stage == CHANGED || stage == ALL_STAGES) {
+    } else {
         change_half(c, S, F, in);
     }
 }
@@ -335,22 +340,23 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     in.end = data + size;
     memset(c, 0, sizeof *c); /* a run depends on its input alone */
-    c->parts = data[size - 1];
+    c->stage = (stage_t)(data[size - 1] % STAGES);
+    c->part = (part_t)(data[size - 1] / STAGES % PARTS);
     take_matrix(c, &in);
     take_options(c, &in);
     const sl_status good = sl_csc_check(&c->A, NULL);
-    PROMISE((sl_matrix_transpose(&T, &c->A, NULL) == SL_OK) == (good == SL_OK));
+    if (c->part == TRANSPOSE) {
+        PROMISE((sl_matrix_transpose(&T, &c->A, NULL) == SL_OK) == (good == SL_OK));
+    }
     const sl_status status = sl_symbolic_create(&S, &c->A, &c->for_analysis, NULL);
     PROMISE((S != NULL) == (status == SL_OK));
     if (S) {
         PROMISE(good == SL_OK && c->A.n_rows == c->A.n_cols);
-        const int stage = c->parts & STAGES;
         const sl_status made = sl_factor_create(&F, S, &c->A, &c->for_factor, NULL);
         PROMISE((F != NULL) == (made == SL_OK));
-        if (F && (stage == FACTOR_ONLY || stage == ALL_STAGES)) {
+        if (F && c->stage == FIRST) {
             solve_parts(c, S, F);
-        }
-        if (F && stage != FACTOR_ONLY) {
+        } else if (F) {
             refactor(c, S, F, &in);
         }
     }

@@ -101,6 +101,8 @@ static inline void cmocka_compare(uintmax_t a, uintmax_t b, int equal, const cha
     cmocka_check(strcmp((a), (b)) != 0, #a " is not the text of " #b, __FILE__, __LINE__)
 #define assert_memory_equal(a, b, size) \
     cmocka_check(memcmp((a), (b), (size)) == 0, #a " has the bytes of " #b, __FILE__, __LINE__)
+#define assert_memory_not_equal(a, b, size) \
+    cmocka_check(memcmp((a), (b), (size)) != 0, #a " has not the bytes of " #b, __FILE__, __LINE__)
 
 static inline void cmocka_in_range(uintmax_t a, uintmax_t low, uintmax_t high, const char *what,
                                    const char *file, int line) {
