@@ -50,7 +50,7 @@ distortion distortion_of(const mesh *patch, const double *uv) {
             kept += area;
         }
     }
-    d.conformal = bent == 0 ? 0 : d.area_flat > 0 ? bent / d.area_flat : INFINITY;
+    d.conformal = bent == 0 ? 0 : d.area_flat != 0 ? bent / d.area_flat : INFINITY;
     d.angle = kept > 0 ? d.angle / kept : INFINITY;
     d.isometric = d.area > 0 ? d.isometric / d.area : 0;
     d.area_spread = kept > 0 ? sqrt(fmax(0, squares / kept - logs / kept * (logs / kept))) : 0;

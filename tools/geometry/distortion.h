@@ -9,7 +9,7 @@
  *  a >= |b| are the singular values of the linear map of a face to the plane; b is negative if the
  *  face is flipped. All sums and means over faces are weighted by their areas in space. Degenerate
  *  faces are left out: those whose weights in the Laplacian are 0 (laplacian.h), and those without
- *  area in the plane. conformal is infinite if area_flat is not positive, angle if all faces are
+ *  area in the plane. conformal has the sign of area_flat; angle is infinite if all faces are
  *  flipped.
  */
 typedef struct distortion {
