@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 924b8712c0bfc3af
+ * FNV-1a of the lines after this comment, without the license: fb6519272cf3c5c8
  *
  * Contents
  * (what a user reads)
@@ -56,17 +56,17 @@
  *  17090 bilinear.h  17278 entries.h  17581 block.h  17839 reserve.h  18046 selected.h
  *  18257 selected_query.h  18365 region_choose.h  18617 region.h
  * (change: a factor that follows changes of its matrix)
- *  18864 update.h  19235 rank.h  19577 edges.h  19740 choose.h  19938 pins.h
+ *  18864 update.h  19243 rank.h  19585 edges.h  19748 choose.h  19946 pins.h
  * (save: factors in files)
- *  20547 format.h  20763 decode.h  20911 check.h  21270 write.h  21476 load.h
+ *  20555 format.h  20771 decode.h  20919 check.h  21278 write.h  21484 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21832 batch_solve.h  22056 batch_factor.h  22270 batch_diagonal.h
+ *  21840 batch_solve.h  22064 batch_factor.h  22278 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22418 undef.h
+ *  22426 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22556 multi_rhs.inl.h  22930 kernel_set.inl.h  22934 unit_triangle.inl.h  22975 two_rhs.inl.h
- *  23147 product.inl.h  23288 front.inl.h  23515 inverse_front.inl.h  23820 small_supernode.inl.h
- *  23988 single_rhs.inl.h  24252 change.inl.h
+ *  22564 multi_rhs.inl.h  22938 kernel_set.inl.h  22942 unit_triangle.inl.h  22983 two_rhs.inl.h
+ *  23155 product.inl.h  23296 front.inl.h  23523 inverse_front.inl.h  23828 small_supernode.inl.h
+ *  23996 single_rhs.inl.h  24260 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18959,19 +18959,40 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
   info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
+/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
+static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
+  sl_factor *F = u->F;
+  const double d = F->D[k];
+  u->value = e;
+  u->pivot = k;
+  if (!sli_is_finite(e)) {
+    return SL_ERR_NOT_FINITE;
+  }
+  if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
+    (fabs(e) < fabs(d) && !u->is_tried && sli_update_is_null(F, k, e, magnitude))) {
+    return SL_ERR_PIVOT;
+  }
+  if (!u->is_trial) {
+    u->most = magnitude > u->most ? magnitude : u->most;
+    sli_update_count(&F->stats.factor, d, e);
+    F->D[k] = e;
+  }
+  return SL_OK;
+}
+
 /* Changes pivot k. y: its row of W, entries `stride` apart. Writes y and -b to c. */
 static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_int stride,
                   double *c) {
-  sl_factor *F = u->F;
-  const double d = F->D[k];
-  double e = d, magnitude = fabs(d), b[SLI_TILE], any = 0.0;
-  sl_int i, r;
+  const double d = u->F->D[k];
+  double e = d, inverse = 1.0 / d, magnitude = fabs(d), b[SLI_TILE];
+  sl_int i, r, any = 0;
+  sl_status status;
   for (r = 0; r < u->lanes; r++) {
     c[r] = y[stride * r];
     c[u->lanes + r] = 0.0;
-    any = fmax(any, fabs(c[r]));
+    any |= c[r] != 0.0;
   }
-  if (any == 0.0) {
+  if (!any) {
     return SL_OK;
   }
   for (r = 0; r < u->ranks; r++) {
@@ -18983,39 +19004,23 @@ static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_i
     b[r] = u->alpha[r] * f;
     e += b[r] * f;
     magnitude += fabs(b[r] * f);
-    u->alpha[r] *= before / e;
-    p = -f / before;
+    if (!(fabs(e) > 0.0)) { /* 0 or NaN */
+      return sli_update_take(u, k, e, magnitude);
+    }
+    p = -f * inverse;
+    inverse = 1.0 / e;
+    u->alpha[r] *= before * inverse;
     for (i = 0; i < r; i++) {
       const double t = u->U[i][r];
       u->U[i][r] = t + b[i] * p;
       b[i] += t * b[r];
     }
-    if (!(fabs(e) > 0.0)) { /* 0 or NaN: the next quotient would be infinite */
-      break;
-    }
   }
-  if (!u->is_trial) {
-    u->most = fmax(u->most, magnitude);
-  }
-  u->value = e;
-  u->pivot = k;
-  if (!sli_is_finite(e)) {
-    return SL_ERR_NOT_FINITE;
-  }
-  if ((u->keeps_signs && !(e * d > 0.0)) ||
-    r < u->ranks ||
-    (fabs(e) < fabs(d) && !u->is_tried && sli_update_is_null(F, k, e, magnitude))) {
-    return SL_ERR_PIVOT;
-  }
-  if (u->is_trial) {
-    return SL_OK;
-  }
+  status = sli_update_take(u, k, e, magnitude);
   for (r = 0; r < u->ranks; r++) {
-    c[u->lanes + r] = -b[r] / e;
+    c[u->lanes + r] = -b[r] * inverse;
   }
-  sli_update_count(&F->stats.factor, d, e);
-  F->D[k] = e;
-  return SL_OK;
+  return status;
 }
 
 /* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
@@ -19024,19 +19029,22 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   double *l = u->F->L + step->panel + sli_panel_at(step->width, first, first);
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
   const sl_int start = step->column - SLI_TILE * step->first_tile;
-  sl_int j, i, r;
+  sl_int j, i;
   for (j = 0; j < columns; j++, l += SLI_TILE, at += 2 * (ptrdiff_t)u->lanes) {
     const sl_status status = sli_update_pivot(u, start + first + j, w + j, SLI_TILE, at);
     if (status != SL_OK) {
       return status;
     }
-    for (i = j + 1; i < SLI_TILE; i++) {
-      double sum = l[i];
-      for (r = 0; r < u->ranks; r++) {
-        w[SLI_TILE * r + i] -= l[i] * at[r];
-        sum -= w[SLI_TILE * r + i] * at[u->lanes + r];
+    if (u->kind == SLI_NRHS_1) {
+      for (i = j + 1; i < SLI_TILE; i++) {
+        w[i] -= l[i] * at[0];
+        l[i] -= w[i] * at[1];
       }
-      l[i] = sum;
+      continue;
+    }
+    u->F->kernels->change[u->kind](l, 1, at, w);
+    for (i = 0; i <= j; i++) { /* the kernel has changed the part above the diagonal, too */
+      l[i] = 0.0;
     }
   }
   return SL_OK;

@@ -40,6 +40,7 @@ void bench_adf(bench_run *run);
 void bench_shifted(bench_run *run);
 void bench_neumann(bench_run *run);
 void bench_saved(bench_run *run);
+void bench_change(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);

@@ -51,6 +51,7 @@ static const question questions[] = {
     {"neumann", "zero-mean solutions of singular Laplacians against shifted ones; refinement",
      bench_neumann},
     {"saved", "factors in files: saved, loaded, mapped, shared by processes", bench_saved},
+    {"change", "entries changed by rank-one updates against refactorizations; pins", bench_change},
 #ifdef SL_BENCH_PEERS
     {"peers", "CHOLMOD and Eigen: setup, refactorization, full and local solves", bench_peers},
     {"peers_harmonic", "the same steps on harmonic, biharmonic and triharmonic systems",

@@ -259,6 +259,9 @@ static void invalid_arguments_are_refused(void **state) {
     sl_pins *P = NULL;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(NULL, p.y.F, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(&P, NULL, NULL));
+    sl_options wrong = options_none();
+    wrong.size = 1;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(&P, p.y.F, &wrong));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(NULL, 0, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, -1, &stats));
     assert_int_equal(stats.error.row, -1);
