@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: fb6519272cf3c5c8
+ * FNV-1a of the lines after this comment, without the license: 76646cfe1a113a24
  *
  * Contents
  * (what a user reads)
@@ -29,44 +29,44 @@
  *   3205 sort.h   3275 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   3313 panel.h   3345 step.h   3402 pivot_rule.h   3487 front.h   3564 pairs.h
- *   3782 inverse_front.h   3874 table.h   3904 simd.h   3998 simd_scalar.h   4117 simd_avx2.h
- *   4311 simd_avx512.h   4417 simd_neon.h   4597 dispatch.h
+ *   3796 inverse_front.h   3888 table.h   3918 simd.h   4012 simd_scalar.h   4131 simd_avx2.h
+ *   4325 simd_avx512.h   4431 simd_neon.h   4611 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4687 csc.h   4801 csc_build.h   4940 csc64.h   5017 csc_triangle.h   5088 csc_products.h
- *   5212 permute.h   5281 sum.h   5366 output_file.h   5595 matrix_market.h
+ *   4701 csc.h   4815 csc_build.h   4954 csc64.h   5031 csc_triangle.h   5102 csc_products.h
+ *   5226 permute.h   5295 sum.h   5380 output_file.h   5609 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6074 graph.h   6240 coarsen.h   6517 labels.h   6730 subgraph.h   6941 heap.h   7004 bisect.h
- *   7254 separator.h   7545 mindeg.h   7741 dissect.h   8091 levelset.h   8221 geometric.h
- *   8432 septree.h   8497 metis.h   8654 metis_refined.h   8780 nd.h   8987 compress.h
- *   9116 quotient.h   9531 order.h
+ *   6088 graph.h   6254 coarsen.h   6531 labels.h   6744 subgraph.h   6955 heap.h   7018 bisect.h
+ *   7268 separator.h   7559 mindeg.h   7755 dissect.h   8105 levelset.h   8235 geometric.h
+ *   8446 septree.h   8511 metis.h   8668 metis_refined.h   8794 nd.h   9001 compress.h
+ *   9130 quotient.h   9545 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9753 symbolic_types.h   9798 etree.h   9878 counts.h   9948 supernodes.h  10209 structure.h
- *  10350 schedule.h  10565 symbolic.h  10946 reach.h
+ *   9767 symbolic_types.h   9812 etree.h   9892 counts.h   9962 supernodes.h  10223 structure.h
+ *  10364 schedule.h  10579 symbolic.h  10960 reach.h
  * (factor: the numbers of L and D)
- *  11257 factor_types.h  11609 pivot_search.h  11980 pivoted.h  12049 scatter.h  12222 uplooking.h
- *  12299 null_vectors.h  12594 multifrontal.h  12856 nullspace.h  13107 growth.h
- *  13201 factor_setup.h  13471 factor.h  13684 leftlooking.h  13871 factor_query.h
- *  14007 combination.h
+ *  11271 factor_types.h  11626 pivot_search.h  11997 pivoted.h  12066 scatter.h  12239 uplooking.h
+ *  12316 null_vectors.h  12611 multifrontal.h  12873 nullspace.h  13124 growth.h
+ *  13218 factor_setup.h  13488 factor.h  13701 leftlooking.h  13888 factor_query.h
+ *  14024 combination.h
  * (solve: full and local solves)
- *  14069 region_types.h  14187 work.h  14291 query.h  14492 singular.h  14723 backward.h
- *  14758 sweep.h  14930 compile.h  15139 plan.h  15246 local.h  15404 parts.h  15707 refine.h
- *  15890 refine_local.h  16115 rcond.h  16285 defects.h
+ *  14086 region_types.h  14204 work.h  14308 query.h  14509 singular.h  14740 backward.h
+ *  14773 sweep.h  14945 compile.h  15154 plan.h  15261 local.h  15419 parts.h  15722 refine.h
+ *  15905 refine_local.h  16130 rcond.h  16300 defects.h
  * (inverse: entries of the inverse, regions)
- *  16341 traversal.h  16619 traversal_run.h  16800 row_sets.h  16831 unit_vectors.h
- *  17090 bilinear.h  17278 entries.h  17581 block.h  17839 reserve.h  18046 selected.h
- *  18257 selected_query.h  18365 region_choose.h  18617 region.h
+ *  16356 traversal.h  16634 traversal_run.h  16815 row_sets.h  16846 unit_vectors.h
+ *  17105 bilinear.h  17293 entries.h  17596 block.h  17854 reserve.h  18061 selected.h
+ *  18272 selected_query.h  18380 region_choose.h  18632 region.h
  * (change: a factor that follows changes of its matrix)
- *  18864 update.h  19243 rank.h  19585 edges.h  19748 choose.h  19946 pins.h
+ *  18879 update.h  19258 rank.h  19600 edges.h  19763 choose.h  19961 pins.h
  * (save: factors in files)
- *  20555 format.h  20771 decode.h  20919 check.h  21278 write.h  21484 load.h
+ *  20570 format.h  20786 decode.h  20934 check.h  21293 write.h  21499 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21840 batch_solve.h  22064 batch_factor.h  22278 batch_diagonal.h
+ *  21855 batch_solve.h  22079 batch_factor.h  22293 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22426 undef.h
+ *  22441 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22564 multi_rhs.inl.h  22938 kernel_set.inl.h  22942 unit_triangle.inl.h  22983 two_rhs.inl.h
- *  23155 product.inl.h  23296 front.inl.h  23523 inverse_front.inl.h  23828 small_supernode.inl.h
- *  23996 single_rhs.inl.h  24260 change.inl.h
+ *  22579 multi_rhs.inl.h  22953 kernel_set.inl.h  22957 unit_triangle.inl.h  22998 two_rhs.inl.h
+ *  23170 product.inl.h  23311 front.inl.h  23538 inverse_front.inl.h  23843 small_supernode.inl.h
+ *  24011 single_rhs.inl.h  24275 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3579,27 +3579,39 @@ SLI_INLINE int sli_tile_has_pairs(const sli_front *f, sl_int c) {
   return any != 0;
 }
 
-/* [a e; e b]^-1 = [p q; q r] */
+/* How [a e; e b] (l, m)' = (x, y)' is solved: one elimination step. Its pivot is e, which swaps the
+ * equations, if |a b| <= e^2, and a otherwise. Then the product that is subtracted from the other
+ * entry is not larger than that entry, and the residual is within rounding of |D| |l|. An explicit
+ * inverse would multiply it by the condition of the block. */
+typedef struct sli_pair_steps {
+  int is_swapped;     /* y belongs to the first equation */
+  double factor;      /* of the first equation, subtracted from the second */
+  double coefficient; /* of m in the first equation */
+  double l, m;        /* reciprocals of the pivots */
+} sli_pair_steps;
+
+SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
+  sli_pair_steps steps;
+  steps.is_swapped = fabs(a / e * b) <= fabs(e); /* not if e is 0 */
+  steps.factor = steps.is_swapped ? a / e : e / a;
+  steps.coefficient = steps.is_swapped ? b : e;
+  steps.l = 1.0 / (steps.is_swapped ? e : a);
+  steps.m = 1.0 / ((steps.is_swapped ? e : b) - steps.factor * steps.coefficient);
+  return steps;
+}
+
+/* (l, m) := D^-1 (x, y); x and l may be the same, and so may y and m. */
+SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, double *l,
+                 double *m) {
+  const double first = steps->is_swapped ? y : x, second = steps->is_swapped ? x : y;
+  *m = (second - steps->factor * first) * steps->m;
+  *l = (first - steps->coefficient * *m) * steps->l;
+}
+
+/* A symmetric block [p q; q r]. */
 typedef struct sli_pair {
   double p, q, r;
 } sli_pair;
-
-/* Divided by e, the products cannot overflow; where e is negligible, the block is diagonal. */
-SLI_INLINE sli_pair sli_pair_invert(double a, double b, double e) {
-  const double f = a / e, g = b / e, product = f * g;
-  sli_pair inverse;
-  if (fabs(product) <= 1e100) {
-    const double t = 1.0 / (product - 1.0) / e;
-    inverse.p = g * t;
-    inverse.q = -t;
-    inverse.r = f * t;
-  } else {
-    inverse.p = 1.0 / a;
-    inverse.q = -(e / a) / b;
-    inverse.r = 1.0 / b;
-  }
-  return inverse;
-}
 
 /* |D| = (D^2)^(1/2) = [p q; q r], positive semidefinite. |l' D l| alone may be 0 where an update
  * cancels the whole row, as in a constraint that repeats another one: l' |D| l is not. */
@@ -3694,12 +3706,13 @@ static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_
   double *magnitude = f->magnitude + first, *u = p + SLI_TILE * k, *v = u + SLI_TILE;
   double a = u[k], b = v[k + 1], x[2][SLI_TILE], l[2][SLI_TILE];
   const double e = u[k + 1];
-  sli_pair inverse, size;
+  sli_pair_steps steps;
+  sli_pair size;
   sl_int r;
   if (f->rule->replaces) {
     sli_pair_by_rule(f->rule, f->column + first + k, &a, &b, e, magnitude + k);
   }
-  inverse = sli_pair_invert(a, b, e);
+  steps = sli_pair_eliminate(a, b, e);
   size = sli_pair_absolute(a, b, e);
   f->D[first + k] = a;
   f->D[first + k + 1] = b;
@@ -3712,9 +3725,11 @@ static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_
   for (r = 0; r < SLI_TILE; r++) {
     x[0][r] = u[r];
     x[1][r] = v[r];
-    l[0][r] = r > k + 1 ? inverse.p * u[r] + inverse.q * v[r] : 0.0;
-    l[1][r] = r > k + 1 ? inverse.q * u[r] + inverse.r * v[r] : 0.0;
-    magnitude[r] += r > k + 1 ? sli_pair_gain(&size, l[0][r], l[1][r]) : 0.0;
+    l[0][r] = l[1][r] = 0.0;
+    if (r > k + 1) {
+      sli_pair_solve(&steps, u[r], v[r], &l[0][r], &l[1][r]);
+      magnitude[r] += sli_pair_gain(&size, l[0][r], l[1][r]);
+    }
     u[r] = l[0][r];
     v[r] = l[1][r];
   }
@@ -3746,19 +3761,18 @@ static void sli_pair_tile(const sli_front *f, sl_int c, double *reciprocals) {
 static void sli_pair_rows(const sli_front *f, sl_int c, sl_int t0, sl_int t1) {
   sl_int k, t, r;
   for (k = SLI_TILE * c; k < sli_min(f->width, SLI_TILE * (c + 1)); k++) {
-    sli_pair inverse, size;
+    sli_pair_steps steps;
+    sli_pair size;
     if (f->pairs[k] != SLI_PAIR_FIRST) {
       continue;
     }
-    inverse = sli_pair_invert(f->D[k], f->D[k + 1], f->E[k]);
+    steps = sli_pair_eliminate(f->D[k], f->D[k + 1], f->E[k]);
     size = sli_pair_absolute(f->D[k], f->D[k + 1], f->E[k]);
     for (t = t0; t < t1; t++) {
       double *u = f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)k;
       double *v = u + SLI_TILE, *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
       for (r = 0; r < SLI_TILE; r++) {
-        const double x = u[r], y = v[r];
-        u[r] = inverse.p * x + inverse.q * y;
-        v[r] = inverse.q * x + inverse.r * y;
+        sli_pair_solve(&steps, u[r], v[r], &u[r], &v[r]);
         magnitude[r] += sli_pair_gain(&size, u[r], v[r]);
       }
     }
@@ -11530,18 +11544,21 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
   return SL_OK;
 }
 
-/* Records the magnitudes that column k of a 2x2 pivot of supernode s was computed from. At the
- * first column, refuses a pivot that is not finite or null. */
+/* At the first column k of a 2x2 pivot of supernode s: records the magnitudes that both columns
+ * were computed from, and refuses a pivot that is not finite or null. */
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
                   sli_failure *failure) {
   double a, b, e;
-  sli_record_magnitude(F, s, k, magnitude[0]);
+  sl_int r;
   if (F->S->pairs[k] == SLI_PAIR_SECOND) {
     return SL_OK;
   }
   a = F->D[k];
   b = F->D[k + 1];
   e = F->E[k];
+  for (r = 0; r < 2; r++) { /* e does not show in the magnitudes */
+    sli_record_magnitude(F, s, k + r, magnitude[r] > fabs(e) ? magnitude[r] : fabs(e));
+  }
   if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
     return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1,
             !sli_is_finite(a)   ? a
@@ -11717,10 +11734,10 @@ static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
  * are updated. */
 static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
   double *u = sli_dense_column(f, k), *v = u;
+  const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
   sl_int i, j;
-  sli_pair inverse;
-  inverse.p = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
-  inverse.q = inverse.r = 0.0;
+  sli_pair_steps steps;
+  memset(&steps, 0, sizeof steps);
   f->D[k] = u[k];
   f->E[k] = 0.0;
   if (size == 2) {
@@ -11728,13 +11745,13 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
     f->E[k] = u[k + 1];
     f->D[k + 1] = v[k + 1];
     f->E[k + 1] = 0.0;
-    inverse = sli_pair_invert(u[k], v[k + 1], u[k + 1]);
+    steps = sli_pair_eliminate(u[k], v[k + 1], u[k + 1]);
   }
   for (j = k + size; j < f->columns; j++) { /* x is symmetric: row j of it is in both columns */
     double *column = sli_dense_column(f, j);
-    const double x = inverse.p * u[j] + inverse.q * v[j];
-    const double y = inverse.q * u[j] + inverse.r * v[j];
+    double x = inverse * u[j], y;
     if (size == 2) {
+      sli_pair_solve(&steps, u[j], v[j], &x, &y);
       for (i = k + 2; i < f->rows; i++) {
         column[i] -= u[i] * x + v[i] * y;
       }
@@ -11745,10 +11762,10 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
     }
   }
   for (i = k + size; i < f->rows; i++) {
-    const double x = u[i], y = v[i];
-    u[i] = inverse.p * x + inverse.q * y;
     if (size == 2) {
-      v[i] = inverse.q * x + inverse.r * y;
+      sli_pair_solve(&steps, u[i], v[i], &u[i], &v[i]);
+    } else {
+      u[i] *= inverse;
     }
   }
 }
@@ -14731,15 +14748,13 @@ static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, s
     const sl_int first = step->column, columns = sli_step_columns(step);
     double *row = x + (ptrdiff_t)step->base * lanes;
     for (k = first; k < first + columns; k++, row += lanes) {
-      sli_pair inverse;
+      sli_pair_steps steps;
       if (F->S->pairs[k] != SLI_PAIR_FIRST) {
         continue;
       }
-      inverse = sli_pair_invert(F->D[k], F->D[k + 1], F->E[k]);
+      steps = sli_pair_eliminate(F->D[k], F->D[k + 1], F->E[k]);
       for (r = 0; r < lanes; r++) {
-        const double u = row[r], v = row[lanes + r];
-        row[r] = inverse.p * u + inverse.q * v;
-        row[lanes + r] = inverse.q * u + inverse.r * v;
+        sli_pair_solve(&steps, row[r], row[lanes + r], &row[r], &row[lanes + r]);
       }
     }
   }

@@ -281,18 +281,21 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return SL_OK;
 }
 
-/* Records the magnitudes that column k of a 2x2 pivot of supernode s was computed from. At the
- * first column, refuses a pivot that is not finite or null. */
+/* At the first column k of a 2x2 pivot of supernode s: records the magnitudes that both columns
+ * were computed from, and refuses a pivot that is not finite or null. */
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
                                     sli_failure *failure) {
     double a, b, e;
-    sli_record_magnitude(F, s, k, magnitude[0]);
+    sl_int r;
     if (F->S->pairs[k] == SLI_PAIR_SECOND) {
         return SL_OK;
     }
     a = F->D[k];
     b = F->D[k + 1];
     e = F->E[k];
+    for (r = 0; r < 2; r++) { /* e does not show in the magnitudes */
+        sli_record_magnitude(F, s, k + r, magnitude[r] > fabs(e) ? magnitude[r] : fabs(e));
+    }
     if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
         return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1,
                         !sli_is_finite(a)   ? a

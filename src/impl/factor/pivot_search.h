@@ -114,10 +114,10 @@ static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
  * are updated. */
 static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
     double *u = sli_dense_column(f, k), *v = u;
+    const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
     sl_int i, j;
-    sli_pair inverse;
-    inverse.p = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
-    inverse.q = inverse.r = 0.0;
+    sli_pair_steps steps;
+    memset(&steps, 0, sizeof steps);
     f->D[k] = u[k];
     f->E[k] = 0.0;
     if (size == 2) {
@@ -125,13 +125,13 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
         f->E[k] = u[k + 1];
         f->D[k + 1] = v[k + 1];
         f->E[k + 1] = 0.0;
-        inverse = sli_pair_invert(u[k], v[k + 1], u[k + 1]);
+        steps = sli_pair_eliminate(u[k], v[k + 1], u[k + 1]);
     }
     for (j = k + size; j < f->columns; j++) { /* x is symmetric: row j of it is in both columns */
         double *column = sli_dense_column(f, j);
-        const double x = inverse.p * u[j] + inverse.q * v[j];
-        const double y = inverse.q * u[j] + inverse.r * v[j];
+        double x = inverse * u[j], y;
         if (size == 2) {
+            sli_pair_solve(&steps, u[j], v[j], &x, &y);
             for (i = k + 2; i < f->rows; i++) {
                 column[i] -= u[i] * x + v[i] * y;
             }
@@ -142,10 +142,10 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
         }
     }
     for (i = k + size; i < f->rows; i++) {
-        const double x = u[i], y = v[i];
-        u[i] = inverse.p * x + inverse.q * y;
         if (size == 2) {
-            v[i] = inverse.q * x + inverse.r * y;
+            sli_pair_solve(&steps, u[i], v[i], &u[i], &v[i]);
+        } else {
+            u[i] *= inverse;
         }
     }
 }

@@ -20,27 +20,39 @@ SLI_INLINE int sli_tile_has_pairs(const sli_front *f, sl_int c) {
     return any != 0;
 }
 
-/* [a e; e b]^-1 = [p q; q r] */
+/* How [a e; e b] (l, m)' = (x, y)' is solved: one elimination step. Its pivot is e, which swaps the
+ * equations, if |a b| <= e^2, and a otherwise. Then the product that is subtracted from the other
+ * entry is not larger than that entry, and the residual is within rounding of |D| |l|. An explicit
+ * inverse would multiply it by the condition of the block. */
+typedef struct sli_pair_steps {
+    int is_swapped;     /* y belongs to the first equation */
+    double factor;      /* of the first equation, subtracted from the second */
+    double coefficient; /* of m in the first equation */
+    double l, m;        /* reciprocals of the pivots */
+} sli_pair_steps;
+
+SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
+    sli_pair_steps steps;
+    steps.is_swapped = fabs(a / e * b) <= fabs(e); /* not if e is 0 */
+    steps.factor = steps.is_swapped ? a / e : e / a;
+    steps.coefficient = steps.is_swapped ? b : e;
+    steps.l = 1.0 / (steps.is_swapped ? e : a);
+    steps.m = 1.0 / ((steps.is_swapped ? e : b) - steps.factor * steps.coefficient);
+    return steps;
+}
+
+/* (l, m) := D^-1 (x, y); x and l may be the same, and so may y and m. */
+SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, double *l,
+                               double *m) {
+    const double first = steps->is_swapped ? y : x, second = steps->is_swapped ? x : y;
+    *m = (second - steps->factor * first) * steps->m;
+    *l = (first - steps->coefficient * *m) * steps->l;
+}
+
+/* A symmetric block [p q; q r]. */
 typedef struct sli_pair {
     double p, q, r;
 } sli_pair;
-
-/* Divided by e, the products cannot overflow; where e is negligible, the block is diagonal. */
-SLI_INLINE sli_pair sli_pair_invert(double a, double b, double e) {
-    const double f = a / e, g = b / e, product = f * g;
-    sli_pair inverse;
-    if (fabs(product) <= 1e100) {
-        const double t = 1.0 / (product - 1.0) / e;
-        inverse.p = g * t;
-        inverse.q = -t;
-        inverse.r = f * t;
-    } else {
-        inverse.p = 1.0 / a;
-        inverse.q = -(e / a) / b;
-        inverse.r = 1.0 / b;
-    }
-    return inverse;
-}
 
 /* |D| = (D^2)^(1/2) = [p q; q r], positive semidefinite. |l' D l| alone may be 0 where an update
  * cancels the whole row, as in a constraint that repeats another one: l' |D| l is not. */
@@ -135,12 +147,13 @@ static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_
     double *magnitude = f->magnitude + first, *u = p + SLI_TILE * k, *v = u + SLI_TILE;
     double a = u[k], b = v[k + 1], x[2][SLI_TILE], l[2][SLI_TILE];
     const double e = u[k + 1];
-    sli_pair inverse, size;
+    sli_pair_steps steps;
+    sli_pair size;
     sl_int r;
     if (f->rule->replaces) {
         sli_pair_by_rule(f->rule, f->column + first + k, &a, &b, e, magnitude + k);
     }
-    inverse = sli_pair_invert(a, b, e);
+    steps = sli_pair_eliminate(a, b, e);
     size = sli_pair_absolute(a, b, e);
     f->D[first + k] = a;
     f->D[first + k + 1] = b;
@@ -153,9 +166,11 @@ static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_
     for (r = 0; r < SLI_TILE; r++) {
         x[0][r] = u[r];
         x[1][r] = v[r];
-        l[0][r] = r > k + 1 ? inverse.p * u[r] + inverse.q * v[r] : 0.0;
-        l[1][r] = r > k + 1 ? inverse.q * u[r] + inverse.r * v[r] : 0.0;
-        magnitude[r] += r > k + 1 ? sli_pair_gain(&size, l[0][r], l[1][r]) : 0.0;
+        l[0][r] = l[1][r] = 0.0;
+        if (r > k + 1) {
+            sli_pair_solve(&steps, u[r], v[r], &l[0][r], &l[1][r]);
+            magnitude[r] += sli_pair_gain(&size, l[0][r], l[1][r]);
+        }
         u[r] = l[0][r];
         v[r] = l[1][r];
     }
@@ -187,19 +202,18 @@ static void sli_pair_tile(const sli_front *f, sl_int c, double *reciprocals) {
 static void sli_pair_rows(const sli_front *f, sl_int c, sl_int t0, sl_int t1) {
     sl_int k, t, r;
     for (k = SLI_TILE * c; k < sli_min(f->width, SLI_TILE * (c + 1)); k++) {
-        sli_pair inverse, size;
+        sli_pair_steps steps;
+        sli_pair size;
         if (f->pairs[k] != SLI_PAIR_FIRST) {
             continue;
         }
-        inverse = sli_pair_invert(f->D[k], f->D[k + 1], f->E[k]);
+        steps = sli_pair_eliminate(f->D[k], f->D[k + 1], f->E[k]);
         size = sli_pair_absolute(f->D[k], f->D[k + 1], f->E[k]);
         for (t = t0; t < t1; t++) {
             double *u = f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)k;
             double *v = u + SLI_TILE, *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
             for (r = 0; r < SLI_TILE; r++) {
-                const double x = u[r], y = v[r];
-                u[r] = inverse.p * x + inverse.q * y;
-                v[r] = inverse.q * x + inverse.r * y;
+                sli_pair_solve(&steps, u[r], v[r], &u[r], &v[r]);
                 magnitude[r] += sli_pair_gain(&size, u[r], v[r]);
             }
         }

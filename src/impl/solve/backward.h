@@ -14,15 +14,13 @@ static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, s
         const sl_int first = step->column, columns = sli_step_columns(step);
         double *row = x + (ptrdiff_t)step->base * lanes;
         for (k = first; k < first + columns; k++, row += lanes) {
-            sli_pair inverse;
+            sli_pair_steps steps;
             if (F->S->pairs[k] != SLI_PAIR_FIRST) {
                 continue;
             }
-            inverse = sli_pair_invert(F->D[k], F->D[k + 1], F->E[k]);
+            steps = sli_pair_eliminate(F->D[k], F->D[k + 1], F->E[k]);
             for (r = 0; r < lanes; r++) {
-                const double u = row[r], v = row[lanes + r];
-                row[r] = inverse.p * u + inverse.q * v;
-                row[lanes + r] = inverse.q * u + inverse.r * v;
+                sli_pair_solve(&steps, row[r], row[lanes + r], &row[r], &row[lanes + r]);
             }
         }
     }
