@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 76646cfe1a113a24
+ * FNV-1a of the lines after this comment, without the license: 7ef7b40fbb9ce9f8
  *
  * Contents
  * (what a user reads)
@@ -10,63 +10,63 @@
  *    496 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    638 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    810 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    929 factor.h     the numerical factorization P A P' = L D L'
- *   1132 solve.h      full solves, and the workspace of all solves
- *   1242 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1336 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1448 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1557 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1693 batch.h      many independent solves by one call, distributed over threads
- *   1743 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1921 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2040 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2143 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2278 change.h     a factor that follows small changes of its matrix
- *   2364 pins.h       rows held at given values, on top of a factor that stays as it is
+ *    935 factor.h     the numerical factorization P A P' = L D L'
+ *   1138 solve.h      full solves, and the workspace of all solves
+ *   1248 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1342 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1454 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1563 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1699 batch.h      many independent solves by one call, distributed over threads
+ *   1749 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1927 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2046 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2149 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2284 change.h     a factor that follows small changes of its matrix
+ *   2370 pins.h       rows held at given values, on top of a factor that stays as it is
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2464 base.h   2710 status.h   2773 options.h   2835 alloc.h   2960 hash.h   3104 file_map.h
- *   3205 sort.h   3275 parallel.h
+ *   2470 base.h   2716 status.h   2779 options.h   2841 alloc.h   2966 hash.h   3110 file_map.h
+ *   3211 sort.h   3281 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3313 panel.h   3345 step.h   3402 pivot_rule.h   3487 front.h   3564 pairs.h
- *   3796 inverse_front.h   3888 table.h   3918 simd.h   4012 simd_scalar.h   4131 simd_avx2.h
- *   4325 simd_avx512.h   4431 simd_neon.h   4611 dispatch.h
+ *   3319 panel.h   3351 step.h   3408 pivot_rule.h   3493 front.h   3570 pairs.h
+ *   3802 inverse_front.h   3894 table.h   3924 simd.h   4018 simd_scalar.h   4137 simd_avx2.h
+ *   4331 simd_avx512.h   4437 simd_neon.h   4617 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4701 csc.h   4815 csc_build.h   4954 csc64.h   5031 csc_triangle.h   5102 csc_products.h
- *   5226 permute.h   5295 sum.h   5380 output_file.h   5609 matrix_market.h
+ *   4707 csc.h   4821 csc_build.h   4960 csc64.h   5037 csc_triangle.h   5108 csc_products.h
+ *   5232 permute.h   5301 sum.h   5386 output_file.h   5615 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6088 graph.h   6254 coarsen.h   6531 labels.h   6744 subgraph.h   6955 heap.h   7018 bisect.h
- *   7268 separator.h   7559 mindeg.h   7755 dissect.h   8105 levelset.h   8235 geometric.h
- *   8446 septree.h   8511 metis.h   8668 metis_refined.h   8794 nd.h   9001 compress.h
- *   9130 quotient.h   9545 order.h
+ *   6094 graph.h   6260 coarsen.h   6537 labels.h   6750 subgraph.h   6961 heap.h   7024 bisect.h
+ *   7274 separator.h   7565 mindeg.h   7761 dissect.h   8111 levelset.h   8241 geometric.h
+ *   8452 septree.h   8517 metis.h   8674 metis_refined.h   8800 nd.h   9007 compress.h
+ *   9136 quotient.h   9551 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9767 symbolic_types.h   9812 etree.h   9892 counts.h   9962 supernodes.h  10223 structure.h
- *  10364 schedule.h  10579 symbolic.h  10960 reach.h
+ *   9819 symbolic_types.h   9864 etree.h   9944 counts.h  10014 supernodes.h  10275 structure.h
+ *  10416 schedule.h  10631 symbolic.h  11012 reach.h
  * (factor: the numbers of L and D)
- *  11271 factor_types.h  11626 pivot_search.h  11997 pivoted.h  12066 scatter.h  12239 uplooking.h
- *  12316 null_vectors.h  12611 multifrontal.h  12873 nullspace.h  13124 growth.h
- *  13218 factor_setup.h  13488 factor.h  13701 leftlooking.h  13888 factor_query.h
- *  14024 combination.h
+ *  11323 factor_types.h  11678 pivot_search.h  12049 pivoted.h  12118 scatter.h  12291 uplooking.h
+ *  12368 null_vectors.h  12663 multifrontal.h  12925 nullspace.h  13176 growth.h
+ *  13270 factor_setup.h  13540 factor.h  13753 leftlooking.h  13940 factor_query.h
+ *  14076 combination.h
  * (solve: full and local solves)
- *  14086 region_types.h  14204 work.h  14308 query.h  14509 singular.h  14740 backward.h
- *  14773 sweep.h  14945 compile.h  15154 plan.h  15261 local.h  15419 parts.h  15722 refine.h
- *  15905 refine_local.h  16130 rcond.h  16300 defects.h
+ *  14138 region_types.h  14256 work.h  14360 query.h  14561 singular.h  14792 backward.h
+ *  14825 sweep.h  14997 compile.h  15206 plan.h  15313 local.h  15471 parts.h  15774 refine.h
+ *  15957 refine_local.h  16182 rcond.h  16352 defects.h
  * (inverse: entries of the inverse, regions)
- *  16356 traversal.h  16634 traversal_run.h  16815 row_sets.h  16846 unit_vectors.h
- *  17105 bilinear.h  17293 entries.h  17596 block.h  17854 reserve.h  18061 selected.h
- *  18272 selected_query.h  18380 region_choose.h  18632 region.h
+ *  16408 traversal.h  16686 traversal_run.h  16867 row_sets.h  16898 unit_vectors.h
+ *  17157 bilinear.h  17345 entries.h  17648 block.h  17906 reserve.h  18113 selected.h
+ *  18324 selected_query.h  18432 region_choose.h  18684 region.h
  * (change: a factor that follows changes of its matrix)
- *  18879 update.h  19258 rank.h  19600 edges.h  19763 choose.h  19961 pins.h
+ *  18931 update.h  19310 rank.h  19652 edges.h  19815 choose.h  20013 pins.h
  * (save: factors in files)
- *  20570 format.h  20786 decode.h  20934 check.h  21293 write.h  21499 load.h
+ *  20622 format.h  20838 decode.h  20986 check.h  21345 write.h  21551 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21855 batch_solve.h  22079 batch_factor.h  22293 batch_diagonal.h
+ *  21907 batch_solve.h  22131 batch_factor.h  22345 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22441 undef.h
+ *  22493 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22579 multi_rhs.inl.h  22953 kernel_set.inl.h  22957 unit_triangle.inl.h  22998 two_rhs.inl.h
- *  23170 product.inl.h  23311 front.inl.h  23538 inverse_front.inl.h  23843 small_supernode.inl.h
- *  24011 single_rhs.inl.h  24275 change.inl.h
+ *  22631 multi_rhs.inl.h  23005 kernel_set.inl.h  23009 unit_triangle.inl.h  23050 two_rhs.inl.h
+ *  23222 product.inl.h  23363 front.inl.h  23590 inverse_front.inl.h  23895 small_supernode.inl.h
+ *  24063 single_rhs.inl.h  24327 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -823,6 +823,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
+ *  The other orderings treat a row that stores no diagonal entry and has sqrt(n) neighbors or more
+ *  as a constraint, such as m in [L m; m' 0]: they never order it after all of its neighbors, so
+ *  that no pivot of a singular Laplacian L is null. A corner that stores a zero hides this.
+ *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, ordering, relaxation, triangle, perm, metis_options, coordinates,
@@ -861,8 +865,9 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
  *  result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
  *
  *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
- *  accurate than in any fixed order: check sl_factor_refine's backward error, and analyze again if
- *  it is large. All calls work on these factors except the following.
+ *  accurate than in any fixed order: check stats.factor.growth, as with any indefinite matrix
+ *  (sl_factor_create), and analyze again if it is large. All calls work on these factors except the
+ *  following.
  *  - If there are 2x2 pivots, factors use the supernodal method, whatever options.method, and
  *    entries of the inverse, selected inverses and regions give SL_ERR_UNSUPPORTED.
  *  - SL_NULL_PIVOT_SKIP gives SL_ERR_UNSUPPORTED.
@@ -899,10 +904,11 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree (with other orderings
- *  n_nodes = 0 and the arrays are NULL). A node is a separator, or a subgraph that was not divided
- *  further. An entry of A joins two nodes only if one is an ancestor of the other. Nodes are
- *  numbered in elimination order, so that a separator follows the subgraphs that it separates.
+ *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree (with other orderings,
+ *  and if a constraint was moved, n_nodes = 0 and the arrays are NULL). A node is a separator, or a
+ *  subgraph that was not divided further. An entry of A joins two nodes only if one is an
+ *  ancestor of the other. Nodes are numbered in elimination order, so that a separator follows the
+ *  subgraphs that it separates.
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;
@@ -9674,6 +9680,50 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
                         scratch, septree, a);
 }
 
+/* Does A store a diagonal entry in column j? */
+static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
+  sl_int p = A->p[j];
+  while (p < A->p[j + 1] && A->i[p] != j) {
+    p++;
+  }
+  return p < A->p[j + 1];
+}
+
+/* A row with many neighbors and without a diagonal entry is a constraint, as in [L m; m' 0] with a
+ * Laplacian L and weights m. After all of its neighbors, it would follow a null pivot of L. So the
+ * last one of them moves behind it: L without that row is definite. Both are in the last dense
+ * block, and the exchange costs nothing. position: n of scratch. */
+static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
+               sli_septree *septree) {
+  sl_int k, v, last;
+  sl_off e;
+  for (k = 0; k < G->n; k++) {
+    position[perm[k]] = k;
+  }
+  for (k = 0; k < G->n; k++) {
+    const sl_int row = perm[k];
+    const sl_off degree = G->begin[row + 1] - G->begin[row];
+    if (degree < 2 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
+      continue;
+    }
+    last = -1;
+    for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
+      last = sli_max(last, position[G->to[e]]);
+    }
+    if (last > k) {
+      continue;
+    }
+    v = perm[last];
+    for (; last < k; last++) {
+      perm[last] = perm[last + 1];
+      position[perm[last]] = last;
+    }
+    perm[k] = v;
+    position[v] = k;
+    septree->count = 0; /* its nodes would no longer be contiguous */
+  }
+}
+
 /* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                   const sl_options *opt, sl_int *perm, sl_int *scratch,
@@ -9700,6 +9750,8 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
   }
   if (status == SL_OK && block > 1) {
     sli_order_expand(G.n, block, perm, septree);
+  } else if (status == SL_OK) {
+    sli_order_border(A, &G, perm, scratch, septree);
   }
   sli_free(a, b.base);
   return status;

@@ -19,6 +19,10 @@
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
+ *  The other orderings treat a row that stores no diagonal entry and has sqrt(n) neighbors or more
+ *  as a constraint, such as m in [L m; m' 0]: they never order it after all of its neighbors, so
+ *  that no pivot of a singular Laplacian L is null. A corner that stores a zero hides this.
+ *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, ordering, relaxation, triangle, perm, metis_options, coordinates,
@@ -57,8 +61,9 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
  *  result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
  *
  *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
- *  accurate than in any fixed order: check sl_factor_refine's backward error, and analyze again if
- *  it is large. All calls work on these factors except the following.
+ *  accurate than in any fixed order: check stats.factor.growth, as with any indefinite matrix
+ *  (sl_factor_create), and analyze again if it is large. All calls work on these factors except the
+ *  following.
  *  - If there are 2x2 pivots, factors use the supernodal method, whatever options.method, and
  *    entries of the inverse, selected inverses and regions give SL_ERR_UNSUPPORTED.
  *  - SL_NULL_PIVOT_SKIP gives SL_ERR_UNSUPPORTED.
@@ -95,10 +100,11 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree (with other orderings
- *  n_nodes = 0 and the arrays are NULL). A node is a separator, or a subgraph that was not divided
- *  further. An entry of A joins two nodes only if one is an ancestor of the other. Nodes are
- *  numbered in elimination order, so that a separator follows the subgraphs that it separates.
+ *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree (with other orderings,
+ *  and if a constraint was moved, n_nodes = 0 and the arrays are NULL). A node is a separator, or a
+ *  subgraph that was not divided further. An entry of A joins two nodes only if one is an
+ *  ancestor of the other. Nodes are numbered in elimination order, so that a separator follows the
+ *  subgraphs that it separates.
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;

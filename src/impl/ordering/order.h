@@ -137,6 +137,50 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
                                               scratch, septree, a);
 }
 
+/* Does A store a diagonal entry in column j? */
+static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
+    sl_int p = A->p[j];
+    while (p < A->p[j + 1] && A->i[p] != j) {
+        p++;
+    }
+    return p < A->p[j + 1];
+}
+
+/* A row with many neighbors and without a diagonal entry is a constraint, as in [L m; m' 0] with a
+ * Laplacian L and weights m. After all of its neighbors, it would follow a null pivot of L. So the
+ * last one of them moves behind it: L without that row is definite. Both are in the last dense
+ * block, and the exchange costs nothing. position: n of scratch. */
+static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
+                             sli_septree *septree) {
+    sl_int k, v, last;
+    sl_off e;
+    for (k = 0; k < G->n; k++) {
+        position[perm[k]] = k;
+    }
+    for (k = 0; k < G->n; k++) {
+        const sl_int row = perm[k];
+        const sl_off degree = G->begin[row + 1] - G->begin[row];
+        if (degree < 2 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
+            continue;
+        }
+        last = -1;
+        for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
+            last = sli_max(last, position[G->to[e]]);
+        }
+        if (last > k) {
+            continue;
+        }
+        v = perm[last];
+        for (; last < k; last++) {
+            perm[last] = perm[last + 1];
+            position[perm[last]] = last;
+        }
+        perm[k] = v;
+        position[v] = k;
+        septree->count = 0; /* its nodes would no longer be contiguous */
+    }
+}
+
 /* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                                     const sl_options *opt, sl_int *perm, sl_int *scratch,
@@ -163,6 +207,8 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     }
     if (status == SL_OK && block > 1) {
         sli_order_expand(G.n, block, perm, septree);
+    } else if (status == SL_OK) {
+        sli_order_border(A, &G, perm, scratch, septree);
     }
     sli_free(a, b.base);
     return status;
