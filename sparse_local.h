@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7ef7b40fbb9ce9f8
+ * FNV-1a of the lines after this comment, without the license: 88c8e5dcd8ac1a20
  *
  * Contents
  * (what a user reads)
@@ -43,30 +43,30 @@
  *   9819 symbolic_types.h   9864 etree.h   9944 counts.h  10014 supernodes.h  10275 structure.h
  *  10416 schedule.h  10631 symbolic.h  11012 reach.h
  * (factor: the numbers of L and D)
- *  11323 factor_types.h  11678 pivot_search.h  12049 pivoted.h  12118 scatter.h  12291 uplooking.h
- *  12368 null_vectors.h  12663 multifrontal.h  12925 nullspace.h  13176 growth.h
- *  13270 factor_setup.h  13540 factor.h  13753 leftlooking.h  13940 factor_query.h
- *  14076 combination.h
+ *  11323 factor_types.h  11679 pivot_search.h  12050 pivoted.h  12119 scatter.h  12292 uplooking.h
+ *  12369 null_vectors.h  12741 multifrontal.h  12992 nullspace.h  13214 growth.h
+ *  13308 factor_setup.h  13581 factor.h  13794 leftlooking.h  13981 factor_query.h
+ *  14117 combination.h
  * (solve: full and local solves)
- *  14138 region_types.h  14256 work.h  14360 query.h  14561 singular.h  14792 backward.h
- *  14825 sweep.h  14997 compile.h  15206 plan.h  15313 local.h  15471 parts.h  15774 refine.h
- *  15957 refine_local.h  16182 rcond.h  16352 defects.h
+ *  14179 region_types.h  14297 work.h  14401 query.h  14602 singular.h  14834 backward.h
+ *  14867 sweep.h  15056 compile.h  15265 plan.h  15372 local.h  15530 parts.h  15833 refine.h
+ *  16016 refine_local.h  16241 rcond.h  16411 defects.h
  * (inverse: entries of the inverse, regions)
- *  16408 traversal.h  16686 traversal_run.h  16867 row_sets.h  16898 unit_vectors.h
- *  17157 bilinear.h  17345 entries.h  17648 block.h  17906 reserve.h  18113 selected.h
- *  18324 selected_query.h  18432 region_choose.h  18684 region.h
+ *  16467 traversal.h  16745 traversal_run.h  16926 row_sets.h  16957 unit_vectors.h
+ *  17216 bilinear.h  17404 entries.h  17707 block.h  17965 reserve.h  18172 selected.h
+ *  18383 selected_query.h  18491 region_choose.h  18743 region.h
  * (change: a factor that follows changes of its matrix)
- *  18931 update.h  19310 rank.h  19652 edges.h  19815 choose.h  20013 pins.h
+ *  18990 update.h  19369 rank.h  19711 edges.h  19874 choose.h  20072 pins.h
  * (save: factors in files)
- *  20622 format.h  20838 decode.h  20986 check.h  21345 write.h  21551 load.h
+ *  20681 format.h  20897 decode.h  21045 check.h  21404 write.h  21610 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21907 batch_solve.h  22131 batch_factor.h  22345 batch_diagonal.h
+ *  21966 batch_solve.h  22190 batch_factor.h  22404 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22493 undef.h
+ *  22552 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22631 multi_rhs.inl.h  23005 kernel_set.inl.h  23009 unit_triangle.inl.h  23050 two_rhs.inl.h
- *  23222 product.inl.h  23363 front.inl.h  23590 inverse_front.inl.h  23895 small_supernode.inl.h
- *  24063 single_rhs.inl.h  24327 change.inl.h
+ *  22690 multi_rhs.inl.h  23064 kernel_set.inl.h  23068 unit_triangle.inl.h  23109 two_rhs.inl.h
+ *  23281 product.inl.h  23422 front.inl.h  23649 inverse_front.inl.h  23954 small_supernode.inl.h
+ *  24122 single_rhs.inl.h  24386 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1013,8 +1013,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
- *           with A and 54 bytes per row; mass adds a forward
- *           sweep, 24 bytes per row, and a few operations per visited column in solves.
+ *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
+ *           a forward sweep, 24 bytes per row, and as many operations again.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
  *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
@@ -1062,8 +1062,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *           F has no numbers, or is mapped.
  *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
  *           bytes per entry of the columns, 4 per row of A, of which only those reached are
- *           touched, and 4 per row of the largest front. With null pivots, one complete
- *           sweep over L, and another with mass.
+ *           touched, and 4 per row of the largest front. With null pivots and
+ *           mass, one complete sweep over L.
  *  Threads  exclusive use of F.
  *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
  *  Example  tests/core/test_refactor_changed.c
@@ -11341,14 +11341,15 @@ typedef struct sli_failure {
   double value;
 } sli_failure;
 
-/* Row k of A z in pivot order. A cache line holds two: the product visits rows at random. */
+/* Row i of A z. A cache line holds two: the product may visit rows at random. */
 typedef struct sli_null_row {
   double z;
-  double product; /* (A z)(k) */
-  double size;    /* (|A| |z|)(k) */
+  double product; /* (A z)(i) */
+  double size;    /* (|A| |z|)(i) */
   sl_int entries; /* entries of the row */
-  sl_int last;    /* the last pivot of the component of the row */
+  sl_int up;      /* a later pivot's row in the component; i itself: the last one */
 } sli_null_row;
+
 /* What a supernode contributes to pivot growth (growth.h). */
 typedef struct sli_extent {
   double entry;     /* the largest |a| in its columns */
@@ -11397,11 +11398,11 @@ struct sl_factor {
   sl_int *anchors;
   double *mass;       /* n: the weights m in pivot order; NULL: none */
   double *z;          /* n: the assumed null vectors of all components */
+  double *g;          /* n: z in trees with one component whose null vector is known, else 0 */
+  int has_duplicates; /* of the pattern; known with the scratch arrays */
   sli_null_row *rows; /* n: scratch */
+  sl_int *last;       /* n: scratch, the last pivot of each component */
   double *rounding;   /* n: scratch for the rule */
-  /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h); before
-   * a column of L is computed, z or 0 */
-  double *g;
   /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
   double *center;
   double *squares; /* components: w' D^+ w of the tree of each anchor */
@@ -12383,82 +12384,139 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
  * Components are those of the graph of nonzero values, so that explicit zeros separate, and so do
  * duplicates that cancel. */
 
-/* The last pivot of the component of row k, as far as entries were joined. Halves the path. */
-SLI_INLINE sl_int sli_component_last(sli_null_row *rows, sl_int k) {
-  while (rows[k].last != k) {
-    rows[k].last = rows[rows[k].last].last;
-    k = rows[k].last;
-  }
-  return k;
+/* The rows of A z. A matrix is walked column by column, in the caller's numbering: neighbors are
+ * mostly close to each other there. A sum exists only as the map, and duplicates are neighbors only
+ * in it, so these are walked along the map, and their rows are pivots. */
+typedef struct sli_null_walk {
+  sli_null_row *rows;
+  const sl_int *perm, *iperm; /* NULL: rows are pivots */
+  int is_joined; /* 0: there is no zero off the diagonal, and components are the trees */
+} sli_null_walk;
+
+SLI_INLINE sl_int sli_null_walk_row(const sli_null_walk *w, sl_int k) {
+  return w->perm == NULL ? k : w->perm[k];
 }
 
-/* What is left of a product with A. The entries come backward; duplicates are neighbors. */
-typedef struct sli_null_product_state {
-  sli_null_row *rows;
+SLI_INLINE sl_int sli_null_walk_pivot(const sli_null_walk *w, sl_int row) {
+  return w->iperm == NULL ? row : w->iperm[row];
+}
+
+/* The last row of the component of row i, as far as entries were joined. Halves the path. */
+SLI_INLINE sl_int sli_component_last(sli_null_row *rows, sl_int i) {
+  while (rows[i].up != i) {
+    rows[i].up = rows[rows[i].up].up;
+    i = rows[i].up;
+  }
+  return i;
+}
+
+/* Joins the components of rows i and j. */
+SLI_INLINE void sli_null_join(const sli_null_walk *w, sl_int i, sl_int j) {
+  if (w->rows[i].up != w->rows[j].up) {
+    const sl_int x = sli_component_last(w->rows, i), y = sli_component_last(w->rows, j);
+    const int x_is_later = sli_null_walk_pivot(w, x) > sli_null_walk_pivot(w, y);
+    w->rows[x_is_later ? y : x].up = x_is_later ? x : y;
+  }
+}
+
+/* Adds the entry (i, j) of value a, times z(j), to row i. */
+SLI_INLINE void sli_null_add(sli_null_row *rows, sl_int i, sl_int j, double a) {
+  const double term = a * rows[j].z;
+  rows[i].product += term;
+  rows[i].size += fabs(term);
+  rows[i].entries++;
+}
+
+/* Adds the matrix A, which has no duplicates. Returns 1 if it has a zero off the diagonal. */
+static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle triangle,
+                double *diagonal) {
+  int has_zero = 0;
+  sl_int j, p;
+  for (j = 0; j < A->n_cols; j++) {
+    double product = 0.0, size = 0.0;
+    sl_int entries = 0;
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      const sl_int i = A->i[p];
+      const double a = A->x[p], term = a * rows[i].z;
+      if (!sli_is_read(triangle, i, j)) {
+        continue;
+      }
+      product += term;
+      size += fabs(term);
+      entries++;
+      if (i != j) {
+        sli_null_add(rows, i, j, a);
+        has_zero |= a == 0.0;
+      } else if (diagonal != NULL) {
+        diagonal[j] = a;
+      }
+    }
+    rows[j].product += product;
+    rows[j].size += size;
+    rows[j].entries += entries;
+  }
+  return has_zero;
+}
+
+/* Joins the components of A by columns. */
+static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_triangle triangle) {
+  sl_int j, p;
+  for (j = 0; j < A->n_cols; j++) {
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      if (A->x[p] != 0.0 && sli_is_read(triangle, A->i[p], j)) {
+        sli_null_join(w, A->i[p], j);
+      }
+    }
+  }
+}
+
+/* A walk along the map, backward. */
+typedef struct sli_null_map_state {
   double *diagonal; /* n: the diagonal of A; NULL: not needed */
   sl_off to;        /* where the last entry goes in L; -1: none */
   sl_int k, j;      /* its pivots */
   double value;     /* the sum of the duplicates so far */
-} sli_null_product_state;
+} sli_null_map_state;
 
 /* Joins the components of the entry that is complete now. */
-SLI_INLINE void sli_null_product_join(const sli_null_product_state *p) {
+SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_state *p) {
   if (p->to != -1 && p->k != p->j && p->value != 0.0) {
-    const sl_int x = sli_component_last(p->rows, p->k), y = sli_component_last(p->rows, p->j);
-    p->rows[sli_min(x, y)].last = sli_max(x, y);
+    sli_null_join(w, p->k, p->j);
   }
 }
 
 /* Adds the map entries first .. first+count-1 of supernode s, whose values are a. Runs backward. */
-static void sli_null_product_add(const sl_symbolic *S, sl_int s, sl_off first, sl_int count,
-                 const double *values, const sl_int *scatter_from, sl_int *tile,
-                 sli_null_product_state *p) {
-  sli_null_row *rows = p->rows;
+static void sli_null_add_entries(const sli_null_walk *w, const sl_symbolic *S, sl_int s,
+                 sl_off first, sl_int count, const double *values,
+                 const sl_int *scatter_from, sl_int *tile, sli_null_map_state *p) {
   sl_int m;
   for (m = count - 1; m >= 0; m--) {
     const double a = values[scatter_from != NULL ? scatter_from[first + m] : m];
-    double term;
     if (S->scatter_to[first + m] != p->to) {
-      sli_null_product_join(p);
+      sli_null_map_join(w, p);
       sli_scatter_map_pivots(S, s, first + m, tile, &p->k, &p->j);
       p->to = S->scatter_to[first + m];
       p->value = 0.0;
     }
     p->value += a;
-    term = a * rows[p->j].z;
-    rows[p->k].product += term;
-    rows[p->k].size += fabs(term);
-    rows[p->k].entries++;
+    sli_null_add(w->rows, p->k, p->j, a);
     if (p->k != p->j) {
-      term = a * rows[p->k].z;
-      rows[p->j].product += term;
-      rows[p->j].size += fabs(term);
-      rows[p->j].entries++;
+      sli_null_add(w->rows, p->j, p->k, a);
     } else if (p->diagonal != NULL) {
       p->diagonal[p->k] += a;
     }
   }
 }
 
-/* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal. Supernodes descend:
- * most rows then find the last pivot of their component at once. */
-static void sli_null_product(const sl_symbolic *S, const sli_source *from, sli_null_row *rows,
+/* Adds all entries of the map. */
+static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const sli_source *from,
                double *diagonal) {
   double sums[SLI_SUM_ENTRIES];
-  sli_null_product_state p;
-  sl_int s, k;
+  sli_null_map_state p;
+  sl_int s;
   memset(&p, 0, sizeof p);
-  p.rows = rows;
   p.diagonal = diagonal;
   p.to = -1;
-  for (k = 0; k < S->n; k++) {
-    rows[k].product = rows[k].size = 0.0;
-    rows[k].entries = 0;
-    rows[k].last = k;
-    if (diagonal != NULL) {
-      diagonal[k] = 0.0;
-    }
-  }
   for (s = S->n_supers - 1; s >= 0; s--) {
     const sl_off begin = S->scatter_begin[s];
     sl_off end = S->scatter_begin[s + 1];
@@ -12468,41 +12526,92 @@ static void sli_null_product(const sl_symbolic *S, const sli_source *from, sli_n
         (sl_int)(end - begin < SLI_SUM_ENTRIES ? end - begin : SLI_SUM_ENTRIES);
       end -= count;
       if (from->A != NULL) {
-        sli_null_product_add(S, s, end, count, from->A->x, S->scatter_from, &tile, &p);
+        sli_null_add_entries(w, S, s, end, count, from->A->x, S->scatter_from, &tile, &p);
       } else {
         sli_source_sum(from, end, count, sums);
-        sli_null_product_add(S, s, end, count, sums, NULL, &tile, &p);
+        sli_null_add_entries(w, S, s, end, count, sums, NULL, &tile, &p);
       }
     }
   }
-  sli_null_product_join(&p);
+  sli_null_map_join(w, &p);
 }
 
-/* Can (A z)(k), as computed, be the rounding error of 0? */
+/* Has A entries that are summed? */
+static int sli_map_has_duplicates(const sl_symbolic *S) {
+  sl_off m;
+  for (m = 1; m < S->scatter_begin[S->n_supers]; m++) {
+    if (S->scatter_to[m] == S->scatter_to[m - 1]) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+/* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal, by rows of the walk.
+ * z: by pivots; NULL: all 1. */
+static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
+                    int by_columns, sli_null_row *rows, const double *z,
+                    double *diagonal) {
+  sli_null_walk w;
+  sl_int i;
+  w.rows = rows;
+  w.perm = by_columns ? S->perm : NULL;
+  w.iperm = by_columns ? S->iperm : NULL;
+  for (i = 0; i < S->n; i++) {
+    rows[i].z = z == NULL ? 1.0 : z[sli_null_walk_pivot(&w, i)];
+    rows[i].product = rows[i].size = 0.0;
+    rows[i].entries = 0;
+    rows[i].up = i;
+    if (diagonal != NULL) {
+      diagonal[i] = 0.0;
+    }
+  }
+  w.is_joined = 1;
+  if (!by_columns) {
+    sli_null_add_map(&w, S, from, diagonal);
+  } else if (sli_null_add_columns(rows, from->A, S->stats.symbolic.triangle, diagonal)) {
+    sli_null_join_columns(&w, from->A, S->stats.symbolic.triangle);
+  } else {
+    w.is_joined = 0;
+  }
+  return w;
+}
+
+/* Can (A z)(i), as computed, be the rounding error of 0? */
 SLI_INLINE int sli_null_row_is_zero(const sli_null_row *row) {
   const double bound = 16.0 * DBL_EPSILON * row->entries * row->size;
   return fabs(row->product) <= bound && sli_is_finite(bound);
 }
 
-/* After sli_null_product: the last pivots of all components are final, and `entries` of the last
- * row becomes 1 if z is a null vector of the component, 0 if not. */
-static void sli_null_components(sli_null_row *rows, sl_int n) {
-  sl_int k;
-  for (k = n - 1; k >= 0; k--) { /* descending: the last pivot comes first */
-    rows[k].last = rows[k].last == k ? k : rows[rows[k].last].last;
-    rows[k].entries = sli_null_row_is_zero(&rows[k]) && (rows[k].last != k || rows[k].z != 0.0);
-    if (!rows[k].entries) {
-      rows[rows[k].last].entries = 0;
+/* last(k) := the last pivot of the component of pivot k. most(k) := infinity if k is such a pivot
+ * and z is not a null vector of its component, else 0. */
+static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, const double *z,
+                sl_int *last, double *most) {
+  sl_int k, i;
+  for (k = S->n - 1; k >= 0; k--) { /* descending: the last pivot comes first */
+    sl_int up = S->parent[k];
+    if (w->is_joined) {
+      i = sli_null_walk_row(w, k);
+      up = w->rows[i].up == i ? -1 : sli_null_walk_pivot(w, w->rows[i].up);
+    }
+    last[k] = up == -1 ? k : last[up];
+    most[k] = up == -1 && z != NULL && z[k] == 0.0 ? (double)INFINITY : 0.0;
+  }
+  for (i = 0; i < S->n; i++) {
+    if (!sli_null_row_is_zero(&w->rows[i])) {
+      most[last[sli_null_walk_pivot(w, i)]] = (double)INFINITY;
     }
   }
 }
 
-/* Sets the kind of every pivot. */
-static void sli_null_kinds_fill(sl_factor *F) {
+/* Sets the sign and the kind of every pivot; spreads the rounding errors over the components. */
+static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
   sl_int k;
-  for (k = 0; k < F->S->n; k++) {
-    const sl_int last = F->rows[k].last;
-    if (!F->rows[last].entries) {
+  for (k = 0; k < F->S->n; k++) { /* ascending: the last pivot of a component comes last */
+    const sl_int last = F->last[k];
+    F->rounding[k] = F->rounding[last];
+    F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
+    if (!sli_is_finite(F->rounding[k])) {
       F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
     } else if (k == last) {
       F->rule.kinds[k] = SLI_PIVOT_NULL;
@@ -12517,40 +12626,17 @@ static void sli_null_vectors_load(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int k, first = 0, only = -1, count = 0;
   for (k = 0; k < S->n; k++) {
-    const sl_int last = F->rows[k].last;
+    const sl_int last = F->last[k];
     if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
       only = last; /* two components may alternate: then more than one is counted anyway */
       count++;
     }
     if (S->parent[k] == -1) {
       for (; first <= k; first++) {
-        F->g[first] = count == 1 && F->rows[first].last == only ? F->rows[first].z : 0.0;
+        F->g[first] = count == 1 && F->last[first] == only ? F->z[first] : 0.0;
       }
       count = 0;
       only = -1;
-    }
-  }
-}
-
-/* g := L' g in the columns of supernode s; the rows below still hold z. z: scratch for the rows of
- * the front. */
-static void sli_null_vectors_multiply(const sl_factor *F, sl_int s, double *z) {
-  const sl_symbolic *S = F->S;
-  const sli_step *step = &S->steps[s];
-  const sl_int w = step->width, height = w + step->below;
-  const sl_int *rows = S->rows + S->rows_begin[s];
-  double *g = F->g + step->column;
-  sl_int t, j, r;
-  for (r = 0; r < SLI_TILE * sli_tiles(height); r++) {
-    z[r] = r < w ? g[r] : r < height ? F->g[rows[r - w]] : 0.0;
-  }
-  for (t = 0; t < sli_tiles(height); t++) {
-    const double *tile = F->L + step->panel + sli_tile_offset(w, t);
-    for (j = 0; j < sli_min(w, SLI_TILE * (t + 1)); j++) {
-      const double *l = tile + SLI_TILE * (ptrdiff_t)j, *x = z + SLI_TILE * (ptrdiff_t)t;
-      /* g(j) += L(rows, j)' z(rows); the pairs are independent of each other */
-      g[j] += ((l[0] * x[0] + l[1] * x[1]) + (l[2] * x[2] + l[3] * x[3])) +
-          ((l[4] * x[4] + l[5] * x[5]) + (l[6] * x[6] + l[7] * x[7]));
     }
   }
 }
@@ -12574,33 +12660,27 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n), *diagonal = F->g;
-  sl_int k, refused = -1;
+  const sli_null_walk w =
+    sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, F->z, F->g);
+  sl_int i, refused = S->n; /* a pivot */
   F->stats.factor.regular = 0;
-  for (k = 0; k < S->n; k++) {
-    F->rows[k].z = F->z[k];
-  }
-  sli_null_product(S, from, F->rows, F->g);
-  sli_null_components(F->rows, S->n);
-  memset(F->rounding, 0, (size_t)S->n * sizeof(double));
-  for (k = 0; k < S->n; k++) {
-    const sl_int last = F->rows[k].last;
-    const double here = rounding * fabs(diagonal[k]);
-    if (refused == -1 && last != k && !sli_signs_agree(diagonal[k], diagonal[last])) {
-      refused = diagonal[last] == 0.0 ? last : k;
+  sli_null_components(&w, S, F->z, F->last, F->rounding);
+  for (i = 0; i < S->n; i++) {
+    const sl_int k = sli_null_walk_pivot(&w, i), last = F->last[k];
+    const double of_last = diagonal[sli_null_walk_row(&w, last)];
+    const double here = rounding * fabs(diagonal[i]);
+    if (last != k && !sli_signs_agree(diagonal[i], of_last)) {
+      refused = sli_min(refused, of_last == 0.0 ? last : k);
     }
-    F->rule.signs[k] = diagonal[last] < 0.0 ? -1 : 1;
     F->rounding[last] = here > F->rounding[last] ? here : F->rounding[last];
   }
-  for (k = 0; k < S->n; k++) { /* ascending: the last pivot of a component comes last */
-    F->rounding[k] = F->rounding[F->rows[k].last];
-  }
-  if (refused != -1) {
+  if (refused < S->n) {
     memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
     return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
-            diagonal[refused]);
+            diagonal[sli_null_walk_row(&w, refused)]);
   }
   F->rule.rounding = F->rounding;
-  sli_null_kinds_fill(F);
+  sli_null_kinds_fill(F, &w, diagonal);
   sli_null_vectors_load(F);
   return SL_OK;
 }
@@ -12642,18 +12722,16 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n);
   sli_null_row *rows = (sli_null_row *)(void *)F->L;
-  sl_int k;
+  double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
+  sl_int *last = (sl_int *)(void *)(most + S->n), k;
+  const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
+  sli_null_components(&w, S, NULL, last, most);
   for (k = 0; k < S->n; k++) {
-    rows[k].z = 1.0;
-  }
-  sli_null_product(S, from, rows, NULL);
-  sli_null_components(rows, S->n);
-  for (k = 0; k < S->n; k++) { /* the heaviest pivot of each component, in its last row */
-    double *most = &rows[rows[k].last].size; /* at least the diagonal entry's share already */
-    *most = fabs(F->D[k]) > *most ? fabs(F->D[k]) : *most;
+    const double size = fabs(F->D[k]) > rows[k].size ? fabs(F->D[k]) : rows[k].size;
+    most[last[k]] = size > most[last[k]] ? size : most[last[k]];
   }
   for (k = 0; k < S->n; k++) {
-    if (rows[k].last == k && rows[k].entries && fabs(F->D[k]) <= rounding * rows[k].size) {
+    if (last[k] == k && sli_is_finite(most[k]) && fabs(F->D[k]) <= rounding * most[k]) {
       return sli_fail(failure, SL_ERR_PIVOT, S->super_of[k], k, -1, F->D[k]);
     }
   }
@@ -12762,19 +12840,6 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
   return status;
 }
 
-/* The end of a front: what its parent needs, its pivots, and its part of g while the panel is in
- * the cache. */
-static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
-                  sli_failure *failure) {
-  sl_status status;
-  sli_front_hand_over(f);
-  status = sli_front_check(F, f, s, failure);
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    sli_null_vectors_multiply(F, s, f->magnitude);
-  }
-  return status;
-}
-
 /* Factors the panel of an assembled front: its columns of L and D. */
 static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
   const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
@@ -12808,7 +12873,8 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
   sli_front_assemble(F, &f, s, 0, tiles);
   sli_front_eliminate(F->kernels, &f, scratch);
   sli_front_update(F->kernels, &f, scratch);
-  return sli_front_finish(F, &f, s, failure);
+  sli_front_hand_over(&f);
+  return sli_front_check(F, &f, s, failure);
 }
 
 /* Factors worker k's subtrees. A failure ends the subtree only: the failure to report is the first
@@ -12887,7 +12953,8 @@ static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
   if (job->front.below > 0) {
     sli_parallel(threads, workers, sli_shared_update, job);
   }
-  return sli_front_finish(F, &job->front, job->super, failure);
+  sli_front_hand_over(&job->front);
+  return sli_front_check(F, &job->front, job->super, failure);
 }
 
 /* Factors the whole matrix, which has the analyzed pattern. [DR83], [Liu92] */
@@ -12928,9 +12995,8 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
  * The forward sweep computes z' b = (L^-1 P b)(k), which shows by how much b is inconsistent.
  *
  * Rounding in pivots that are almost null, as where a weak spring joins two grids, changes this z
- * by O(1). Where the null vector z is known, z' b is therefore computed from it. With y = L^-1 P b
- * and g = L' P z it is g' y, a dot product over the columns of the forward sweep; g would be 0 but
- * for the entry of the null pivot if L had no rounding errors. The result replaces y(k).
+ * by O(1). Where the null vector z is known, z' b is therefore computed from it before the forward
+ * sweep, a dot product over its columns, and replaces y(k) after the sweep.
  *
  * Centered solves. Take a component (a tree) with one null pivot, and weights m. Wanted is the x
  * with m' x = 0 that solves A x = b - c m, where c = z' b / z' m makes the right-hand side
@@ -13040,9 +13106,7 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   F->ratios[m] = 1.0;
   if (F->g[anchor] != 0.0) {
     for (k = first; k <= root; k++) {
-      const sli_null_row *row = &F->rows[k];
-      const double term =
-        row->last == anchor ? row->z / F->rows[anchor].z * F->mass[k] : 0.0;
+      const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
       z_m += term;
       size += fabs(term);
     }
@@ -13084,25 +13148,16 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   return status;
 }
 
-/* Exchanges g and the assumed null vectors. */
-static void sli_null_vectors_swap(sl_factor *F) {
-  sl_int k;
-  for (k = 0; k < F->S->n; k++) {
-    const double z = F->rows[k].z;
-    F->rows[k].z = F->g[k];
-    F->g[k] = z;
-  }
-}
-
 /* Checks the null pivots that the tolerance has found: a random combination z of their null vectors
  * L^-T e_k has A z = 0 up to rounding if A is semidefinite. If it is indefinite, a pivot can be
  * null although its column is not, and A z is as large as |A| |z|. */
-static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from, int *has_g,
+static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  double *z = F->g;
+  double *z = F->g; /* loaded again below */
   uint64_t random = 1;
+  sli_null_walk w;
   sl_status status = SL_OK;
   sl_int k, m, first = -1;
   for (m = F->n_nulls - 1; m >= 0; m--) {
@@ -13122,54 +13177,37 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from, in
   }
   F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
                    F->center_scratch);
-  sli_null_vectors_swap(F);
-  sli_null_product(S, from, F->rows, NULL);
-  sli_null_vectors_swap(F);
+  w = sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, z, NULL);
   for (k = 0; k < S->n && status == SL_OK; k++) {
-    if (!(fabs(F->rows[k].product) <= 1e-4 * F->rows[k].size)) {
+    if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
       status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
     }
   }
-  sli_null_components(F->rows, S->n);
   sli_null_vectors_load(F);
-  *has_g = 0;
   return status;
 }
 
-/* Counts the components without a null pivot. */
-static sl_int sli_regular_components(const sl_factor *F) {
-  sl_int k, m, count = 0;
-  for (k = 0; k < F->S->n; k++) {
-    F->rows[k].entries = F->rows[k].last == k;
-  }
-  for (m = 0; m < F->n_nulls; m++) {
-    F->rows[F->rows[F->nulls[m]].last].entries = 0;
-  }
-  for (k = 0; k < F->S->n; k++) {
-    count += F->rows[k].entries;
-  }
-  return count;
-}
-
-/* Finds the null pivots of a new factorization and prepares solves with them. has_g: g is computed
- * already; else it holds what sli_null_vectors_load made. */
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, int has_g,
-                sli_failure *failure) {
+/* Finds the null pivots of a new factorization, counts the components without one, and prepares
+ * solves. */
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
   sl_status status;
-  sl_int k, s;
+  sl_int k, m, regular = 0;
   F->n_nulls = 0;
   for (k = 0; k < F->S->n; k++) {
+    regular += F->last[k] == k;
     if (sli_is_skipped(F, k)) {
       F->nulls[F->n_nulls++] = k;
     }
   }
-  F->stats.factor.regular = sli_regular_components(F);
+  for (m = 0; m < F->n_nulls; m++) { /* the rounding errors are read no more: they become marks */
+    double *mark = &F->rounding[F->last[F->nulls[m]]];
+    regular -= *mark >= 0.0;
+    *mark = -1.0;
+  }
+  F->stats.factor.regular = regular;
   F->is_centered = F->mass != NULL && F->n_nulls > 0;
   F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-  status = sli_null_pivots_verify(F, from, &has_g, failure);
-  for (s = 0; s < F->S->n_supers && !has_g && status == SL_OK && F->n_nulls > 0; s++) {
-    sli_null_vectors_multiply(F, s, F->center_scratch); /* ascending: see there */
-  }
+  status = sli_null_pivots_verify(F, from, failure);
   return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
 
@@ -13311,6 +13349,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rows = SLI_TAKE(b, sli_null_row, n);
+    F->last = SLI_TAKE(b, sl_int, n);
     F->rounding = SLI_TAKE(b, double, n);
     F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
   }
@@ -13373,6 +13412,8 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   }
   if (status == SL_OK) {
     F->scratch = b.base;
+    F->has_duplicates =
+      F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
     status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
   }
   if (status != SL_OK) {
@@ -13615,12 +13656,12 @@ static void sli_pairs_done(sl_factor *F) {
 }
 
 /* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
- * and for the caller. has_g: see sli_nulls_find. */
-static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g,
-                 sli_failure *failure, double started, sl_stats *stats) {
+ * and for the caller. */
+static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
+                 double started, sl_stats *stats) {
   sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    (void)sli_nulls_find(F, from, has_g, failure);
+    (void)sli_nulls_find(F, from, failure);
   }
   F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
   if (failure->status == SL_OK) {
@@ -13696,7 +13737,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
     (void)sli_factor_eliminate(F, from, &failure); /* the check has overwritten L */
   }
-  return sli_factor_done(F, from, F->method == SL_METHOD_SUPERNODAL, &failure, started, stats);
+  return sli_factor_done(F, from, &failure, started, stats);
 }
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {
@@ -13934,7 +13975,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   if (failure.status == SL_OK && sli_null_is_suspected(F)) {
     return sli_factor_numbers(F, &from, started, stats);
   }
-  return sli_factor_done(F, &from, 0, &failure, started, stats);
+  return sli_factor_done(F, &from, &failure, started, stats);
 }
 
 /* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
@@ -14646,38 +14687,39 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
   return tree;
 }
 
-/* After the forward sweep: y(k) := z' b at each null pivot k in the reach whose null vector z is
- * known, scaled to z(k) = 1. */
-static void sli_null_products(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-  sl_int s, first = 0, m, r;
-  for (s = 0; s < R->count; s++) {
-    sli_tree_range tree;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    tree = sli_tree_range_of(F->S, &R->steps[s]);
-    for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
-       m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-      const sl_int null = F->nulls[m], at = sli_reach_index_of(R, null);
-      if (at != -1 && F->g[null] != 0.0) { /* at most one in a tree */
-        double chains[SLI_TILE], sums[SLI_TILE];
-        memset(chains, 0, sizeof chains);
-        for (; first <= s; first++) {
-          const sli_step *step = &R->steps[first];
-          const double *g = F->g + step->column, *row = y + (ptrdiff_t)step->base * lanes;
-          const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, g, row, columns, constant)
-          SLI_FOR_LANES(lanes, SLI_CALL)
+/* z' b of a tree's null pivot whose null vector z is known, scaled to 1 there. */
+typedef struct sli_null_dot {
+  sl_int at; /* the index of the null pivot in the reach; -1: none */
+  double sums[SLI_TILE];
+} sli_null_dot;
+
+/* Before the forward sweep of the tree of steps first .. root. */
+static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
+                 const double *b, sl_int lanes, sli_null_dot *dot) {
+  const sli_tree_range tree = sli_tree_range_of(F->S, &R->steps[root]);
+  double chains[SLI_TILE];
+  sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first), null, r;
+  dot->at = -1;
+  while (m < F->n_nulls && F->nulls[m] <= tree.root && F->g[F->nulls[m]] == 0.0) {
+    m++;
+  }
+  if (m == F->n_nulls || F->nulls[m] > tree.root) {
+    return;
+  }
+  null = F->nulls[m]; /* at most one in a tree */
+  dot->at = sli_reach_index_of(R, null);
+  memset(chains, 0, sizeof chains);
+  for (; first <= root && dot->at != -1; first++) {
+    const sli_step *step = &R->steps[first];
+    const double *z = F->g + step->column, *row = b + (ptrdiff_t)step->base * lanes;
+    const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, z, row, columns, constant)
+    SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
-        }
-        sli_chains_sum(chains, lanes, sums);
-        for (r = 0; r < lanes; r++) {
-          y[(ptrdiff_t)at * lanes + r] = sums[r] / F->z[null];
-        }
-        break;
-      }
-    }
-    first = s + 1;
+  }
+  sli_chains_sum(chains, lanes, dot->sums);
+  for (r = 0; r < lanes; r++) {
+    dot->sums[r] /= F->z[null];
   }
 }
 
@@ -14844,13 +14886,30 @@ static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
            v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
-/* y := L^-1 y in the forward vector, then y(k) := z' b at known null vectors z. */
+/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. */
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                 sl_int nrhs) {
-  F->kernels->forward[sli_lanes_kind(nrhs)](q->forward.count, q->forward.steps, q->forward.rows,
-                        F->L, v->y, v->scratch);
-  if (F->n_nulls > 0) {
-    sli_null_products(F, &q->forward, v->y, (sl_int)1 << sli_lanes_kind(nrhs));
+  const int kind = sli_lanes_kind(nrhs);
+  const sli_reach *R = &q->forward;
+  const sl_int *rows = R->rows;
+  sl_int first = 0, s;
+  if (F->n_nulls == 0) {
+    F->kernels->forward[kind](R->count, R->steps, rows, F->L, v->y, v->scratch);
+    return;
+  }
+  for (s = 0; s < R->count; s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    sli_null_dot_compute(F, R, first, s, v->y, (sl_int)1 << kind, &dot);
+    F->kernels->forward[kind](s + 1 - first, R->steps + first, rows, F->L, v->y, v->scratch);
+    if (dot.at != -1) {
+      memcpy(v->y + ((ptrdiff_t)dot.at << kind), dot.sums, sizeof(double) << kind);
+    }
+    for (; first <= s; first++) {
+      rows += R->steps[first].below;
+    }
   }
 }
 

@@ -84,8 +84,8 @@
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
- *           with A and 54 bytes per row; mass adds a forward
- *           sweep, 24 bytes per row, and a few operations per visited column in solves.
+ *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
+ *           a forward sweep, 24 bytes per row, and as many operations again.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
  *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
@@ -133,8 +133,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *           F has no numbers, or is mapped.
  *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
  *           bytes per entry of the columns, 4 per row of A, of which only those reached are
- *           touched, and 4 per row of the largest front. With null pivots, one complete
- *           sweep over L, and another with mass.
+ *           touched, and 4 per row of the largest front. With null pivots and
+ *           mass, one complete sweep over L.
  *  Threads  exclusive use of F.
  *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
  *  Example  tests/core/test_refactor_changed.c

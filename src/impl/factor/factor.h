@@ -84,12 +84,12 @@ static void sli_pairs_done(sl_factor *F) {
 }
 
 /* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
- * and for the caller. has_g: see sli_nulls_find. */
-static sl_status sli_factor_done(sl_factor *F, const sli_source *from, int has_g,
-                                 sli_failure *failure, double started, sl_stats *stats) {
+ * and for the caller. */
+static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
+                                 double started, sl_stats *stats) {
     sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
-        (void)sli_nulls_find(F, from, has_g, failure);
+        (void)sli_nulls_find(F, from, failure);
     }
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
     if (failure->status == SL_OK) {
@@ -165,7 +165,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
         sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
         (void)sli_factor_eliminate(F, from, &failure); /* the check has overwritten L */
     }
-    return sli_factor_done(F, from, F->method == SL_METHOD_SUPERNODAL, &failure, started, stats);
+    return sli_factor_done(F, from, &failure, started, stats);
 }
 
 SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats) {

@@ -51,6 +51,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rows = SLI_TAKE(b, sli_null_row, n);
+        F->last = SLI_TAKE(b, sl_int, n);
         F->rounding = SLI_TAKE(b, double, n);
         F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
     }
@@ -113,6 +114,8 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     }
     if (status == SL_OK) {
         F->scratch = b.base;
+        F->has_duplicates =
+            F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
         status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
     }
     if (status != SL_OK) {

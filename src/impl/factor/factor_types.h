@@ -26,14 +26,15 @@ typedef struct sli_failure {
     double value;
 } sli_failure;
 
-/* Row k of A z in pivot order. A cache line holds two: the product visits rows at random. */
+/* Row i of A z. A cache line holds two: the product may visit rows at random. */
 typedef struct sli_null_row {
     double z;
-    double product; /* (A z)(k) */
-    double size;    /* (|A| |z|)(k) */
+    double product; /* (A z)(i) */
+    double size;    /* (|A| |z|)(i) */
     sl_int entries; /* entries of the row */
-    sl_int last;    /* the last pivot of the component of the row */
+    sl_int up;      /* a later pivot's row in the component; i itself: the last one */
 } sli_null_row;
+
 /* What a supernode contributes to pivot growth (growth.h). */
 typedef struct sli_extent {
     double entry;     /* the largest |a| in its columns */
@@ -82,11 +83,11 @@ struct sl_factor {
     sl_int *anchors;
     double *mass;       /* n: the weights m in pivot order; NULL: none */
     double *z;          /* n: the assumed null vectors of all components */
+    double *g;          /* n: z in trees with one component whose null vector is known, else 0 */
+    int has_duplicates; /* of the pattern; known with the scratch arrays */
     sli_null_row *rows; /* n: scratch */
+    sl_int *last;       /* n: scratch, the last pivot of each component */
     double *rounding;   /* n: scratch for the rule */
-    /* n: L' z in trees with one component whose null vector is known, else 0 (nullspace.h); before
-     * a column of L is computed, z or 0 */
-    double *g;
     /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
     double *center;
     double *squares; /* components: w' D^+ w of the tree of each anchor */

@@ -187,7 +187,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     if (failure.status == SL_OK && sli_null_is_suspected(F)) {
         return sli_factor_numbers(F, &from, started, stats);
     }
-    return sli_factor_done(F, &from, 0, &failure, started, stats);
+    return sli_factor_done(F, &from, &failure, started, stats);
 }
 
 #endif

@@ -3,7 +3,6 @@
 #define SLI_FACTOR_MULTIFRONTAL_H
 
 #include "factor_types.h"
-#include "null_vectors.h"
 
 /* What the workers of one parallel call share. First each worker factors whole subtrees; then all
  * workers factor the fronts above them together, each on its own row tiles. */
@@ -105,19 +104,6 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
     return status;
 }
 
-/* The end of a front: what its parent needs, its pivots, and its part of g while the panel is in
- * the cache. */
-static sl_status sli_front_finish(const sl_factor *F, const sli_front *f, sl_int s,
-                                  sli_failure *failure) {
-    sl_status status;
-    sli_front_hand_over(f);
-    status = sli_front_check(F, f, s, failure);
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-        sli_null_vectors_multiply(F, s, f->magnitude);
-    }
-    return status;
-}
-
 /* Factors the panel of an assembled front: its columns of L and D. */
 static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
     const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
@@ -151,7 +137,8 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
     sli_front_assemble(F, &f, s, 0, tiles);
     sli_front_eliminate(F->kernels, &f, scratch);
     sli_front_update(F->kernels, &f, scratch);
-    return sli_front_finish(F, &f, s, failure);
+    sli_front_hand_over(&f);
+    return sli_front_check(F, &f, s, failure);
 }
 
 /* Factors worker k's subtrees. A failure ends the subtree only: the failure to report is the first
@@ -230,7 +217,8 @@ static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
     if (job->front.below > 0) {
         sli_parallel(threads, workers, sli_shared_update, job);
     }
-    return sli_front_finish(F, &job->front, job->super, failure);
+    sli_front_hand_over(&job->front);
+    return sli_front_check(F, &job->front, job->super, failure);
 }
 
 /* Factors the whole matrix, which has the analyzed pattern. [DR83], [Liu92] */

@@ -10,9 +10,8 @@
  * The forward sweep computes z' b = (L^-1 P b)(k), which shows by how much b is inconsistent.
  *
  * Rounding in pivots that are almost null, as where a weak spring joins two grids, changes this z
- * by O(1). Where the null vector z is known, z' b is therefore computed from it. With y = L^-1 P b
- * and g = L' P z it is g' y, a dot product over the columns of the forward sweep; g would be 0 but
- * for the entry of the null pivot if L had no rounding errors. The result replaces y(k).
+ * by O(1). Where the null vector z is known, z' b is therefore computed from it before the forward
+ * sweep, a dot product over its columns, and replaces y(k) after the sweep.
  *
  * Centered solves. Take a component (a tree) with one null pivot, and weights m. Wanted is the x
  * with m' x = 0 that solves A x = b - c m, where c = z' b / z' m makes the right-hand side
@@ -122,9 +121,7 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     F->ratios[m] = 1.0;
     if (F->g[anchor] != 0.0) {
         for (k = first; k <= root; k++) {
-            const sli_null_row *row = &F->rows[k];
-            const double term =
-                row->last == anchor ? row->z / F->rows[anchor].z * F->mass[k] : 0.0;
+            const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
             z_m += term;
             size += fabs(term);
         }
@@ -166,25 +163,16 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     return status;
 }
 
-/* Exchanges g and the assumed null vectors. */
-static void sli_null_vectors_swap(sl_factor *F) {
-    sl_int k;
-    for (k = 0; k < F->S->n; k++) {
-        const double z = F->rows[k].z;
-        F->rows[k].z = F->g[k];
-        F->g[k] = z;
-    }
-}
-
 /* Checks the null pivots that the tolerance has found: a random combination z of their null vectors
  * L^-T e_k has A z = 0 up to rounding if A is semidefinite. If it is indefinite, a pivot can be
  * null although its column is not, and A z is as large as |A| |z|. */
-static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from, int *has_g,
+static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    double *z = F->g;
+    double *z = F->g; /* loaded again below */
     uint64_t random = 1;
+    sli_null_walk w;
     sl_status status = SL_OK;
     sl_int k, m, first = -1;
     for (m = F->n_nulls - 1; m >= 0; m--) {
@@ -204,54 +192,37 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from, in
     }
     F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
                                      F->center_scratch);
-    sli_null_vectors_swap(F);
-    sli_null_product(S, from, F->rows, NULL);
-    sli_null_vectors_swap(F);
+    w = sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, z, NULL);
     for (k = 0; k < S->n && status == SL_OK; k++) {
-        if (!(fabs(F->rows[k].product) <= 1e-4 * F->rows[k].size)) {
+        if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
             status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
         }
     }
-    sli_null_components(F->rows, S->n);
     sli_null_vectors_load(F);
-    *has_g = 0;
     return status;
 }
 
-/* Counts the components without a null pivot. */
-static sl_int sli_regular_components(const sl_factor *F) {
-    sl_int k, m, count = 0;
-    for (k = 0; k < F->S->n; k++) {
-        F->rows[k].entries = F->rows[k].last == k;
-    }
-    for (m = 0; m < F->n_nulls; m++) {
-        F->rows[F->rows[F->nulls[m]].last].entries = 0;
-    }
-    for (k = 0; k < F->S->n; k++) {
-        count += F->rows[k].entries;
-    }
-    return count;
-}
-
-/* Finds the null pivots of a new factorization and prepares solves with them. has_g: g is computed
- * already; else it holds what sli_null_vectors_load made. */
-static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, int has_g,
-                                sli_failure *failure) {
+/* Finds the null pivots of a new factorization, counts the components without one, and prepares
+ * solves. */
+static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
     sl_status status;
-    sl_int k, s;
+    sl_int k, m, regular = 0;
     F->n_nulls = 0;
     for (k = 0; k < F->S->n; k++) {
+        regular += F->last[k] == k;
         if (sli_is_skipped(F, k)) {
             F->nulls[F->n_nulls++] = k;
         }
     }
-    F->stats.factor.regular = sli_regular_components(F);
+    for (m = 0; m < F->n_nulls; m++) { /* the rounding errors are read no more: they become marks */
+        double *mark = &F->rounding[F->last[F->nulls[m]]];
+        regular -= *mark >= 0.0;
+        *mark = -1.0;
+    }
+    F->stats.factor.regular = regular;
     F->is_centered = F->mass != NULL && F->n_nulls > 0;
     F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
-    status = sli_null_pivots_verify(F, from, &has_g, failure);
-    for (s = 0; s < F->S->n_supers && !has_g && status == SL_OK && F->n_nulls > 0; s++) {
-        sli_null_vectors_multiply(F, s, F->center_scratch); /* ascending: see there */
-    }
+    status = sli_null_pivots_verify(F, from, failure);
     return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
 

@@ -91,38 +91,39 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
     return tree;
 }
 
-/* After the forward sweep: y(k) := z' b at each null pivot k in the reach whose null vector z is
- * known, scaled to z(k) = 1. */
-static void sli_null_products(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-    sl_int s, first = 0, m, r;
-    for (s = 0; s < R->count; s++) {
-        sli_tree_range tree;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        tree = sli_tree_range_of(F->S, &R->steps[s]);
-        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
-             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-            const sl_int null = F->nulls[m], at = sli_reach_index_of(R, null);
-            if (at != -1 && F->g[null] != 0.0) { /* at most one in a tree */
-                double chains[SLI_TILE], sums[SLI_TILE];
-                memset(chains, 0, sizeof chains);
-                for (; first <= s; first++) {
-                    const sli_step *step = &R->steps[first];
-                    const double *g = F->g + step->column, *row = y + (ptrdiff_t)step->base * lanes;
-                    const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, g, row, columns, constant)
-                    SLI_FOR_LANES(lanes, SLI_CALL)
+/* z' b of a tree's null pivot whose null vector z is known, scaled to 1 there. */
+typedef struct sli_null_dot {
+    sl_int at; /* the index of the null pivot in the reach; -1: none */
+    double sums[SLI_TILE];
+} sli_null_dot;
+
+/* Before the forward sweep of the tree of steps first .. root. */
+static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
+                                 const double *b, sl_int lanes, sli_null_dot *dot) {
+    const sli_tree_range tree = sli_tree_range_of(F->S, &R->steps[root]);
+    double chains[SLI_TILE];
+    sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first), null, r;
+    dot->at = -1;
+    while (m < F->n_nulls && F->nulls[m] <= tree.root && F->g[F->nulls[m]] == 0.0) {
+        m++;
+    }
+    if (m == F->n_nulls || F->nulls[m] > tree.root) {
+        return;
+    }
+    null = F->nulls[m]; /* at most one in a tree */
+    dot->at = sli_reach_index_of(R, null);
+    memset(chains, 0, sizeof chains);
+    for (; first <= root && dot->at != -1; first++) {
+        const sli_step *step = &R->steps[first];
+        const double *z = F->g + step->column, *row = b + (ptrdiff_t)step->base * lanes;
+        const sl_int columns = sli_step_columns(step);
+#define SLI_CALL(constant) sli_chains_dot(chains, z, row, columns, constant)
+        SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
-                }
-                sli_chains_sum(chains, lanes, sums);
-                for (r = 0; r < lanes; r++) {
-                    y[(ptrdiff_t)at * lanes + r] = sums[r] / F->z[null];
-                }
-                break;
-            }
-        }
-        first = s + 1;
+    }
+    sli_chains_sum(chains, lanes, dot->sums);
+    for (r = 0; r < lanes; r++) {
+        dot->sums[r] /= F->z[null];
     }
 }
 

@@ -26,13 +26,30 @@ static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
                      v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
-/* y := L^-1 y in the forward vector, then y(k) := z' b at known null vectors z. */
+/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. */
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                               sl_int nrhs) {
-    F->kernels->forward[sli_lanes_kind(nrhs)](q->forward.count, q->forward.steps, q->forward.rows,
-                                              F->L, v->y, v->scratch);
-    if (F->n_nulls > 0) {
-        sli_null_products(F, &q->forward, v->y, (sl_int)1 << sli_lanes_kind(nrhs));
+    const int kind = sli_lanes_kind(nrhs);
+    const sli_reach *R = &q->forward;
+    const sl_int *rows = R->rows;
+    sl_int first = 0, s;
+    if (F->n_nulls == 0) {
+        F->kernels->forward[kind](R->count, R->steps, rows, F->L, v->y, v->scratch);
+        return;
+    }
+    for (s = 0; s < R->count; s++) {
+        sli_null_dot dot;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        sli_null_dot_compute(F, R, first, s, v->y, (sl_int)1 << kind, &dot);
+        F->kernels->forward[kind](s + 1 - first, R->steps + first, rows, F->L, v->y, v->scratch);
+        if (dot.at != -1) {
+            memcpy(v->y + ((ptrdiff_t)dot.at << kind), dot.sums, sizeof(double) << kind);
+        }
+        for (; first <= s; first++) {
+            rows += R->steps[first].below;
+        }
     }
 }
 
