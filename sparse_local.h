@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 88c8e5dcd8ac1a20
+ * FNV-1a of the lines after this comment, without the license: 965a2159a0b5d26f
  *
  * Contents
  * (what a user reads)
@@ -54,19 +54,19 @@
  * (inverse: entries of the inverse, regions)
  *  16467 traversal.h  16745 traversal_run.h  16926 row_sets.h  16957 unit_vectors.h
  *  17216 bilinear.h  17404 entries.h  17707 block.h  17965 reserve.h  18172 selected.h
- *  18383 selected_query.h  18491 region_choose.h  18743 region.h
+ *  18383 selected_query.h  18491 region_choose.h  18741 region.h
  * (change: a factor that follows changes of its matrix)
- *  18990 update.h  19369 rank.h  19711 edges.h  19874 choose.h  20072 pins.h
+ *  18988 update.h  19367 rank.h  19709 edges.h  19872 choose.h  20070 pins.h
  * (save: factors in files)
- *  20681 format.h  20897 decode.h  21045 check.h  21404 write.h  21610 load.h
+ *  20679 format.h  20895 decode.h  21043 check.h  21402 write.h  21608 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21966 batch_solve.h  22190 batch_factor.h  22404 batch_diagonal.h
+ *  21964 batch_solve.h  22188 batch_factor.h  22402 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22552 undef.h
+ *  22550 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22690 multi_rhs.inl.h  23064 kernel_set.inl.h  23068 unit_triangle.inl.h  23109 two_rhs.inl.h
- *  23281 product.inl.h  23422 front.inl.h  23649 inverse_front.inl.h  23954 small_supernode.inl.h
- *  24122 single_rhs.inl.h  24386 change.inl.h
+ *  22688 multi_rhs.inl.h  23062 kernel_set.inl.h  23066 unit_triangle.inl.h  23107 two_rhs.inl.h
+ *  23279 product.inl.h  23420 front.inl.h  23647 inverse_front.inl.h  23952 small_supernode.inl.h
+ *  24120 single_rhs.inl.h  24384 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -18653,9 +18653,7 @@ static void sli_choice_single_subtree(sli_choice *c) {
   const sl_symbolic *S = c->S;
   double inside = 0.0, least = SLI_REGION_DETOUR * sli_choice_cost(c);
   sl_int k, first, last, best = -1;
-  if (c->count == 0) {
-    return;
-  }
+  SLI_ASSERT(c->count > 0); /* there is a boundary */
   first = S->super_of[sli_key(c->seeds[0])];
   last = S->super_of[sli_key(c->seeds[c->count - 1])];
   for (k = 0; k < c->reach.count; k++) {

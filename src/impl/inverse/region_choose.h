@@ -168,9 +168,7 @@ static void sli_choice_single_subtree(sli_choice *c) {
     const sl_symbolic *S = c->S;
     double inside = 0.0, least = SLI_REGION_DETOUR * sli_choice_cost(c);
     sl_int k, first, last, best = -1;
-    if (c->count == 0) {
-        return;
-    }
+    SLI_ASSERT(c->count > 0); /* there is a boundary */
     first = S->super_of[sli_key(c->seeds[0])];
     last = S->super_of[sli_key(c->seeds[c->count - 1])];
     for (k = 0; k < c->reach.count; k++) {
