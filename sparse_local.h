@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 965a2159a0b5d26f
+ * FNV-1a of the lines after this comment, without the license: 57b6aa4e87f70e22
  *
  * Contents
  * (what a user reads)
@@ -10,63 +10,63 @@
  *    496 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    638 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    810 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    935 factor.h     the numerical factorization P A P' = L D L'
- *   1138 solve.h      full solves, and the workspace of all solves
- *   1248 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1342 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1454 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1563 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1699 batch.h      many independent solves by one call, distributed over threads
- *   1749 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1927 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2046 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2149 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2284 change.h     a factor that follows small changes of its matrix
- *   2370 pins.h       rows held at given values, on top of a factor that stays as it is
+ *    936 factor.h     the numerical factorization P A P' = L D L'
+ *   1139 solve.h      full solves, and the workspace of all solves
+ *   1249 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1343 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1455 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1564 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1700 batch.h      many independent solves by one call, distributed over threads
+ *   1750 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1928 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2047 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2150 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2285 change.h     a factor that follows small changes of its matrix
+ *   2371 pins.h       rows held at given values, on top of a factor that stays as it is
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2470 base.h   2716 status.h   2779 options.h   2841 alloc.h   2966 hash.h   3110 file_map.h
- *   3211 sort.h   3281 parallel.h
+ *   2471 base.h   2717 status.h   2780 options.h   2842 alloc.h   2967 hash.h   3111 file_map.h
+ *   3212 sort.h   3282 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3319 panel.h   3351 step.h   3408 pivot_rule.h   3493 front.h   3570 pairs.h
- *   3802 inverse_front.h   3894 table.h   3924 simd.h   4018 simd_scalar.h   4137 simd_avx2.h
- *   4331 simd_avx512.h   4437 simd_neon.h   4617 dispatch.h
+ *   3320 panel.h   3352 step.h   3409 pivot_rule.h   3494 front.h   3571 pairs.h
+ *   3803 inverse_front.h   3895 table.h   3925 simd.h   4019 simd_scalar.h   4138 simd_avx2.h
+ *   4332 simd_avx512.h   4438 simd_neon.h   4618 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4707 csc.h   4821 csc_build.h   4960 csc64.h   5037 csc_triangle.h   5108 csc_products.h
- *   5232 permute.h   5301 sum.h   5386 output_file.h   5615 matrix_market.h
+ *   4708 csc.h   4822 csc_build.h   4961 csc64.h   5038 csc_triangle.h   5109 csc_products.h
+ *   5233 permute.h   5302 sum.h   5387 output_file.h   5616 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6094 graph.h   6260 coarsen.h   6537 labels.h   6750 subgraph.h   6961 heap.h   7024 bisect.h
- *   7274 separator.h   7565 mindeg.h   7761 dissect.h   8111 levelset.h   8241 geometric.h
- *   8452 septree.h   8517 metis.h   8674 metis_refined.h   8800 nd.h   9007 compress.h
- *   9136 quotient.h   9551 order.h
+ *   6095 graph.h   6261 coarsen.h   6538 labels.h   6751 subgraph.h   6962 heap.h   7025 bisect.h
+ *   7275 separator.h   7566 mindeg.h   7762 dissect.h   8112 levelset.h   8242 geometric.h
+ *   8453 septree.h   8518 metis.h   8675 metis_refined.h   8801 nd.h   9008 compress.h
+ *   9137 quotient.h   9552 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9819 symbolic_types.h   9864 etree.h   9944 counts.h  10014 supernodes.h  10275 structure.h
- *  10416 schedule.h  10631 symbolic.h  11012 reach.h
+ *   9820 symbolic_types.h   9865 etree.h   9945 counts.h  10015 supernodes.h  10276 structure.h
+ *  10417 schedule.h  10632 symbolic.h  11013 reach.h
  * (factor: the numbers of L and D)
- *  11323 factor_types.h  11679 pivot_search.h  12050 pivoted.h  12119 scatter.h  12292 uplooking.h
- *  12369 null_vectors.h  12741 multifrontal.h  12992 nullspace.h  13214 growth.h
- *  13308 factor_setup.h  13581 factor.h  13794 leftlooking.h  13981 factor_query.h
- *  14117 combination.h
+ *  11324 factor_types.h  11680 pivot_search.h  12051 pivoted.h  12120 scatter.h  12293 uplooking.h
+ *  12370 null_vectors.h  12742 multifrontal.h  12993 nullspace.h  13215 growth.h
+ *  13309 factor_setup.h  13582 factor.h  13795 leftlooking.h  13982 factor_query.h
+ *  14118 combination.h
  * (solve: full and local solves)
- *  14179 region_types.h  14297 work.h  14401 query.h  14602 singular.h  14834 backward.h
- *  14867 sweep.h  15056 compile.h  15265 plan.h  15372 local.h  15530 parts.h  15833 refine.h
- *  16016 refine_local.h  16241 rcond.h  16411 defects.h
+ *  14180 region_types.h  14298 work.h  14402 query.h  14603 singular.h  14835 backward.h
+ *  14868 sweep.h  15057 compile.h  15266 plan.h  15373 local.h  15531 parts.h  15834 refine.h
+ *  16017 refine_local.h  16242 rcond.h  16412 defects.h
  * (inverse: entries of the inverse, regions)
- *  16467 traversal.h  16745 traversal_run.h  16926 row_sets.h  16957 unit_vectors.h
- *  17216 bilinear.h  17404 entries.h  17707 block.h  17965 reserve.h  18172 selected.h
- *  18383 selected_query.h  18491 region_choose.h  18741 region.h
+ *  16468 traversal.h  16746 traversal_run.h  16927 row_sets.h  16958 unit_vectors.h
+ *  17217 bilinear.h  17405 entries.h  17708 block.h  17966 reserve.h  18173 selected.h
+ *  18384 selected_query.h  18492 region_choose.h  18742 region.h
  * (change: a factor that follows changes of its matrix)
- *  18988 update.h  19367 rank.h  19709 edges.h  19872 choose.h  20070 pins.h
+ *  18989 update.h  19368 rank.h  19710 edges.h  19873 choose.h  20071 pins.h
  * (save: factors in files)
- *  20679 format.h  20895 decode.h  21043 check.h  21402 write.h  21608 load.h
+ *  20680 format.h  20896 decode.h  21044 check.h  21403 write.h  21609 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21964 batch_solve.h  22188 batch_factor.h  22402 batch_diagonal.h
+ *  21965 batch_solve.h  22189 batch_factor.h  22403 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22550 undef.h
+ *  22551 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22688 multi_rhs.inl.h  23062 kernel_set.inl.h  23066 unit_triangle.inl.h  23107 two_rhs.inl.h
- *  23279 product.inl.h  23420 front.inl.h  23647 inverse_front.inl.h  23952 small_supernode.inl.h
- *  24120 single_rhs.inl.h  24384 change.inl.h
+ *  22689 multi_rhs.inl.h  23063 kernel_set.inl.h  23067 unit_triangle.inl.h  23108 two_rhs.inl.h
+ *  23280 product.inl.h  23421 front.inl.h  23648 inverse_front.inl.h  23953 small_supernode.inl.h
+ *  24121 single_rhs.inl.h  24385 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -823,9 +823,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
- *  The other orderings treat a row that stores no diagonal entry and has sqrt(n) neighbors or more
- *  as a constraint, such as m in [L m; m' 0]: they never order it after all of its neighbors, so
- *  that no pivot of a singular Laplacian L is null. A corner that stores a zero hides this.
+ *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
+ *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
+ *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
+ *  this.
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
@@ -9703,7 +9704,7 @@ static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, 
   for (k = 0; k < G->n; k++) {
     const sl_int row = perm[k];
     const sl_off degree = G->begin[row + 1] - G->begin[row];
-    if (degree < 2 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
+    if (degree < 8 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
       continue;
     }
     last = -1;

@@ -19,9 +19,10 @@
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
- *  The other orderings treat a row that stores no diagonal entry and has sqrt(n) neighbors or more
- *  as a constraint, such as m in [L m; m' 0]: they never order it after all of its neighbors, so
- *  that no pivot of a singular Laplacian L is null. A corner that stores a zero hides this.
+ *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
+ *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
+ *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
+ *  this.
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.

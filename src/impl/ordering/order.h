@@ -160,7 +160,7 @@ static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, 
     for (k = 0; k < G->n; k++) {
         const sl_int row = perm[k];
         const sl_off degree = G->begin[row + 1] - G->begin[row];
-        if (degree < 2 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
+        if (degree < 8 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
             continue;
         }
         last = -1;
