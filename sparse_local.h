@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 57b6aa4e87f70e22
+ * FNV-1a of the lines after this comment, without the license: aa0d546657b1a7d7
  *
  * Contents
  * (what a user reads)
@@ -58,15 +58,15 @@
  * (change: a factor that follows changes of its matrix)
  *  18989 update.h  19368 rank.h  19710 edges.h  19873 choose.h  20071 pins.h
  * (save: factors in files)
- *  20680 format.h  20896 decode.h  21044 check.h  21403 write.h  21609 load.h
+ *  20680 format.h  20896 decode.h  21044 check.h  21404 write.h  21610 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21965 batch_solve.h  22189 batch_factor.h  22403 batch_diagonal.h
+ *  21966 batch_solve.h  22190 batch_factor.h  22404 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22551 undef.h
+ *  22552 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22689 multi_rhs.inl.h  23063 kernel_set.inl.h  23067 unit_triangle.inl.h  23108 two_rhs.inl.h
- *  23280 product.inl.h  23421 front.inl.h  23648 inverse_front.inl.h  23953 small_supernode.inl.h
- *  24121 single_rhs.inl.h  24385 change.inl.h
+ *  22690 multi_rhs.inl.h  23064 kernel_set.inl.h  23068 unit_triangle.inl.h  23109 two_rhs.inl.h
+ *  23281 product.inl.h  23422 front.inl.h  23649 inverse_front.inl.h  23954 small_supernode.inl.h
+ *  24122 single_rhs.inl.h  24386 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21370,7 +21370,8 @@ static int sli_check_factor(const sl_factor *F) {
       return 0;
     }
     if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
-      (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK)) {
+      (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
+       (F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
       return 0;
     }
     if (sli_is_skipped(F, k)) {
