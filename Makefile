@@ -5,6 +5,9 @@
 CXX ?= g++
 ## OPT      optimization, and whatever a build of one's own needs
 OPT ?= -O2
+## JOBS     compilations at a time, if make was not told by -j; nothing: one for each processor
+JOBS ?= $(shell nproc 2>/dev/null || echo 1)
+SUB_MAKE = $(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 ## DATA     folder of real meshes and matrices; nothing needs it
 DATA ?= ../shared/data
 ## BENCH    size of the bench: quick, full (to 4e6 unknowns) or nothing
@@ -222,7 +225,7 @@ run-tests: build-tests
 	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/lib/run.sh $(B)/log $(ALSO) $(TEST_PROGRAMS) $(REPLAYS)
 
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@$(MAKE) --no-print-directory run-tests ALSO='tests/core/check_header.sh tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=$(B)/sparse-local
+	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=$(B)/sparse-local
 
 test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
 	@echo '$(words $(CORE_TESTS)) programs of $(shell cat $(CORE_TESTS) | grep -c 'cmocka_unit_test') core tests'
@@ -234,18 +237,18 @@ test-page: ## writes the figures between the marks in tests/README.md
 	@tools/build/test_page.sh
 
 test-clang: deps deps-clang sparse_local.h ## the tests, built by clang
-	@$(MAKE) --no-print-directory run-tests B=build/clang CC=clang
+	@+$(SUB_MAKE) run-tests B=build/clang CC=clang
 
 test-cxx: deps deps-cxx sparse_local.h ## the header's tests, over bodies compiled as C++11
-	@$(MAKE) --no-print-directory run-tests B=build/cxx TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
+	@+$(SUB_MAKE) run-tests B=build/cxx TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
 
 test-no-metis: deps sparse_local.h ## the header's tests, built without SL_METIS and not linked with METIS
-	@$(MAKE) --no-print-directory run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='-lz -lm'
+	@+$(SUB_MAKE) run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='-lz -lm'
 
 NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected
 
 test-no-simd: deps sparse_local.h ## tests of the kernels, built with -DSL_NO_SIMD
-	@$(MAKE) --no-print-directory run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/no_simd CFLAGS='-DSL_NO_SIMD $(CFLAGS)' REPLAYS= \
 	TEST_PROGRAMS='$(NO_SIMD:%=build/no_simd/tests/core/%)'
 
 # ---- platforms: the tests on other processors, C libraries and compilers ----
@@ -299,15 +302,15 @@ $(PLATFORMS:%=deps-%): deps-%: build/deps.ok
 	@CC=$(cross_$*)gcc AR=$(call platform_ar,$*) tools/build/cross_libs.sh build/$* $(metis_$*)
 
 $(PLATFORMS:%=test-%): test-%: deps-% sparse_local.h
-	@tools/build/platform.sh $* '$(cross_$*)gcc $(flags_$*)' '$(or $(run_$*),natively)' \
-	$(MAKE) --no-print-directory run-tests B=build/$* CC=$(cross_$*)gcc AR=$(call platform_ar,$*) RUN='$(run_$*)' SL_DATA= \
+	@+tools/build/platform.sh $* '$(cross_$*)gcc $(flags_$*)' '$(or $(run_$*),natively)' \
+	$(SUB_MAKE) run-tests B=build/$* CC=$(cross_$*)gcc AR=$(call platform_ar,$*) RUN='$(run_$*)' SL_DATA= \
 	INCLUDES='-isystem build/$*/include' OPT='-O1 $(flags_$*)' LINK='$(cross_$*)gcc -static' \
 	IMPL_COMPILE='$$(CC) $$(C_FLAGS) -std=gnu99 -O2' METIS=$(if $(metis_$*),-DSL_METIS) \
 	TEST_PROGRAMS='$(patsubst tests/%.c,build/$*/tests/%,$(or $(full_$*),$(PLATFORM_TESTS)))' \
 	TEST_LIBS=build/$*/libcmocka.a LIBS='$(if $(metis_$*),build/$*/libmetis.a) build/$*/libz.a -lm'
 
 test-tcc: deps deps-tcc sparse_local.h
-	@tools/build/platform.sh tcc tcc natively $(MAKE) --no-print-directory run-tests B=build/tcc CC=tcc WARN= DEPEND= SL_DATA= METIS= \
+	@+tools/build/platform.sh tcc tcc natively $(SUB_MAKE) run-tests B=build/tcc CC=tcc WARN= DEPEND= SL_DATA= METIS= \
 	TEST_PROGRAMS='$(PLATFORM_TESTS:tests/%.c=build/tcc/tests/%)' LIBS='-lz -lm'
 
 test-i386: ## the header's tests on 32-bit x86 with SSE2
@@ -327,22 +330,22 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 	@cat build/platforms/*.txt
 
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
-	@$(MAKE) --no-print-directory run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
+	@+$(SUB_MAKE) run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
-	@$(MAKE) --no-print-directory run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \
 	TEST_PROGRAMS='$(THREADED:%=build/races/tests/core/%)'
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in
-	@$(MAKE) --no-print-directory run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/openmp OPT='-O2 -fopenmp' REPLAYS= \
 	TEST_PROGRAMS='$(THREADED:%=build/openmp/tests/core/%)'
 
 valgrind: deps ## the tests under valgrind (no AVX-512 there)
 	@tools/build/deps.sh valgrind=valgrind
-	@$(MAKE) --no-print-directory run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
+	@+$(SUB_MAKE) run-tests RUN='valgrind -q --leak-check=full --error-exitcode=99'
 
 # ---- platforms that have no cmocka: tests/lib/cmocka has the part of it that the tests use ----
 
@@ -355,8 +358,8 @@ WITHOUT_CMOCKA = METIS= TEST_LIBS= REPLAYS= SL_DATA=
 MSAN_TESTS ?= $(CORE_TESTS)
 # zlib is not instrumented: it only reads and writes the files of tests that the sanitizer does not see.
 test-msan: deps deps-clang sparse_local.h ## the header's tests under clang's memory sanitizer: no uninitialized value is used
-	@tools/build/platform.sh msan 'clang -fsanitize=memory' natively \
-	$(MAKE) --no-print-directory run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='-lz -lm' INCLUDES=-Itests/lib/cmocka \
+	@+tools/build/platform.sh msan 'clang -fsanitize=memory' natively \
+	$(SUB_MAKE) run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='-lz -lm' INCLUDES=-Itests/lib/cmocka \
 	OPT='-O1 -g -fno-omit-frame-pointer -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all' \
 	TEST_PROGRAMS='$(MSAN_TESTS:tests/%.c=build/msan/tests/%)'
 
@@ -368,20 +371,20 @@ WINDOWS = $(WITHOUT_CMOCKA) INCLUDES=-Itests/lib/cmocka CFLAGS=-Wno-float-conver
 
 test-mingw: deps-mingw sparse_local.h ## the portable tests for Windows, by gcc (plain C kernels), under Wine
 	@mkdir -p build && $(WINE) wineboot -i >/dev/null 2>&1
-	@tools/build/platform.sh mingw '$(MINGW)' Wine \
-	$(MAKE) --no-print-directory run-tests B=build/mingw CC=$(MINGW) $(WINDOWS) \
+	@+tools/build/platform.sh mingw '$(MINGW)' Wine \
+	$(SUB_MAKE) run-tests B=build/mingw CC=$(MINGW) $(WINDOWS) \
 	TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/mingw/tests/%)'
 
 test-mingw-clang: deps-mingw deps-clang sparse_local.h ## the same by clang, with the AVX2 and AVX-512 kernels
 	@mkdir -p build && $(WINE) wineboot -i >/dev/null 2>&1
-	@tools/build/platform.sh mingw-clang 'clang --target=x86_64-w64-mingw32' Wine \
-	$(MAKE) --no-print-directory run-tests B=build/mingw_clang CC='clang --target=x86_64-w64-mingw32' $(WINDOWS) \
+	@+tools/build/platform.sh mingw-clang 'clang --target=x86_64-w64-mingw32' Wine \
+	$(SUB_MAKE) run-tests B=build/mingw_clang CC='clang --target=x86_64-w64-mingw32' $(WINDOWS) \
 	TEST_PROGRAMS='$(PORTABLE_TESTS:tests/%.c=build/mingw_clang/tests/%)'
 
 # 8 MB of stack, as on Linux; WebAssembly has 64 kB by default.
 test-wasm: deps-wasm deps-clang sparse_local.h ## the portable tests for WebAssembly with SIMD128, under node
-	@tools/build/platform.sh wasm 'clang --target=wasm32-wasi -msimd128' node \
-	$(MAKE) --no-print-directory run-tests B=build/wasm CC='clang --target=wasm32-wasi --sysroot=/usr' $(WITHOUT_CMOCKA) \
+	@+tools/build/platform.sh wasm 'clang --target=wasm32-wasi -msimd128' node \
+	$(SUB_MAKE) run-tests B=build/wasm CC='clang --target=wasm32-wasi --sysroot=/usr' $(WITHOUT_CMOCKA) \
 	OPT='-O2 -msimd128' LINK='$$(CC) -Wl,-z,stack-size=8388608' LIBRARY= LIBS= RUN='node --no-warnings tests/lib/wasi/run.mjs' \
 	INCLUDES='-Itests/lib/cmocka -Itests/lib/wasi' TEST_PROGRAMS='$(WASM_TESTS:tests/%.c=build/wasm/tests/%)'
 
@@ -395,14 +398,14 @@ GCOVR = gcovr --root . --exclude-throw-branches --exclude-unreachable-branches -
 
 cov: deps deps-cov deps-png sparse_local.h ## line and branch coverage of the header and of tools by the tests, with limits; build/cov/index.html
 	@if [ -d build/cov ]; then find build/cov -name '*.gcda' -delete; fi
-	@GCOV_ERROR_FILE=/dev/null $(MAKE) --no-print-directory run-tests B=build/cov SL_DATA= PROGRAM=build/cov/sparse-local \
+	@+GCOV_ERROR_FILE=/dev/null $(SUB_MAKE) run-tests B=build/cov SL_DATA= PROGRAM=build/cov/sparse-local \
 	ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' OPT='-O0 -g --coverage -fprofile-update=atomic'; status=$$?; \
 	echo 'tools/'; $(GCOVR) --filter 'tools/' --html build/cov/tools.html build/cov/obj 2>build/cov/gcovr.log || cat build/cov/gcovr.log; \
 	echo 'sparse_local.h'; $(GCOVR) --filter 'sparse_local\.h' --html-details build/cov/index.html \
 	--fail-under-line $(COV_LINES) --fail-under-branch $(COV_BRANCHES) build/cov/obj 2>>build/cov/gcovr.log >build/cov/summary.txt; found=$$?; cat build/cov/summary.txt; [ $$found -eq 0 ] || { tail -n 5 build/cov/gcovr.log; exit 1; }; exit $$status
 
 fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/fuzz/corpus
-	@$(MAKE) --no-print-directory run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
+	@+$(SUB_MAKE) run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' \
 	IMPL_COMPILE='$$(CC) $$(C_FLAGS) -fno-sanitize-coverage=trace-cmp -fsanitize-coverage-ignorelist=tests/fuzz/kernels.ignore'
 
@@ -434,13 +437,13 @@ run-bench: $(B)/bench
 	$(BENCH_ENV) $(B)/bench $(or $(QUESTION),$(QUESTION_DEFAULT))
 
 bench: deps sparse_local.h ## times factorizations, full and local solves on this machine; CSV files and plots in build/bench-out
-	@$(MAKE) --no-print-directory run-bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
+	@+$(SUB_MAKE) run-bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
 
 # Peers in their best setting: OpenBLAS chooses its kernels itself, whatever core the environment names.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen chooses its vector instructions at compile time: its best setting is -march=native, for its own file only.
 bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic and peers_shifted: against CHOLMOD and Eigen
-	@$(MAKE) --no-print-directory run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
@@ -462,7 +465,7 @@ cluster: deps-mpi deps-png ## build/cluster-mpi: many queries on one saved facto
 	@$(MAKE) --no-print-directory $(B)/cluster-mpi
 
 test-cluster: deps-mpi deps-png ## build/cluster-mpi with 1 to 4 ranks, one of them killed
-	@$(MAKE) --no-print-directory run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_cluster.sh PROGRAM='$(B)/cluster-mpi $(B)/sparse-local'
+	@+$(SUB_MAKE) run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_cluster.sh PROGRAM='$(B)/cluster-mpi $(B)/sparse-local'
 
 # ---- the paper ----
 

@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: aa0d546657b1a7d7
+ * FNV-1a of the lines after this comment, without the license: 1c971fa189a127c1
  *
  * Contents
  * (what a user reads)
@@ -12732,7 +12732,7 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
     most[last[k]] = size > most[last[k]] ? size : most[last[k]];
   }
   for (k = 0; k < S->n; k++) {
-    if (last[k] == k && sli_is_finite(most[k]) && fabs(F->D[k]) <= rounding * most[k]) {
+    if (last[k] == k && most[k] <= DBL_MAX && fabs(F->D[k]) <= rounding * most[k]) {
       return sli_fail(failure, SL_ERR_PIVOT, S->super_of[k], k, -1, F->D[k]);
     }
   }
