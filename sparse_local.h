@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1c971fa189a127c1
+ * FNV-1a of the lines after this comment, without the license: 2655e1e33dbf6c4c
  *
  * Contents
  * (what a user reads)
@@ -22,51 +22,51 @@
  *   2047 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
  *   2150 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2285 change.h     a factor that follows small changes of its matrix
- *   2371 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2372 pins.h       rows held at given values, on top of a factor that stays as it is
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2471 base.h   2717 status.h   2780 options.h   2842 alloc.h   2967 hash.h   3111 file_map.h
- *   3212 sort.h   3282 parallel.h
+ *   2472 base.h   2718 status.h   2781 options.h   2843 alloc.h   2968 hash.h   3112 file_map.h
+ *   3213 sort.h   3283 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3320 panel.h   3352 step.h   3409 pivot_rule.h   3494 front.h   3571 pairs.h
- *   3803 inverse_front.h   3895 table.h   3925 simd.h   4019 simd_scalar.h   4138 simd_avx2.h
- *   4332 simd_avx512.h   4438 simd_neon.h   4618 dispatch.h
+ *   3321 panel.h   3353 step.h   3410 pivot_rule.h   3495 front.h   3572 pairs.h
+ *   3804 inverse_front.h   3896 table.h   3926 simd.h   4020 simd_scalar.h   4139 simd_avx2.h
+ *   4333 simd_avx512.h   4439 simd_neon.h   4619 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4708 csc.h   4822 csc_build.h   4961 csc64.h   5038 csc_triangle.h   5109 csc_products.h
- *   5233 permute.h   5302 sum.h   5387 output_file.h   5616 matrix_market.h
+ *   4709 csc.h   4823 csc_build.h   4962 csc64.h   5039 csc_triangle.h   5110 csc_products.h
+ *   5234 permute.h   5303 sum.h   5388 output_file.h   5617 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6095 graph.h   6261 coarsen.h   6538 labels.h   6751 subgraph.h   6962 heap.h   7025 bisect.h
- *   7275 separator.h   7566 mindeg.h   7762 dissect.h   8112 levelset.h   8242 geometric.h
- *   8453 septree.h   8518 metis.h   8675 metis_refined.h   8801 nd.h   9008 compress.h
- *   9137 quotient.h   9552 order.h
+ *   6096 graph.h   6262 coarsen.h   6539 labels.h   6752 subgraph.h   6963 heap.h   7026 bisect.h
+ *   7276 separator.h   7567 mindeg.h   7763 dissect.h   8113 levelset.h   8243 geometric.h
+ *   8454 septree.h   8519 metis.h   8676 metis_refined.h   8802 nd.h   9009 compress.h
+ *   9138 quotient.h   9553 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9820 symbolic_types.h   9865 etree.h   9945 counts.h  10015 supernodes.h  10276 structure.h
- *  10417 schedule.h  10632 symbolic.h  11013 reach.h
+ *   9821 symbolic_types.h   9866 etree.h   9946 counts.h  10016 supernodes.h  10277 structure.h
+ *  10418 schedule.h  10633 symbolic.h  11014 reach.h
  * (factor: the numbers of L and D)
- *  11324 factor_types.h  11680 pivot_search.h  12051 pivoted.h  12120 scatter.h  12293 uplooking.h
- *  12370 null_vectors.h  12742 multifrontal.h  12993 nullspace.h  13215 growth.h
- *  13309 factor_setup.h  13582 factor.h  13795 leftlooking.h  13982 factor_query.h
- *  14118 combination.h
+ *  11325 factor_types.h  11681 pivot_search.h  12052 pivoted.h  12121 scatter.h  12294 uplooking.h
+ *  12371 null_vectors.h  12743 multifrontal.h  12994 nullspace.h  13216 growth.h
+ *  13310 factor_setup.h  13583 factor.h  13796 leftlooking.h  13983 factor_query.h
+ *  14119 combination.h
  * (solve: full and local solves)
- *  14180 region_types.h  14298 work.h  14402 query.h  14603 singular.h  14835 backward.h
- *  14868 sweep.h  15057 compile.h  15266 plan.h  15373 local.h  15531 parts.h  15834 refine.h
- *  16017 refine_local.h  16242 rcond.h  16412 defects.h
+ *  14181 region_types.h  14299 work.h  14403 query.h  14604 singular.h  14836 backward.h
+ *  14869 sweep.h  15058 compile.h  15267 plan.h  15374 local.h  15532 parts.h  15835 refine.h
+ *  16018 refine_local.h  16243 rcond.h  16413 defects.h
  * (inverse: entries of the inverse, regions)
- *  16468 traversal.h  16746 traversal_run.h  16927 row_sets.h  16958 unit_vectors.h
- *  17217 bilinear.h  17405 entries.h  17708 block.h  17966 reserve.h  18173 selected.h
- *  18384 selected_query.h  18492 region_choose.h  18742 region.h
+ *  16469 traversal.h  16747 traversal_run.h  16928 row_sets.h  16959 unit_vectors.h
+ *  17218 bilinear.h  17406 entries.h  17709 block.h  17967 reserve.h  18174 selected.h
+ *  18385 selected_query.h  18493 region_choose.h  18743 region.h
  * (change: a factor that follows changes of its matrix)
- *  18989 update.h  19368 rank.h  19710 edges.h  19873 choose.h  20071 pins.h
+ *  18990 update.h  19369 rank.h  19711 edges.h  19874 choose.h  20072 pins.h
  * (save: factors in files)
- *  20680 format.h  20896 decode.h  21044 check.h  21404 write.h  21610 load.h
+ *  20681 format.h  20897 decode.h  21045 check.h  21405 write.h  21611 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21966 batch_solve.h  22190 batch_factor.h  22404 batch_diagonal.h
+ *  21967 batch_solve.h  22191 batch_factor.h  22405 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22552 undef.h
+ *  22553 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22690 multi_rhs.inl.h  23064 kernel_set.inl.h  23068 unit_triangle.inl.h  23109 two_rhs.inl.h
- *  23281 product.inl.h  23422 front.inl.h  23649 inverse_front.inl.h  23954 small_supernode.inl.h
- *  24122 single_rhs.inl.h  24386 change.inl.h
+ *  22691 multi_rhs.inl.h  23065 kernel_set.inl.h  23069 unit_triangle.inl.h  23110 two_rhs.inl.h
+ *  23282 product.inl.h  23423 front.inl.h  23650 inverse_front.inl.h  23955 small_supernode.inl.h
+ *  24123 single_rhs.inl.h  24387 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1768,10 +1768,10 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve_interleaved(const sl_factor *F,
  * Heat-kernel signatures: let M be the masses and K = L the positive semidefinite cotangent
  * Laplacian. One implicit step of length t is (M + t L) u(t) = M u(0). For unit heat in vertex i,
  * u(0) = e_i / M(i,i); the heat kernel is then approximated by h_t(i,j) = (A_t^-1)(i,j), and
- * h_t(i,i) is the signature of i at time t. It is a density: the masses integrate h_t(i,j) to 1
- * over j. For unit temperature, u(0) = e_i; what remains of it at i, the auto-diffusion of [HDA17]
- * 5, is (A_t^-1)(i,i) M(i,i). To compare times, divide each column by the trace, the sum over i of
- * (A_t^-1)(i,i) M(i,i).
+ * h_t(i,i) is the signature of i at time t, the auto-diffusion of [HDA17] 5, which solves with
+ * b = e_i. It is a density: the masses integrate h_t(i,j) to 1 over j. The share of the heat that
+ * remains at i is h_t(i,i) M(i,i). To compare times, divide each column by the trace, the sum over
+ * i of these shares.
  */
 
 /** C = c_1 A_1 + .. + c_k A_k of symmetric matrices, as its lower triangle with ascending rows.
@@ -2297,13 +2297,14 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, cons
  *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
  *  of both signs a change may also fail because it meets a null pivot on its way.
  *
- *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of
- *  definite matrices it stayed above the measured one. If growth or drift are too large, refactor.
+ *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of a
+ *  definite matrix it stayed above the measured one. If growth or drift are too large, refactor.
  *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
  *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
  *
  *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
- *                   SL_ERR_NOT_FINITE for an overflow: then it has no numbers.
+ *                   SL_ERR_NOT_FINITE for an overflow, or where a pivot fails although a trial
+ *                   found none that does, by rounding: then it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.

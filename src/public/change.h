@@ -18,13 +18,14 @@
  *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
  *  of both signs a change may also fail because it meets a null pivot on its way.
  *
- *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of
- *  definite matrices it stayed above the measured one. If growth or drift are too large, refactor.
+ *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of a
+ *  definite matrix it stayed above the measured one. If growth or drift are too large, refactor.
  *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
  *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
  *
  *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
- *                   SL_ERR_NOT_FINITE for an overflow: then it has no numbers.
+ *                   SL_ERR_NOT_FINITE for an overflow, or where a pivot fails although a trial
+ *                   found none that does, by rounding: then it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
