@@ -60,6 +60,7 @@ PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 object = $(addprefix $(B)/obj/,$(addsuffix .o,$(1)))
 IMPL = $(B)/obj/sparse_local.o
 LIBRARY = $(B)/libtools.a
+PAGE := build/view_page_text.c
 TEST_PROGRAMS = $(TESTS:tests/%.c=$(B)/tests/%)
 REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 
@@ -191,7 +192,7 @@ $(IMPL): $(B)/obj/sparse_local.c sparse_local.h $(B)/flags | build/deps.ok
 	$(call say,CC  )
 	$(Q)$(IMPL_COMPILE) -c -o $@ $<
 
-$(LIBRARY): $(call object,$(TOOLS:.c=))
+$(LIBRARY): $(call object,$(TOOLS:.c=) $(PAGE:.c=))
 	@rm -f $@
 	$(call say,AR  )
 	$(Q)$(AR) rcs $@ $^
@@ -201,6 +202,14 @@ $(call object,$(NEED_PNG:.c=)): | build/deps-png.ok
 $(B)/sparse-local: $(call object,$(MAIN:.c=) $(NEED_PNG:.c=)) $(LIBRARY) $(IMPL)
 	$(call say,LINK)
 	$(Q)$(LINK) -o $@ $^ $(LIBS) -lpng
+
+# The page of the command view, as an array of its lines.
+$(PAGE): tools/draw/view_page.html
+	@mkdir -p $(@D)
+	$(call say,MAKE)
+	$(Q){ printf '/* the lines of view_page.html */\n#include "tools/draw/view_page.h"\n'; \
+	printf 'const char *const view_page_text[] = {\n'; \
+	sed 's/[\\"]/\\&/g; s/.*/    "&",/' $<; printf '    NULL,\n};\n'; } >$@
 
 programs: $(B)/sparse-local ## build/sparse-local: the paper's experiments on meshes
 
@@ -453,6 +462,12 @@ readme-table: ## prints the measurements of the last bench-peers as Markdown tab
 	$(wildcard build/bench-out/peers_harmonic.csv)
 
 # ---- clusters ----
+
+deps-chromium: ## the browser that test-view runs
+	@tools/build/deps.sh chromium=chromium
+
+test-view: deps-chromium deps-png ## the page of sparse-local view in a headless browser: it draws, turns and answers a click
+	@+$(SUB_MAKE) run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_view.sh PROGRAM=$(B)/sparse-local
 
 deps-mpi: ## an implementation of MPI
 	@tools/build/deps.sh mpicc=libmpich-dev mpiexec=mpich

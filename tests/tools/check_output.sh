@@ -61,6 +61,7 @@ echo '0;1;1' >"$dir/kept/question" # b is 1 in row 0; x is wanted in row 1
 run() {
     case $1 in
     save) "$program" save sphere:2 --out saved.slf ;;
+    view) "$program" view sphere:2 --out page.html ;;
     query) "$program" query "$dir/kept/sphere.slf" <"$dir/kept/question" ;;
     *) "$program" "$1" sphere:2 ;;
     esac

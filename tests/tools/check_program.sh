@@ -56,7 +56,8 @@ for command in $commands; do
     record $? "$command --help: no line beyond 100 characters"
     gives 2 'unknown option --frobnicate' "$command" sphere:1 --frobnicate
     gives 2 'needs MESH' "$command"
-    gives 2 'unexpected operand' "$command" sphere:1 sphere:1 sphere:1 sphere:1
+    [ "$command" = view ] || # its further operands are tables
+        gives 2 'unexpected operand' "$command" sphere:1 sphere:1 sphere:1 sphere:1
     gives 1 'no-such-file.obj: cannot be opened' "$command" "$dir/no-such-file.obj"
     gives 1 'sphere:99: a size is out of range' "$command" sphere:99
 done
@@ -107,6 +108,15 @@ gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
 "$program" hks sphere:2 --times 3 --csv "$dir/h1.csv" >"$dir/out" 2>"$dir/err" &&
     cmp -s "$dir/h1.csv" "$dir/h2.csv"
 record $? "hks gives the same numbers with one thread and with two"
+
+# Pages for a browser (test_view.c, and check_view.sh in one).
+
+gives 0 'v.html: 162 vertices, 320 faces, 5 fields' view sphere:2 "$dir/h1.csv" "$dir/a.csv" \
+    "$dir/a.csv" --out "$dir/v.html"
+gives 2 'out FILE is missing' view sphere:2
+gives 2 'expected y or z' view sphere:2 --up x --out "$dir/v.html"
+gives 1 'h1.csv:14: vertex 12 is not one of the 12 vertices' view sphere:0 "$dir/h1.csv" \
+    --out "$dir/v.html"
 
 # Saved factors.
 

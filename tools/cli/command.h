@@ -15,6 +15,7 @@ int command_geodesic(int argc, char **argv);
 int command_arap(int argc, char **argv);
 int command_scp(int argc, char **argv);
 int command_save(int argc, char **argv);
+int command_view(int argc, char **argv);
 int command_query(int argc, char **argv);
 
 #endif

@@ -1,0 +1,76 @@
+#!/bin/sh
+# check_view.sh: the page of sparse-local view in headless Chromium: it draws, turns and answers a
+# click (make test-view)
+#
+#     PROGRAM=build/sparse-local tests/tools/check_view.sh
+#
+# The last line of output is `N passed, N failed`.
+
+program=$PROGRAM
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
+if [ -z "$browser" ]; then
+    echo 'no Chromium: skipped'
+    echo '0 passed, 0 failed, 1 skipped'
+    exit 0
+fi
+dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/view.XXXXXX") || exit 1
+trap 'rm -rf "$dir"' EXIT
+passed=0 failed=0
+
+# record STATUS TEXT: counts a check, which failed if STATUS is not 0.
+record() {
+    if [ "$1" -eq 0 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED   $2"
+        echo "$report" | sed 's/^/    /'
+    fi
+}
+
+# page FILE: what the page reports on itself, see the end of view_page.html. No network.
+page() {
+    "$browser" --headless --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader \
+        --enable-unsafe-swiftshader --window-size=800,600 --user-data-dir="$dir/profile" \
+        --host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=60000 --dump-dom \
+        "file://$1#test" 2>"$dir/err" | sed -n 's/.*<body data-test="\([^"]*\)".*/\1/p'
+}
+
+# number NAME: that of the report.
+number() {
+    echo "$report" | sed -n "s/.*$1=\([0-9]*\).*/\1/p"
+}
+
+# shows FILE VERTICES: draws, turns, and finds a vertex of the mesh.
+shows() {
+    report=$(page "$1")
+    [ "$(number drawn)" -gt 10000 ]
+    record $? "$1: much of the window is drawn"
+    [ "$(number changed)" -gt 10000 ]
+    record $? "$1: turning changes the picture"
+    [ "$(number error)" = 0 ]
+    record $? "$1: no error of WebGL"
+    vertex=$(echo "$report" | sed -n 's/.*vertex \([0-9]*\).*/\1/p')
+    [ "${vertex:--1}" -ge 0 ] && [ "$vertex" -lt "$2" ]
+    record $? "$1: a click finds a vertex"
+}
+
+"$program" heat sphere:3 --from 5 --scaled-time 20 --csv "$dir/heat.csv" >"$dir/out" 2>&1 &&
+    "$program" view sphere:3 "$dir/heat.csv" --out "$dir/sphere.html" >"$dir/out" 2>&1
+report=$(cat "$dir/out")
+record $? 'view writes a page'
+shows "$dir/sphere.html" 642
+value=$(awk -F, -v v="$vertex" '$1 == v { printf "%.6g", $2 }' "$dir/heat.csv")
+case $report in
+*"vertex $vertex: $value"*) record 0 ;;
+*) record 1 "the value of vertex $vertex is $value" ;;
+esac
+
+# as many faces as a scan has
+"$program" view hills:318x318 --up z --out "$dir/hills.html" >"$dir/out" 2>&1
+report=$(cat "$dir/out")
+record $? 'view writes a page of 200 thousand faces'
+shows "$dir/hills.html" 101124
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

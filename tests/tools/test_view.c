@@ -1,0 +1,127 @@
+/* test_view.c: pages for a browser and the tables that they show */
+#define _POSIX_C_SOURCE 200809L
+#include "tests/lib/run_command.h"
+
+#include <math.h>
+
+#include "tools/draw/view_page.h"
+#include "tools/io/field_table.h"
+#include "tools/mesh/grid.h"
+
+static const char *table_file(const char *text) {
+    return files_put_text("table.csv", text);
+}
+
+static void tables_are_read(void **state) {
+    (void)state;
+    field_table t;
+    char message[200];
+    const char *text = "vertex,heat,0.25\n2,1.5,-3e-300\n\n0,nan,7\r\n2,2.5,8\n";
+    assert_true(field_table_read(&t, table_file(text), 4, message, sizeof message));
+    assert_int_equal(t.n_fields, 2);
+    assert_string_equal(t.names[0], "heat");
+    assert_string_equal(t.names[1], "0.25");
+    assert_true(isnan(t.values[0][0]) && t.values[1][0] == 7);
+    assert_true(isnan(t.values[0][1]) && isnan(t.values[1][3]));
+    assert_true(t.values[0][2] == 2.5 && t.values[1][2] == 8); /* the last row counts */
+    field_table_free(&t);
+}
+
+static void malformed_tables_are_refused(void **state) {
+    (void)state;
+    static const char *const cases[][2] = {
+        {"", "table.csv:1: the first line is not vertex,NAME,..."},
+        {"vertices,heat\n", "table.csv:1: the first line is not vertex,NAME,..."},
+        {"vertex\n0\n", "table.csv:1: there is no column beside vertex"},
+        {"vertex,heat\n4,1\n", "table.csv:2: vertex 4 is not one of the 4 vertices of the mesh"},
+        {"vertex,heat\n-1,1\n", "table.csv:2: vertex -1 is not one of the 4 vertices of the mesh"},
+        {"vertex,heat\n99999999999999,1\n", "table.csv:2: vertex 99999999999999 is not one"},
+        {"vertex,heat\n0,1\n1\n", "table.csv:3: a row has no number for column heat"},
+        {"vertex,heat\n0,x\n", "table.csv:2: a row has no number for column heat"},
+        {"vertex,heat\n0,1,2\n", "table.csv:2: a row has more cells than the first line"},
+        {"vertex,heat\nx,1\n", "table.csv:2: a row does not begin with a vertex"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        field_table t;
+        char message[400];
+        assert_false(field_table_read(&t, table_file(cases[k][0]), 4, message, sizeof message));
+        assert_non_null(strstr(message, cases[k][1]));
+        assert_int_equal(t.n_fields, 0);
+    }
+}
+
+/* The bytes of the base64 text after `key`. */
+static size_t decode(const char *page, const char *key, unsigned char *bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *at = strstr(page, key);
+    size_t count = 0;
+    unsigned word = 0;
+    int held = 0;
+    assert_non_null(at);
+    for (at += strlen(key); *at != '"' && *at != '='; at++) {
+        const char *digit = strchr(digits, *at);
+        assert_true(digit != NULL && *digit != '\0');
+        word = word << 6 | (unsigned)(digit - digits);
+        held += 6;
+        if (held >= 8) {
+            held -= 8;
+            bytes[count++] = (unsigned char)(word >> held & 255);
+        }
+    }
+    return count;
+}
+
+static double real_at(const unsigned char *bytes) {
+    uint64_t word = 0;
+    double x;
+    for (int k = 0; k < 8; k++) {
+        word |= (uint64_t)bytes[k] << 8 * k;
+    }
+    memcpy(&x, &word, sizeof x);
+    return x;
+}
+
+/* Values keep their bits, and no text ends its string or the script. */
+static void pages_hold_the_data(void **state) {
+    (void)state;
+    mesh m;
+    unsigned char bytes[1024];
+    const double values[6] = {0.1, -1e-300, 7, 1e300, NAN, 0};
+    const view_field field = {"a\"b\\</script>\n", values};
+    size_t length;
+    assert_true(mesh_grid(&m, 3, 2, 0, 1));
+    assert_int_equal(m.n_vertices, 6);
+    FILE *file = fopen(files_path("page.html"), "w");
+    assert_non_null(file);
+    view_page_write(file, &m, "<b>&", 'z', &field, 1);
+    assert_int_equal(fclose(file), 0);
+    char *page = files_get(files_path("page.html"), &length);
+    page[length] = '\0';
+    assert_null(strstr(page, VIEW_PAGE_DATA));
+    assert_null(strstr(page, "http:")); /* nothing is loaded */
+    assert_null(strstr(page, "https:"));
+    assert_null(strstr(page, "src="));
+    assert_non_null(strstr(page, "title: \"\\u003cb\\u003e\\u0026\", up: \"z\""));
+    assert_non_null(strstr(page, "{name: \"a\\u0022b\\u005c\\u003c/script\\u003e\\u000a\""));
+    assert_int_equal(decode(page, "values: \"", bytes), sizeof values);
+    for (int v = 0; v < 6; v++) {
+        const double x = real_at(bytes + 8 * v);
+        assert_true(v == 4 ? isnan(x) : x == values[v]);
+    }
+    assert_int_equal(decode(page, "faces: \"", bytes), 12 * m.n_faces);
+    for (int k = 0; k < 3 * m.n_faces; k++) {
+        assert_int_equal(bytes[4 * k], m.faces[k]);
+        assert_int_equal(bytes[4 * k + 1] | bytes[4 * k + 2] | bytes[4 * k + 3], 0);
+    }
+    assert_int_equal(decode(page, "positions: \"", bytes), 12 * m.n_vertices);
+    assert_int_equal(decode(page, "colors: \"", bytes), 768);
+    assert_true(bytes[2] > bytes[0] && bytes[765] > bytes[767]); /* from blue to yellow */
+    free(page);
+    mesh_free(&m);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_are_read),
+                                       cmocka_unit_test(malformed_tables_are_refused),
+                                       cmocka_unit_test(pages_hold_the_data)};
+    return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
+}

@@ -1,0 +1,103 @@
+/* command_view.c: a mesh and the tables of other commands as an HTML page to turn and to query */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app.h"
+#include "command.h"
+#include "tools/draw/view_page.h"
+#include "tools/io/field_table.h"
+
+enum { MOST_TABLES = 31 };
+
+static const options_usage usage = {
+    "view", "MESH [TABLE.csv ...]", 1, 1 + MOST_TABLES,
+    "Writes a page that shows a mesh in a browser: it turns, and a click shows vertex and value."};
+
+static const options_manual manual = {
+    "The tables are those that heat, adf, hks and geodesic write with --csv. Each column is a "
+    "field that the page can show, as colors with a legend, on a linear or a logarithmic scale, "
+    "with or without isolines. Vertices without a value are gray. The page is one file: it "
+    "loads nothing from the network and can be sent to others. It needs a browser with WebGL 2.",
+    "The page, and a line on what it holds.",
+    "bunny.obj --out bunny.html\nbunny.obj heat.csv adf.csv --out bunny.html"};
+
+/* The tables, and their columns one after another. */
+typedef struct view_fields {
+    field_table tables[MOST_TABLES];
+    int n_tables;
+    view_field *fields;
+    char **names;
+    size_t n_fields;
+} view_fields;
+
+/* "heat.csv: heat" */
+static char *field_name(const char *path, const char *column) {
+    const char *slash = strrchr(path, '/'), *file = slash != NULL ? slash + 1 : path;
+    const size_t size = strlen(file) + strlen(column) + 3;
+    char *name = app_alloc(size, 1);
+    (void)snprintf(name, size, "%s: %s", file, column);
+    return name;
+}
+
+static void read_tables(view_fields *f, const char *const *paths, sl_int n) {
+    char message[512];
+    size_t count = 0;
+    memset(f, 0, sizeof *f);
+    for (; f->n_tables < MOST_TABLES && paths[f->n_tables] != NULL; f->n_tables++) {
+        field_table *table = &f->tables[f->n_tables];
+        if (!field_table_read(table, paths[f->n_tables], n, message, sizeof message)) {
+            app_die("%s", message);
+        }
+        count += table->n_fields;
+    }
+    f->fields = app_alloc(count + 1, sizeof *f->fields);
+    f->names = app_alloc(count + 1, sizeof *f->names);
+    for (int t = 0; t < f->n_tables; t++) {
+        for (size_t k = 0; k < f->tables[t].n_fields; k++) {
+            f->names[f->n_fields] = field_name(paths[t], f->tables[t].names[k]);
+            f->fields[f->n_fields].name = f->names[f->n_fields];
+            f->fields[f->n_fields++].value = f->tables[t].values[k];
+        }
+    }
+}
+
+static void free_tables(view_fields *f) {
+    for (int t = 0; t < f->n_tables; t++) {
+        field_table_free(&f->tables[t]);
+    }
+    for (size_t k = 0; k < f->n_fields; k++) {
+        free(f->names[k]);
+    }
+    free(f->fields);
+    free(f->names);
+}
+
+int command_view(int argc, char **argv) {
+    const char *operands[1 + MOST_TABLES + 1] = {NULL}, *out = NULL, *up = "y";
+    const option options[] = {
+        {OPTION_OUTPUT, "out", &out, "FILE", "the page to write: required"},
+        {OPTION_TEXT, "up", &up, "y|z", "axis that points upward at first (y)"},
+        {OPTION_END, NULL, NULL, NULL, NULL}};
+    options_read(&usage, &manual, options, argc, argv, operands);
+    if (strcmp(up, "y") != 0 && strcmp(up, "z") != 0) {
+        app_die_usage("--up %s: expected y or z", up);
+    }
+    mesh m;
+    view_fields f;
+    app_mesh(&m, operands[0], true);
+    if (out == NULL) {
+        app_die_usage("view: --out FILE is missing");
+    }
+    read_tables(&f, operands + 1, m.n_vertices);
+    app_stage("writing the page");
+    FILE *file = app_create(out);
+    view_page_write(file, &m, operands[0], up[0], f.fields, f.n_fields);
+    app_close(file);
+    app_progress_end();
+    printf("%s: %d vertices, %d faces, %d fields\n", out, (int)m.n_vertices, (int)m.n_faces,
+           (int)f.n_fields);
+    free_tables(&f);
+    mesh_free(&m);
+    return 0;
+}

@@ -1,0 +1,138 @@
+/* view_page.c: the data of a page as a script: text in quotes, arrays in base64, little-endian */
+#include "view_page.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#include "colors.h"
+
+enum { COLORS = 256 };
+
+/* Bytes on their way into base64, three at a time. */
+typedef struct base64 {
+    FILE *out;
+    unsigned char held[3];
+    int count;
+} base64;
+
+static void put_group(base64 *b) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned word = (unsigned)b->held[0] << 16 | (unsigned)b->held[1] << 8 | b->held[2];
+    for (int k = 0; k < 4; k++) {
+        (void)putc(k <= b->count ? digits[word >> (18 - 6 * k) & 63] : '=', b->out);
+    }
+    memset(b->held, 0, sizeof b->held);
+    b->count = 0;
+}
+
+static void put_byte(base64 *b, unsigned char byte) {
+    b->held[b->count++] = byte;
+    if (b->count == 3) {
+        put_group(b);
+    }
+}
+
+static void put_bytes(base64 *b, uint64_t word, int bytes) {
+    for (int k = 0; k < bytes; k++) {
+        put_byte(b, (unsigned char)(word >> 8 * k & 255));
+    }
+}
+
+static base64 begin(FILE *out) {
+    base64 b = {out, {0, 0, 0}, 0};
+    (void)putc('"', out);
+    return b;
+}
+
+static void end(base64 *b) {
+    if (b->count > 0) {
+        put_group(b);
+    }
+    (void)putc('"', b->out);
+}
+
+/* Text between quotes. Nothing in it can end the string or the script. */
+static void put_text(FILE *out, const char *text) {
+    (void)putc('"', out);
+    for (; *text != 0; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c < 32 || c == '"' || c == '\\' || c == '<' || c == '>' || c == '&') {
+            (void)fprintf(out, "\\u%04x", c);
+        } else {
+            (void)putc(c, out);
+        }
+    }
+    (void)putc('"', out);
+}
+
+static void put_coordinates(FILE *out, const mesh *m) {
+    base64 b = begin(out);
+    for (size_t k = 0; k < 3 * (size_t)m->n_vertices; k++) {
+        const float x = (float)m->xyz[k];
+        uint32_t word;
+        memcpy(&word, &x, sizeof word);
+        put_bytes(&b, word, 4);
+    }
+    end(&b);
+}
+
+static void put_faces(FILE *out, const mesh *m) {
+    base64 b = begin(out);
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        put_bytes(&b, (uint32_t)m->faces[k], 4);
+    }
+    end(&b);
+}
+
+static void put_colors(FILE *out) {
+    base64 b = begin(out);
+    for (int k = 0; k < COLORS; k++) {
+        const rgb c = color_map(k / (COLORS - 1.0));
+        put_byte(&b, c.r);
+        put_byte(&b, c.g);
+        put_byte(&b, c.b);
+    }
+    end(&b);
+}
+
+static void put_values(FILE *out, const double *value, sl_int count) {
+    base64 b = begin(out);
+    for (sl_int k = 0; k < count; k++) {
+        uint64_t word;
+        memcpy(&word, value + k, sizeof word);
+        put_bytes(&b, word, 8);
+    }
+    end(&b);
+}
+
+static void put_data(FILE *out, const mesh *m, const char *title, char up, const view_field *fields,
+                     size_t n_fields) {
+    (void)fprintf(out, "const data = {title: ");
+    put_text(out, title);
+    (void)fprintf(out, ", up: \"%c\",\npositions: ", up);
+    put_coordinates(out, m);
+    (void)fprintf(out, ",\nfaces: ");
+    put_faces(out, m);
+    (void)fprintf(out, ",\ncolors: ");
+    put_colors(out);
+    (void)fprintf(out, ",\nfields: [");
+    for (size_t k = 0; k < n_fields; k++) {
+        (void)fprintf(out, "%s\n{name: ", k > 0 ? "," : "");
+        put_text(out, fields[k].name);
+        (void)fprintf(out, ", values: ");
+        put_values(out, fields[k].value, m->n_vertices);
+        (void)putc('}', out);
+    }
+    (void)fprintf(out, "]};\n");
+}
+
+void view_page_write(FILE *out, const mesh *m, const char *title, char up, const view_field *fields,
+                     size_t n_fields) {
+    for (const char *const *line = view_page_text; *line != NULL; line++) {
+        if (strcmp(*line, VIEW_PAGE_DATA) == 0) {
+            put_data(out, m, title, up, fields, n_fields);
+        } else {
+            (void)fprintf(out, "%s\n", *line);
+        }
+    }
+}
