@@ -213,7 +213,7 @@ int main(void) {
 #else
 
 int main(void) {
-    (void)printf("no floating-point traps here: skipped\n");
+    (void)printf("no floating-point traps here\n0 passed, 0 failed, 2 skipped\n");
     return 0;
 }
 
