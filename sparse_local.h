@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2655e1e33dbf6c4c
+ * FNV-1a of the lines after this comment, without the license: 55b44f4c8970036e
  *
  * Contents
  * (what a user reads)
@@ -3204,7 +3204,7 @@ static int sli_flush(FILE *file) {
 #if defined(SLI_FSYNC)
   return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* a device */
 #elif defined(_WIN32)
-  return _commit(_fileno(file)) == 0;
+  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file)); /* a device, such as NUL */
 #else
   return 1;
 #endif

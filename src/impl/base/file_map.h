@@ -98,7 +98,7 @@ static int sli_flush(FILE *file) {
 #if defined(SLI_FSYNC)
     return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* a device */
 #elif defined(_WIN32)
-    return _commit(_fileno(file)) == 0;
+    return _commit(_fileno(file)) == 0 || _isatty(_fileno(file)); /* a device, such as NUL */
 #else
     return 1;
 #endif
