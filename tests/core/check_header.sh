@@ -55,7 +55,7 @@ thorough() {
     fi
 }
 
-# builds PROGRAM COMPILER ARGUMENT ...: compiles a program and runs it. Compilers in C only check the
+# builds PROGRAM COMPILER ARGUMENT ...: compiles a program and runs it. gcc and clang only check the
 # syntax unless PROMISES=all: other targets run what they make.
 builds() {
     result=$1
@@ -379,7 +379,7 @@ if [ -f README.md ]; then
         grep -q 'int main' "$block" 2>/dev/null || continue
         name=$(basename "$block" .c)
         promise "README.md: $name compiles and runs" \
-            "$cc -std=c99 -O0 $light -Wall -Wextra -I. $block -o $dir/$name $libs && (cd $dir && ./$name)"
+            "$cc $c99 $light $block -o $dir/$name $libs && (cd $dir && ./$name)"
     done
 fi
 

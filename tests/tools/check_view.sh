@@ -15,6 +15,7 @@ if [ -z "$browser" ]; then
 fi
 dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/view.XXXXXX") || exit 1
 trap 'rm -rf "$dir"' EXIT
+dir=$(cd "$dir" && pwd) || exit 1 # a URL needs the whole path
 passed=0 failed=0
 
 # record STATUS TEXT: counts a check, which failed if STATUS is not 0.
