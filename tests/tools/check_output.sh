@@ -8,21 +8,12 @@
 
 program=${PROGRAM:-build/sparse-local}
 case $program in /*) ;; *) program=$PWD/$program ;; esac
-dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/output.XXXXXX") || exit 1
-case $dir in /*) ;; *) dir=$PWD/$dir ;; esac
-trap 'rm -rf "$dir"' EXIT
-passed=0 failed=0
+. "$(dirname "$0")/../lib/checks.sh"
+checks_folder output
 
-# record STATUS TEXT: counts a check, which failed if STATUS is not 0.
-record() {
-    if [ "$1" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED   $2"
-        ls -l "$dir/files" | sed 's/^/    /'
-        [ ! -s "$dir/err" ] || head -n 20 "$dir/err" | sed 's/^/    /'
-    fi
+details() {
+    ls -l "$dir/files"
+    [ ! -s "$dir/err" ] || head -n 20 "$dir/err"
 }
 
 # expect STATUS PATTERN TEXT: the last $status is STATUS, and standard error matches PATTERN; an
@@ -123,7 +114,7 @@ limited() {
         rm -f "$file"
         [ $kind = new ] || echo 'the old content' >"$file"
         (
-            ulimit -f 4
+            ulimit -f 1
             "$program" "$@" >/dev/null 2>"$dir/err"
         )
         status=$?
@@ -343,5 +334,4 @@ interrupted KILL
 [ "$status" -eq 137 ] && [ "$(cat s.csv)" = 'the old content' ]
 record $? "SIGKILL leaves the old file"
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+checks_end

@@ -84,11 +84,11 @@ static void provide_factor(job *j) {
         fail("%s: %s", j->folder, strerror(errno));
     }
     if (!app_is_saved(j->operand) && access(j->factor, R_OK) != 0) {
-        const heat_time time = {0, 0, 0};
+        const heat_time time = {0, 0, 0, NULL};
         mesh m;
         heat_system h;
         app_mesh(&m, j->operand, true);
-        heat_system_create(&h, &m, heat_time_value(&time, &m, 0), NULL);
+        heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian, NULL);
         must(sl_save_file(j->factor, h.S, h.F, NULL), j->factor);
         heat_system_free(&h);
         mesh_free(&m);
