@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 55b44f4c8970036e
+ * FNV-1a of the lines after this comment, without the license: d4f335bb4b5500c4
  *
  * Contents
  * (what a user reads)
@@ -32,7 +32,7 @@
  *   3804 inverse_front.h   3896 table.h   3926 simd.h   4020 simd_scalar.h   4139 simd_avx2.h
  *   4333 simd_avx512.h   4439 simd_neon.h   4619 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4709 csc.h   4823 csc_build.h   4962 csc64.h   5039 csc_triangle.h   5110 csc_products.h
+ *   4709 csc.h   4827 csc_build.h   4966 csc64.h   5039 csc_triangle.h   5110 csc_products.h
  *   5234 permute.h   5303 sum.h   5388 output_file.h   5617 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
  *   6096 graph.h   6262 coarsen.h   6539 labels.h   6752 subgraph.h   6963 heap.h   7026 bisect.h
@@ -49,24 +49,24 @@
  *  14119 combination.h
  * (solve: full and local solves)
  *  14181 region_types.h  14299 work.h  14403 query.h  14604 singular.h  14836 backward.h
- *  14869 sweep.h  15058 compile.h  15267 plan.h  15374 local.h  15532 parts.h  15835 refine.h
- *  16018 refine_local.h  16243 rcond.h  16413 defects.h
+ *  14869 sweep.h  15058 compile.h  15267 plan.h  15374 local.h  15532 parts.h  15832 refine.h
+ *  16015 refine_local.h  16240 rcond.h  16410 defects.h
  * (inverse: entries of the inverse, regions)
- *  16469 traversal.h  16747 traversal_run.h  16928 row_sets.h  16959 unit_vectors.h
- *  17218 bilinear.h  17406 entries.h  17709 block.h  17967 reserve.h  18174 selected.h
- *  18385 selected_query.h  18493 region_choose.h  18743 region.h
+ *  16466 traversal.h  16744 traversal_run.h  16925 row_sets.h  16956 unit_vectors.h
+ *  17215 bilinear.h  17403 entries.h  17706 block.h  17964 reserve.h  18171 selected.h
+ *  18382 selected_query.h  18490 region_choose.h  18740 region.h
  * (change: a factor that follows changes of its matrix)
- *  18990 update.h  19369 rank.h  19711 edges.h  19874 choose.h  20072 pins.h
+ *  18987 update.h  19365 rank.h  19707 edges.h  19870 choose.h  20067 pins.h
  * (save: factors in files)
- *  20681 format.h  20897 decode.h  21045 check.h  21405 write.h  21611 load.h
+ *  20673 format.h  20889 decode.h  21037 check.h  21397 write.h  21603 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21967 batch_solve.h  22191 batch_factor.h  22405 batch_diagonal.h
+ *  21959 batch_solve.h  22183 batch_factor.h  22397 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22553 undef.h
+ *  22545 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22691 multi_rhs.inl.h  23065 kernel_set.inl.h  23069 unit_triangle.inl.h  23110 two_rhs.inl.h
- *  23282 product.inl.h  23423 front.inl.h  23650 inverse_front.inl.h  23955 small_supernode.inl.h
- *  24123 single_rhs.inl.h  24387 change.inl.h
+ *  22683 multi_rhs.inl.h  23057 kernel_set.inl.h  23061 unit_triangle.inl.h  23102 two_rhs.inl.h
+ *  23274 product.inl.h  23415 front.inl.h  23642 inverse_front.inl.h  23947 small_supernode.inl.h
+ *  24115 single_rhs.inl.h  24379 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4720,17 +4720,21 @@ SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
   return A->n_cols > 0 ? A->p[A->n_cols] : 0;
 }
 
-SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
-  sl_int j, p;
-  sli_stats_clear_error(stats);
-  if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
+/* Checks the sizes of a matrix with 32-bit or 64-bit indices. p: its positions. */
+static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void *p) {
+  if (n_rows < 0 || n_cols < 0 || (n_cols > 0 && p == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
-    return SL_ERR_TOO_LARGE;
-  }
-  if (A->n_cols == 0) {
-    return SL_OK;
+  return n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+}
+
+SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
+  sl_status status;
+  sl_int j, p;
+  sli_stats_clear_error(stats);
+  status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+  if (status != SL_OK || A->n_cols == 0) {
+    return status;
   }
   if (A->p[0] != 0) {
     return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
@@ -4963,15 +4967,11 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
 
 /* Checks sizes and positions; the indices are checked while they are copied. */
 static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
+  sl_status status;
   int64_t j;
-  if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
-    return SL_ERR_TOO_LARGE;
-  }
-  if (A->n_cols == 0) {
-    return SL_OK;
+  status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+  if (status != SL_OK || A->n_cols == 0) {
+    return status;
   }
   if (A->p[0] != 0) {
     return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
@@ -5018,12 +5018,12 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
     return SL_ERR_ARGUMENT;
   }
   *out = NULL;
-  status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats)
-                               : SL_ERR_ARGUMENT;
+  status =
+    sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
   if (status == SL_OK) {
     const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
-    status = sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz,
-                A->x != NULL, &a);
+    status =
+      sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz, A->x != NULL, &a);
   }
   if (status == SL_OK) {
     status = sli_csc64_copy(A, M, stats);
@@ -15560,9 +15560,7 @@ static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int 
 }
 
 static void sli_parts_layout(sli_parts *p, sli_block *b, sl_int nrhs) {
-  const size_t bytes = sli_vectors_bytes(&p->q, nrhs);
-  b->overflow |= bytes == SIZE_MAX;
-  p->memory = SLI_TAKE(b, unsigned char, bytes == SIZE_MAX ? 0 : bytes);
+  p->memory = SLI_TAKE(b, unsigned char, sli_vectors_bytes(&p->q, nrhs));
   p->steps = SLI_TAKE(b, sli_step, p->q.backward.count);
   p->ones = SLI_TAKE(b, double, p->q.backward.widest);
   p->identity = SLI_TAKE(b, sl_int, p->q.forward.columns);
@@ -15654,8 +15652,8 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
     s = is_transposed ? at : S->n_supers - 1 - at;
     for (k = 0; k < S->steps[s].width; k++) {
       j = is_transposed ? k : S->steps[s].width - 1 - k;
-      sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s],
-                S->rows + S->rows_begin[s], j, is_transposed, x, lanes);
+      sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s], S->rows + S->rows_begin[s],
+                j, is_transposed, x, lanes);
     }
   }
 }
@@ -15732,8 +15730,7 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
 }
 
 static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product, double *X,
-                 size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                 sl_work *W) {
+                 size_t ldx, const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
   sli_query all;
   sli_parts p;
   if (F == NULL) {
@@ -19003,10 +19000,10 @@ typedef struct sli_update {
   sl_factor *F;
   const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
   const double *sigma;
-  double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
-  int keeps_signs; /* a pivot that changes its sign is refused */
-  int is_trial;    /* pivots are checked, and not changed */
-  int is_tried;    /* the trial of this pass has succeeded */
+  double sign;         /* of all pivots, 1 or -1; 0: they have both signs */
+  int keeps_signs;     /* a pivot that changes its sign is refused */
+  int is_trial;        /* pivots are checked, and not changed */
+  int is_tried;        /* the trial of this pass has succeeded */
   sl_int ranks, lanes; /* vectors of the pass, and the lanes that hold them */
   int kind;
   double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
@@ -19019,10 +19016,10 @@ typedef struct sli_update {
 
   sli_step *steps; /* of the reach */
   sl_int *rows;
-  double *x;     /* lanes for each column of the reach */
-  double *gain;  /* for each column: what the pass adds to its sum of magnitudes */
-  double *local; /* [tile][lane][8]: the rows of the current step */
-  double *c;     /* 2 lanes for each column of the current step: y and -b */
+  double *x;               /* lanes for each column of the reach */
+  double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
+  double *local;           /* [tile][lane][8]: the rows of the current step */
+  double *c;               /* 2 lanes for each column of the current step: y and -b */
   double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
 } sli_update;
 
@@ -19035,7 +19032,7 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
   u->gain = SLI_TAKE(b, double, R->columns);
   u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
   u->c = SLI_TAKE(b, double, 2 * many * (uint64_t)R->widest);
-  u->trial = SLI_TAKE(b, double, has_trial ? many * (uint64_t)R->columns : 0);
+  u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
   u->scratch =
     SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
 }
@@ -19214,8 +19211,7 @@ static void sli_update_scatter(const sli_update *u, const sli_step *step, const 
   const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
   sl_int i, r;
   for (i = own; i < all; i++) {
-    const double *from =
-      u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
+    const double *from = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
     for (r = 0; r < lanes; r++) {
       u->x[(ptrdiff_t)lanes * rows[i - own] + r] = from[SLI_TILE * r];
     }
@@ -19370,21 +19366,21 @@ static sl_status sli_update_run(sli_update *u) {
 
 /* A rank-k change in progress. */
 typedef struct sli_rank {
-  sli_update u; /* first: its passes */
+  sli_update u;                             /* first: its passes */
   const sl_int *entry_rows, *entry_columns; /* a change given by entries */
   const double *deltas;
   sl_int n_entries;
   sl_stats *stats;
   sl_status status;
-  sl_int count;       /* vectors that change something */
-  sl_int updates;     /* those of the sign of the pivots: they come first */
-  int has_trial;      /* its only pass may fail: it is tried first */
-  int has_log;        /* a later pass may fail, or growth may become too large */
-  sl_int logged;      /* steps in the log */
-  int is_changed;     /* a pass has begun to change F */
-  double flops;       /* entries of L that the passes change, times their vectors' cost */
-  sl_off entries;     /* entries of L that the passes change */
-  sli_reach whole;    /* of all vectors */
+  sl_int count;    /* vectors that change something */
+  sl_int updates;  /* those of the sign of the pivots: they come first */
+  int has_trial;   /* its only pass may fail: it is tried first */
+  int has_log;     /* a later pass may fail, or growth may become too large */
+  sl_int logged;   /* steps in the log */
+  int is_changed;  /* a pass has begun to change F */
+  double flops;    /* entries of L that the passes change, times their vectors' cost */
+  sl_off entries;  /* entries of L that the passes change */
+  sli_reach whole; /* of all vectors */
   uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
   double *log, *log_D;
   sli_extent *log_extents;
@@ -19821,7 +19817,7 @@ static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill}
 
 /* Checks a list of entries. */
 static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
-                   const double *deltas, sl_int count, sl_stats *stats) {
+                 const double *deltas, sl_int count, sl_stats *stats) {
   sl_int k;
   if (F == NULL || count < 0 ||
     (count > 0 && (rows == NULL || columns == NULL || deltas == NULL))) {
@@ -19843,7 +19839,7 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
 
 /* Starts a change of F by entries. */
 static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
-                const double *deltas, sl_int count, sl_stats *stats) {
+              const double *deltas, sl_int count, sl_stats *stats) {
   sli_rank_begin(q, F, stats);
   q->entry_rows = rows;
   q->entry_columns = columns;
@@ -19884,7 +19880,7 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 /* A choice between the three ways. */
 typedef struct sli_way {
-  sl_int *columns;    /* count: the columns of A that store changed entries */
+  sl_int *columns; /* count: the columns of A that store changed entries */
   uint64_t *seeds, *scratch;
   sl_int n_seeds;
   double flops_update, flops_changed, flops_refactor;
@@ -19980,7 +19976,7 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
 }
 
 static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
-                sl_change_method *method) {
+               sl_change_method *method) {
   sl_factor *F = q->u.F;
   const int can_update = F->E == NULL && F->n_nulls == 0 && F->is_valid;
   sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
@@ -19988,8 +19984,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     return status;
   }
   c->n_seeds = sli_changed_seeds(F->S, A, c->columns, q->n_entries, c->seeds, c->scratch);
-  *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE
-                         : sli_way_make(c, F, can_update);
+  *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
   if (*method == SL_CHANGE_UPDATE) {
     q->status = SL_OK;
     status = sli_rank_apply(q, sli_edges_stages, 3, W);
@@ -20146,8 +20141,7 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) 
   for (k = 0; k < pin->count; k++) {
     pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
   }
-  F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y,
-                  scratch);
+  F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y, scratch);
   pin->z = 0.0;
   status = sli_pin_null(F, &pin->R, &pin->null);
   if (status == SL_OK && pin->null != -1) {
@@ -20468,9 +20462,8 @@ SL_API sl_status sl_pins_refactor(sl_pins *P) {
   if (P == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  P->numbers.generation = 0; /* until all of them are there */
   status = sli_pins_take(P);
-  P->numbers.generation = 0;
+  P->numbers.generation = 0; /* until all of them are there */
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
     status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
@@ -20532,8 +20525,8 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
 
 /* Makes z' (b + C f) 0 in the component of pin p, the first one there: f -= K^-1 z v. y: after the
  * forward sweep; at the null pivot it is z' b. */
-static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
-               sl_int p, const double *y, sl_int lanes) {
+static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w, sl_int p,
+               const double *y, sl_int lanes) {
   const sl_int null = P->pins[p]->null, at = sli_reach_index_of(&q->forward, null);
   double *v = w->v + p * lanes;
   double s = 0.0;
@@ -20584,8 +20577,7 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
     if (sli_pins_is_first(P, p)) {
       at = sli_reach_index_of(&q->backward, P->pins[p]->null);
       if (at != -1) {
-        memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes,
-             (size_t)lanes * sizeof(double));
+        memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes, (size_t)lanes * sizeof(double));
       }
     }
   }

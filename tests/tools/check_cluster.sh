@@ -15,19 +15,11 @@ if ! command -v mpiexec >/dev/null 2>&1 || [ ! -x "$cluster" ]; then
 fi
 # Open MPI asks for both; MPICH does not know the variables.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/cluster.XXXXXX") || exit 1
-trap 'rm -rf "$dir"' EXIT
-passed=0 failed=0
+. "$(dirname "$0")/../lib/checks.sh"
+checks_folder cluster
 
-# record STATUS TEXT: counts a check, which failed if STATUS is not 0.
-record() {
-    if [ "$1" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED   $2"
-        tail -n 5 "$dir/log" | sed 's/^/    /'
-    fi
+details() {
+    tail -n 5 "$dir/log"
 }
 
 # job RANKS ARGUMENT ...: runs a job. Its output is in $dir/log.
@@ -114,5 +106,4 @@ job 2 "$factor" heat "$dir/x"
 [ $? -ne 0 ] && grep -q '^usage: ' "$dir/log"
 record $? 'an unknown kind of query is refused'
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+checks_end

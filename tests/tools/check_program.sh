@@ -7,20 +7,12 @@
 # is `N passed, N failed`.
 
 program=${PROGRAM:-build/sparse-local}
-dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/program.XXXXXX") || exit 1
-trap 'rm -rf "$dir"' EXIT
-passed=0 failed=0
+. "$(dirname "$0")/../lib/checks.sh"
+checks_folder program
 
-# record STATUS TEXT: counts a check, which failed if STATUS is not 0. Then it also shows the output
-# of the program.
-record() {
-    if [ "$1" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED   $2"
-        head -n 20 "$dir/out" "$dir/err" | sed 's/^/    /'
-    fi
+# What the program printed last.
+details() {
+    head -n 20 "$dir/out" "$dir/err"
 }
 
 # gives STATUS PATTERN ARGUMENT ...: the program run with these arguments exits with STATUS. Its
@@ -251,5 +243,4 @@ record $? "heat starts from the first vertex of a face with an area"
     grep -q '^1,0,' "$dir/g.csv"
 record $? "geodesic starts there too"
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+checks_end

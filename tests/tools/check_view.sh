@@ -13,20 +13,11 @@ if [ -z "$browser" ]; then
     echo '0 passed, 0 failed, 1 skipped'
     exit 0
 fi
-dir=$(mktemp -d "${SL_TMP:-${TMPDIR:-/tmp}}/view.XXXXXX") || exit 1
-trap 'rm -rf "$dir"' EXIT
-dir=$(cd "$dir" && pwd) || exit 1 # a URL needs the whole path
-passed=0 failed=0
+. "$(dirname "$0")/../lib/checks.sh"
+checks_folder view
 
-# record STATUS TEXT: counts a check, which failed if STATUS is not 0.
-record() {
-    if [ "$1" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED   $2"
-        echo "$report" | sed 's/^/    /'
-    fi
+details() {
+    echo "$report"
 }
 
 # page FILE: what the page reports on itself, see the end of view_page.html. No network.
@@ -73,5 +64,4 @@ report=$(cat "$dir/out")
 record $? 'view writes a page of 200 thousand faces'
 shows "$dir/hills.html" 101124
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+checks_end

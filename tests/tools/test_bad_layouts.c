@@ -3,12 +3,11 @@
 #include "tests/lib/run_command.h"
 
 #include "tests/lib/bad_meshes.h"
-#include "tests/lib/gen_matrices.h"
+#include "tests/lib/circle_flux.h"
 #include "tests/lib/mesh_patch.h"
 #include "tests/lib/surfaces.h"
 
 #include "tools/geometry/conformal.h"
-#include "tools/geometry/harmonic_map.h"
 #include "tools/mesh/mesh_write.h"
 
 /* A torus with faces squeezed to angles of about 0.01 degrees. */
@@ -31,19 +30,6 @@ static mesh bad_mesh(int which) {
                         : squeezed_torus();
 }
 enum { BAD_MESHES = 7 };
-
-/* The right-hand side of the harmonic layout with its boundary on a circle. */
-static double *circle_flux(const disk_patch *d) {
-    double *edge = test_reals(2 * (size_t)d->n_boundary),
-           *b = test_reals(2 * (size_t)d->n_boundary);
-    double *B = test_reals(2 * (size_t)d->p.m.n_vertices);
-    boundary_to_circle(edge, d);
-    boundary_neumann_rhs(b, edge, d->n_boundary);
-    boundary_scatter(B, b, d);
-    free(b);
-    free(edge);
-    return B;
-}
 
 /* On each of the meshes the solution of N x = b agrees with that of a factor of N, refined; the
  * iteration alone has not converged on some of them, and the report tells which. */

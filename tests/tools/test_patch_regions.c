@@ -1,24 +1,10 @@
 /* test_patch_regions.c: problems on patches solved in regions: same solutions, local cost */
-#include "tests/lib/gen_matrices.h"
+#include "tests/lib/circle_flux.h"
 
 #include "tests/lib/heat_mesh.h"
 #include "tests/lib/mesh_patch.h"
 
-#include "tools/geometry/harmonic_map.h"
 #include "tools/geometry/heat_patch.h"
-
-/* The flux, n x 2, of the boundary mapped to a circle. */
-static double *circle_flux(const disk_patch *d) {
-    size_t nb = (size_t)d->n_boundary;
-    double *edge = test_reals(2 * nb), *b = test_reals(2 * nb);
-    double *B = test_reals(2 * (size_t)d->p.m.n_vertices);
-    boundary_to_circle(edge, d);
-    boundary_neumann_rhs(b, edge, d->n_boundary);
-    boundary_scatter(B, b, d);
-    free(b);
-    free(edge);
-    return B;
-}
 
 /* Both columns agree up to a constant, within 1e-10 of their size: 1e4 eps, for condition numbers
  * up to about 1e4 on these meshes. */

@@ -16,7 +16,7 @@
 
 /* A choice between the three ways. */
 typedef struct sli_way {
-    sl_int *columns;    /* count: the columns of A that store changed entries */
+    sl_int *columns; /* count: the columns of A that store changed entries */
     uint64_t *seeds, *scratch;
     sl_int n_seeds;
     double flops_update, flops_changed, flops_refactor;
@@ -112,7 +112,7 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
 }
 
 static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
-                                sl_change_method *method) {
+                             sl_change_method *method) {
     sl_factor *F = q->u.F;
     const int can_update = F->E == NULL && F->n_nulls == 0 && F->is_valid;
     sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
@@ -120,8 +120,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
         return status;
     }
     c->n_seeds = sli_changed_seeds(F->S, A, c->columns, q->n_entries, c->seeds, c->scratch);
-    *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE
-                                               : sli_way_make(c, F, can_update);
+    *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
     if (*method == SL_CHANGE_UPDATE) {
         q->status = SL_OK;
         status = sli_rank_apply(q, sli_edges_stages, 3, W);

@@ -110,12 +110,12 @@ static void sli_edges_fill(void *data) {
 }
 
 static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill},
-                                                {sli_rank_layout_seeds, sli_rank_sort},
-                                                {sli_rank_layout, NULL}};
+                                              {sli_rank_layout_seeds, sli_rank_sort},
+                                              {sli_rank_layout, NULL}};
 
 /* Checks a list of entries. */
 static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
-                                   const double *deltas, sl_int count, sl_stats *stats) {
+                                 const double *deltas, sl_int count, sl_stats *stats) {
     sl_int k;
     if (F == NULL || count < 0 ||
         (count > 0 && (rows == NULL || columns == NULL || deltas == NULL))) {
@@ -137,7 +137,7 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
 
 /* Starts a change of F by entries. */
 static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
-                              const double *deltas, sl_int count, sl_stats *stats) {
+                            const double *deltas, sl_int count, sl_stats *stats) {
     sli_rank_begin(q, F, stats);
     q->entry_rows = rows;
     q->entry_columns = columns;

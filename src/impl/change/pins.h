@@ -81,8 +81,7 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) 
     for (k = 0; k < pin->count; k++) {
         pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
     }
-    F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y,
-                                    scratch);
+    F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y, scratch);
     pin->z = 0.0;
     status = sli_pin_null(F, &pin->R, &pin->null);
     if (status == SL_OK && pin->null != -1) {
@@ -403,9 +402,8 @@ SL_API sl_status sl_pins_refactor(sl_pins *P) {
     if (P == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    P->numbers.generation = 0; /* until all of them are there */
     status = sli_pins_take(P);
-    P->numbers.generation = 0;
+    P->numbers.generation = 0; /* until all of them are there */
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
         status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
@@ -467,8 +465,8 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
 
 /* Makes z' (b + C f) 0 in the component of pin p, the first one there: f -= K^-1 z v. y: after the
  * forward sweep; at the null pivot it is z' b. */
-static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
-                             sl_int p, const double *y, sl_int lanes) {
+static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w, sl_int p,
+                             const double *y, sl_int lanes) {
     const sl_int null = P->pins[p]->null, at = sli_reach_index_of(&q->forward, null);
     double *v = w->v + p * lanes;
     double s = 0.0;
@@ -519,8 +517,7 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
         if (sli_pins_is_first(P, p)) {
             at = sli_reach_index_of(&q->backward, P->pins[p]->null);
             if (at != -1) {
-                memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes,
-                       (size_t)lanes * sizeof(double));
+                memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes, (size_t)lanes * sizeof(double));
             }
         }
     }

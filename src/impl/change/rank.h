@@ -8,21 +8,21 @@
 
 /* A rank-k change in progress. */
 typedef struct sli_rank {
-    sli_update u; /* first: its passes */
+    sli_update u;                             /* first: its passes */
     const sl_int *entry_rows, *entry_columns; /* a change given by entries */
     const double *deltas;
     sl_int n_entries;
     sl_stats *stats;
     sl_status status;
-    sl_int count;       /* vectors that change something */
-    sl_int updates;     /* those of the sign of the pivots: they come first */
-    int has_trial;      /* its only pass may fail: it is tried first */
-    int has_log;        /* a later pass may fail, or growth may become too large */
-    sl_int logged;      /* steps in the log */
-    int is_changed;     /* a pass has begun to change F */
-    double flops;       /* entries of L that the passes change, times their vectors' cost */
-    sl_off entries;     /* entries of L that the passes change */
-    sli_reach whole;    /* of all vectors */
+    sl_int count;    /* vectors that change something */
+    sl_int updates;  /* those of the sign of the pivots: they come first */
+    int has_trial;   /* its only pass may fail: it is tried first */
+    int has_log;     /* a later pass may fail, or growth may become too large */
+    sl_int logged;   /* steps in the log */
+    int is_changed;  /* a pass has begun to change F */
+    double flops;    /* entries of L that the passes change, times their vectors' cost */
+    sl_off entries;  /* entries of L that the passes change */
+    sli_reach whole; /* of all vectors */
     uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
     double *log, *log_D;
     sli_extent *log_extents;

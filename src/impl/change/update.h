@@ -20,10 +20,10 @@ typedef struct sli_update {
     sl_factor *F;
     const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
     const double *sigma;
-    double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
-    int keeps_signs; /* a pivot that changes its sign is refused */
-    int is_trial;    /* pivots are checked, and not changed */
-    int is_tried;    /* the trial of this pass has succeeded */
+    double sign;         /* of all pivots, 1 or -1; 0: they have both signs */
+    int keeps_signs;     /* a pivot that changes its sign is refused */
+    int is_trial;        /* pivots are checked, and not changed */
+    int is_tried;        /* the trial of this pass has succeeded */
     sl_int ranks, lanes; /* vectors of the pass, and the lanes that hold them */
     int kind;
     double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
@@ -36,10 +36,10 @@ typedef struct sli_update {
 
     sli_step *steps; /* of the reach */
     sl_int *rows;
-    double *x;     /* lanes for each column of the reach */
-    double *gain;  /* for each column: what the pass adds to its sum of magnitudes */
-    double *local; /* [tile][lane][8]: the rows of the current step */
-    double *c;     /* 2 lanes for each column of the current step: y and -b */
+    double *x;               /* lanes for each column of the reach */
+    double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
+    double *local;           /* [tile][lane][8]: the rows of the current step */
+    double *c;               /* 2 lanes for each column of the current step: y and -b */
     double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
 } sli_update;
 
@@ -52,7 +52,7 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
     u->gain = SLI_TAKE(b, double, R->columns);
     u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
     u->c = SLI_TAKE(b, double, 2 * many * (uint64_t)R->widest);
-    u->trial = SLI_TAKE(b, double, has_trial ? many * (uint64_t)R->columns : 0);
+    u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
     u->scratch =
         SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
 }
@@ -231,8 +231,7 @@ static void sli_update_scatter(const sli_update *u, const sli_step *step, const 
     const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
     sl_int i, r;
     for (i = own; i < all; i++) {
-        const double *from =
-            u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
+        const double *from = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
         for (r = 0; r < lanes; r++) {
             u->x[(ptrdiff_t)lanes * rows[i - own] + r] = from[SLI_TILE * r];
         }

@@ -18,17 +18,21 @@ SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
     return A->n_cols > 0 ? A->p[A->n_cols] : 0;
 }
 
-SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
-    sl_int j, p;
-    sli_stats_clear_error(stats);
-    if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
+/* Checks the sizes of a matrix with 32-bit or 64-bit indices. p: its positions. */
+static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void *p) {
+    if (n_rows < 0 || n_cols < 0 || (n_cols > 0 && p == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
-        return SL_ERR_TOO_LARGE;
-    }
-    if (A->n_cols == 0) {
-        return SL_OK;
+    return n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+}
+
+SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
+    sl_status status;
+    sl_int j, p;
+    sli_stats_clear_error(stats);
+    status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+    if (status != SL_OK || A->n_cols == 0) {
+        return status;
     }
     if (A->p[0] != 0) {
         return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);

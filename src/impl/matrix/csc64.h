@@ -6,15 +6,11 @@
 
 /* Checks sizes and positions; the indices are checked while they are copied. */
 static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
+    sl_status status;
     int64_t j;
-    if (A == NULL || A->n_rows < 0 || A->n_cols < 0 || (A->n_cols > 0 && A->p == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (A->n_rows > SLI_ROWS_MAX || A->n_cols > SLI_ROWS_MAX) {
-        return SL_ERR_TOO_LARGE;
-    }
-    if (A->n_cols == 0) {
-        return SL_OK;
+    status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+    if (status != SL_OK || A->n_cols == 0) {
+        return status;
     }
     if (A->p[0] != 0) {
         return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
@@ -61,12 +57,12 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats)
-                                                           : SL_ERR_ARGUMENT;
+    status =
+        sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
     if (status == SL_OK) {
         const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
-        status = sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz,
-                                A->x != NULL, &a);
+        status =
+            sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz, A->x != NULL, &a);
     }
     if (status == SL_OK) {
         status = sli_csc64_copy(A, M, stats);

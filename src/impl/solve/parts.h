@@ -34,9 +34,7 @@ static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int 
 }
 
 static void sli_parts_layout(sli_parts *p, sli_block *b, sl_int nrhs) {
-    const size_t bytes = sli_vectors_bytes(&p->q, nrhs);
-    b->overflow |= bytes == SIZE_MAX;
-    p->memory = SLI_TAKE(b, unsigned char, bytes == SIZE_MAX ? 0 : bytes);
+    p->memory = SLI_TAKE(b, unsigned char, sli_vectors_bytes(&p->q, nrhs));
     p->steps = SLI_TAKE(b, sli_step, p->q.backward.count);
     p->ones = SLI_TAKE(b, double, p->q.backward.widest);
     p->identity = SLI_TAKE(b, sl_int, p->q.forward.columns);
@@ -128,8 +126,8 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
         s = is_transposed ? at : S->n_supers - 1 - at;
         for (k = 0; k < S->steps[s].width; k++) {
             j = is_transposed ? k : S->steps[s].width - 1 - k;
-            sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s],
-                                S->rows + S->rows_begin[s], j, is_transposed, x, lanes);
+            sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s], S->rows + S->rows_begin[s],
+                                j, is_transposed, x, lanes);
         }
     }
 }
@@ -206,8 +204,7 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
 }
 
 static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product, double *X,
-                                 size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                                 sl_work *W) {
+                                 size_t ldx, const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
     sli_query all;
     sli_parts p;
     if (F == NULL) {
