@@ -1,72 +1,73 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d4f335bb4b5500c4
+ * FNV-1a of the lines after this comment, without the license: 265e999ac58473c2
+ * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     74 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    142 config.h     macros that a user may define before the include, the version, and the integer types
- *    221 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    367 options.h    options of all calls, threads, and the allocator
- *    496 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    638 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    810 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    936 factor.h     the numerical factorization P A P' = L D L'
- *   1139 solve.h      full solves, and the workspace of all solves
- *   1249 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1343 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1455 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1564 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1700 batch.h      many independent solves by one call, distributed over threads
- *   1750 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1928 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2047 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2150 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2285 change.h     a factor that follows small changes of its matrix
- *   2372 pins.h       rows held at given values, on top of a factor that stays as it is
+ *     75 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    143 config.h     macros that a user may define before the include, the version, and the integer types
+ *    222 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    368 options.h    options of all calls, threads, and the allocator
+ *    497 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    639 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    811 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    937 factor.h     the numerical factorization P A P' = L D L'
+ *   1140 solve.h      full solves, and the workspace of all solves
+ *   1250 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1344 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1456 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1565 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1701 batch.h      many independent solves by one call, distributed over threads
+ *   1751 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1929 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2048 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2151 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2286 change.h     a factor that follows small changes of its matrix
+ *   2373 pins.h       rows held at given values, on top of a factor that stays as it is
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2472 base.h   2718 status.h   2781 options.h   2843 alloc.h   2968 hash.h   3112 file_map.h
- *   3213 sort.h   3283 parallel.h
+ *   2473 base.h   2698 status.h   2759 options.h   2816 alloc.h   2926 hash.h   3056 file_map.h
+ *   3152 sort.h   3216 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3321 panel.h   3353 step.h   3410 pivot_rule.h   3495 front.h   3572 pairs.h
- *   3804 inverse_front.h   3896 table.h   3926 simd.h   4020 simd_scalar.h   4139 simd_avx2.h
- *   4333 simd_avx512.h   4439 simd_neon.h   4619 dispatch.h
+ *   3249 panel.h   3271 step.h   3307 pivot_rule.h   3374 front.h   3418 pairs.h
+ *   3625 inverse_front.h   3697 table.h   3722 simd.h   3763 simd_scalar.h   3881 simd_avx2.h
+ *   4065 simd_avx512.h   4167 simd_neon.h   4345 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4709 csc.h   4827 csc_build.h   4966 csc64.h   5039 csc_triangle.h   5110 csc_products.h
- *   5234 permute.h   5303 sum.h   5388 output_file.h   5617 matrix_market.h
+ *   4425 csc.h   4539 csc_build.h   4673 csc64.h   4744 csc_triangle.h   4810 csc_products.h
+ *   4927 permute.h   4993 sum.h   5075 output_file.h   5284 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6096 graph.h   6262 coarsen.h   6539 labels.h   6752 subgraph.h   6963 heap.h   7026 bisect.h
- *   7276 separator.h   7567 mindeg.h   7763 dissect.h   8113 levelset.h   8243 geometric.h
- *   8454 septree.h   8519 metis.h   8676 metis_refined.h   8802 nd.h   9009 compress.h
- *   9138 quotient.h   9553 order.h
+ *   5730 graph.h   5879 coarsen.h   6128 labels.h   6322 subgraph.h   6517 heap.h   6577 bisect.h
+ *   6807 separator.h   7069 mindeg.h   7252 dissect.h   7566 levelset.h   7681 geometric.h
+ *   7871 septree.h   7931 metis.h   8080 metis_refined.h   8194 nd.h   8386 compress.h
+ *   8507 quotient.h   8895 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9821 symbolic_types.h   9866 etree.h   9946 counts.h  10016 supernodes.h  10277 structure.h
- *  10418 schedule.h  10633 symbolic.h  11014 reach.h
+ *   9143 symbolic_types.h   9179 etree.h   9252 counts.h   9309 supernodes.h   9531 structure.h
+ *   9652 schedule.h   9841 symbolic.h  10204 reach.h
  * (factor: the numbers of L and D)
- *  11325 factor_types.h  11681 pivot_search.h  12052 pivoted.h  12121 scatter.h  12294 uplooking.h
- *  12371 null_vectors.h  12743 multifrontal.h  12994 nullspace.h  13216 growth.h
- *  13310 factor_setup.h  13583 factor.h  13796 leftlooking.h  13983 factor_query.h
- *  14119 combination.h
+ *  10475 factor_types.h  10789 pivot_search.h  11135 pivoted.h  11203 scatter.h  11361 uplooking.h
+ *  11433 null_vectors.h  11757 multifrontal.h  11992 nullspace.h  12178 growth.h
+ *  12252 factor_setup.h  12504 factor.h  12704 leftlooking.h  12879 factor_query.h
+ *  13012 combination.h
  * (solve: full and local solves)
- *  14181 region_types.h  14299 work.h  14403 query.h  14604 singular.h  14836 backward.h
- *  14869 sweep.h  15058 compile.h  15267 plan.h  15374 local.h  15532 parts.h  15832 refine.h
- *  16015 refine_local.h  16240 rcond.h  16410 defects.h
+ *  13073 region_types.h  13171 work.h  13268 query.h  13442 singular.h  13657 backward.h
+ *  13687 sweep.h  13862 compile.h  14055 plan.h  14162 local.h  14312 parts.h  14599 refine.h
+ *  14774 refine_local.h  14989 rcond.h  15146 defects.h
  * (inverse: entries of the inverse, regions)
- *  16466 traversal.h  16744 traversal_run.h  16925 row_sets.h  16956 unit_vectors.h
- *  17215 bilinear.h  17403 entries.h  17706 block.h  17964 reserve.h  18171 selected.h
- *  18382 selected_query.h  18490 region_choose.h  18740 region.h
+ *  15200 traversal.h  15442 traversal_run.h  15605 row_sets.h  15632 unit_vectors.h
+ *  15858 bilinear.h  16035 entries.h  16316 block.h  16556 reserve.h  16746 selected.h
+ *  16950 selected_query.h  17052 region_choose.h  17278 region.h
  * (change: a factor that follows changes of its matrix)
- *  18987 update.h  19365 rank.h  19707 edges.h  19870 choose.h  20067 pins.h
+ *  17517 update.h  17866 rank.h  18191 edges.h  18345 choose.h  18532 pins.h
  * (save: factors in files)
- *  20673 format.h  20889 decode.h  21037 check.h  21397 write.h  21603 load.h
+ *  19104 format.h  19305 decode.h  19447 check.h  19779 write.h  19980 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  21959 batch_solve.h  22183 batch_factor.h  22397 batch_diagonal.h
+ *  20320 batch_solve.h  20529 batch_factor.h  20730 batch_diagonal.h
  * (last: undefine every internal macro)
- *  22545 undef.h
+ *  20870 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22683 multi_rhs.inl.h  23057 kernel_set.inl.h  23061 unit_triangle.inl.h  23102 two_rhs.inl.h
- *  23274 product.inl.h  23415 front.inl.h  23642 inverse_front.inl.h  23947 small_supernode.inl.h
- *  24115 single_rhs.inl.h  24379 change.inl.h
+ *  21008 multi_rhs.inl.h  21364 kernel_set.inl.h  21366 unit_triangle.inl.h  21399 two_rhs.inl.h
+ *  21565 product.inl.h  21693 front.inl.h  21907 inverse_front.inl.h  22192 small_supernode.inl.h
+ *  22349 single_rhs.inl.h  22598 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2490,20 +2491,16 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
 #define SLI_METIS 1
 #endif
 
-/* gcc and clang, which in the dialect of MSVC does not say __GNUC__: attributes and builtins. */
 #if defined(__GNUC__) || defined(__clang__)
 #define SLI_GNU 1
 #endif
 
-/* AVX kernels need correctly aligned spills of vectors, which gcc for Windows does not have (its
- * bug 54412), and attributes of functions that name the instruction set. MSVC compiles intrinsics
- * without the attribute; its version 19.38 is said to miscompile such code. */
 #if defined(SL_NO_SIMD)
 #elif defined(__clang__) || (defined(__GNUC__) && !defined(_WIN32))
 #if defined(__x86_64__) || defined(__i386__)
 #define SLI_X86 1
 #include <immintrin.h>
-#if defined(_MSC_VER) /* there immintrin.h includes only what the command line enables */
+#if defined(_MSC_VER)
 #include <smmintrin.h>
 #include <avxintrin.h>
 #include <avx2intrin.h>
@@ -2529,7 +2526,6 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
 #define SLI_BIG_ENDIAN 1
 #endif
 
-/* Functions of Linux under names of this library, because -std=c99 hides their declarations. */
 #if defined(__linux__) && defined(__GNUC__)
 #define SLI_HUGE_PAGES 14
 extern int sli_madvise(void *block, size_t bytes, int advice) __asm__("madvise");
@@ -2542,7 +2538,6 @@ extern int sli_linkat(int from_folder, const char *from, int to_folder, const ch
             int flags) __asm__("linkat");
 #endif
 
-/* POSIX systems: what a path is and who may read it. */
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1
 #include <fcntl.h>
@@ -2554,7 +2549,6 @@ extern int sli_linkat(int from_folder, const char *from, int to_folder, const ch
 #endif
 #endif
 
-/* Functions of Windows, as <windows.h> declares them; that header defines too many macros. */
 #if defined(_WIN32)
 #define SLI_WINDOWS 1
 #include <io.h>
@@ -2596,16 +2590,12 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 
 #if defined(SLI_GNU)
 #define SLI_INLINE __attribute__((unused)) static inline
-/* for functions whose calls pass a constant that must be folded into the body */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
-#define SLI_NOINLINE __attribute__((unused, noinline)) /* keeps rare code out of hot functions */
+#define SLI_NOINLINE __attribute__((unused, noinline))
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
-/* Prefetches the cache line `bytes` after p. The line need not exist: prefetching an invalid
- * address has no effect. */
 #define SLI_PREFETCH(p, bytes) \
   __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
-/* unrolls the loop that follows, of at most 8 iterations */
 #define SLI_UNROLL _Pragma("GCC unroll 8")
 #else
 #define SLI_INLINE static inline
@@ -2625,7 +2615,6 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #endif
 #define SLI_UNROLL
 #endif
-/* c - a b in one rounding, in a function compiled for that instruction */
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
 #elif defined(SLI_X86)
@@ -2634,24 +2623,20 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #else
 #define SLI_FNMA1(a, b, c) fma(-(a), b, c)
 #endif
-/* Keeps a vector in its register: without this, a value used several times is loaded each time. */
 #if defined(SLI_GNU) && defined(SLI_X86)
 #define SLI_PIN(a) __asm__("" : "+x"(a))
-#define SLI_PIN_ANY(a) __asm__("" : "+v"(a)) /* also in registers 16 to 31 */
+#define SLI_PIN_ANY(a) __asm__("" : "+v"(a))
 #else
 #define SLI_PIN(a) ((void)0)
 #define SLI_PIN_ANY(a) ((void)0)
 #endif
 
-/* A precondition. SL_VERIFY builds check it. */
 #if defined(SL_VERIFY)
 #define SLI_ASSERT(condition) ((condition) ? (void)0 : abort())
 #else
 #define SLI_ASSERT(condition) ((void)0)
 #endif
 
-/* The most rows or columns of a matrix: rounded up to whole tiles of 8 it still fits an sl_int, and
- * so does the n + 1 after a loop that includes n. */
 #define SLI_ROWS_MAX (INT32_MAX - 7)
 
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
@@ -2662,12 +2647,10 @@ SLI_INLINE sl_int sli_max(sl_int a, sl_int b) {
   return a > b ? a : b;
 }
 
-/* a clamped */
 SLI_INLINE sl_int sli_clamp(sl_int a, sl_int high) {
   return a < 0 ? 0 : a > high ? high : a;
 }
 
-/* Whether a > factor sqrt(n), without rounding; a < 2^32. */
 SLI_INLINE int sli_exceeds_sqrt(int64_t a, sl_int factor, sl_int n) {
   return (uint64_t)a * (uint64_t)a > (uint64_t)(factor * factor) * (uint64_t)n;
 }
@@ -2687,10 +2670,9 @@ SLI_INLINE int sli_fileno(FILE *file) {
 #endif
 
 #if defined(SLI_POSIX) || defined(SLI_WINDOWS)
-/* Whether path is a symbolic link. Not noticed where the headers hide lstat. */
 SLI_INLINE int sli_is_link(const char *path) {
 #if defined(SLI_WINDOWS)
-  const unsigned long attributes = GetFileAttributesA(path); /* all ones: there is no such file */
+  const unsigned long attributes = GetFileAttributesA(path);
   return attributes != 0xffffffffu && (attributes & 0x400u) != 0;
 #elif defined(__linux__) && defined(__GNUC__)
   char to[1];
@@ -2705,8 +2687,6 @@ SLI_INLINE int sli_is_link(const char *path) {
 }
 #endif
 
-/* Seconds of processor time since an arbitrary moment. C99 has no other clock; on Windows it counts
- * all time. */
 SLI_INLINE double sli_seconds(void) {
 #if defined(SL_NO_CLOCK)
   return 0.0;
@@ -2757,7 +2737,6 @@ SL_API size_t sl_stats_size(void) {
   return sizeof(sl_stats);
 }
 
-/* Every call that takes stats begins with this. */
 SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
   if (stats != NULL) {
     stats->error.row = -1;
@@ -2767,7 +2746,6 @@ SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
   }
 }
 
-/* Reports the entry at fault in stats; returns the status. */
 SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column,
                  double value) {
   if (stats != NULL) {
@@ -2780,11 +2758,10 @@ SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, 
 
 /* src/impl/base/options.h: initializes options and checks them in every call */
 
-/* Groups of options that a call may read besides the allocator and the threads. */
 enum {
   SLI_READS_NOTHING = 0,
   SLI_READS_TRIANGLE = 1,
-  SLI_READS_ANALYSIS = 2, /* the ordering and the options that orderings read */
+  SLI_READS_ANALYSIS = 2,
   SLI_READS_FACTOR = 4,
   SLI_READS_REGION = 8,
   SLI_READS_REGION_BYTES = 16,
@@ -2799,7 +2776,6 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 }
 
 #if defined(SL_VERIFY)
-/* The groups in which an option differs from its default. */
 static int sli_options_set(const sl_options *opt) {
   const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
              opt->metis_options != NULL || opt->coordinates != NULL ||
@@ -2816,9 +2792,6 @@ static int sli_options_set(const sl_options *opt) {
 }
 #endif
 
-/* Checks the size of the struct, that no option unknown to this library is set, the completeness of
- * the allocator, and the number of threads. reads: the groups that the call reads. An option that
- * is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
 SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
   size_t k;
   if (opt == NULL) {
@@ -2842,14 +2815,11 @@ SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
 
 /* src/impl/base/alloc.h: the allocator: 64-byte aligned blocks, cut into arrays with overflow checks */
 
-#define SLI_ALIGN ((size_t)64) /* a cache line, and the widest register */
+#define SLI_ALIGN ((size_t)64)
 
-/* Blocks of at least this size ask the system for huge pages. With a factor of 34 to 410 MB, full
- * solves took 20 to 23 % less time, refactorizations 3 %. */
 #define SLI_HUGE_BLOCK ((size_t)4 << 20)
-#define SLI_PAGE ((size_t)65536) /* a multiple of the page sizes of systems */
+#define SLI_PAGE ((size_t)65536)
 
-/* Asks for huge pages; a block that gets none works as well. errno is unchanged. */
 SLI_INLINE void sli_advise_huge_pages(void *block, size_t bytes) {
 #if defined(SLI_HUGE_PAGES)
   if (block != NULL && bytes >= SLI_HUGE_BLOCK) { /* untested: memory that ends */
@@ -2877,7 +2847,6 @@ SLI_INLINE void sli_free_default(void *context, void *block) {
   free(block);
 }
 
-/* The caller's allocator; by default malloc and free. */
 SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
   sl_allocator a;
   if (opt != NULL && opt->allocator.allocate != NULL && opt->allocator.release != NULL) {
@@ -2889,7 +2858,6 @@ SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
   return a;
 }
 
-/* Default options with the allocator a. */
 SLI_INLINE sl_options sli_options_with(const sl_allocator *a) {
   sl_options opt;
   memset(&opt, 0, sizeof opt);
@@ -2897,8 +2865,6 @@ SLI_INLINE sl_options sli_options_with(const sl_allocator *a) {
   return opt;
 }
 
-/* Returns bytes > 0 of aligned memory, or NULL. The pointer from the allocator is stored just
- * before the block. */
 SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
   unsigned char *raw, *block;
   if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
@@ -2922,17 +2888,12 @@ SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
   }
 }
 
-/* A block that is cut into arrays. A layout function runs twice over it: with base NULL it only
- * counts, with the allocated block it returns the pointers. So every size is written once. If sizes
- * overflow, used becomes SIZE_MAX, which sli_block_alloc and sli_work_grow refuse. */
 typedef struct sli_block {
   unsigned char *base;
   size_t used;
   int overflow;
 } sli_block;
 
-/* The next array of count elements of size bytes; NULL while counting. count has 64 bits because
- * the counts of L may pass 2^32 where size_t has 32 bits. */
 SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
   const size_t at = b->used;
   size_t bytes = SIZE_MAX;
@@ -2948,8 +2909,6 @@ SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
   return b->base == NULL ? NULL : b->base + at;
 }
 
-/* Allocates what was counted and rewinds for the second run. At least one byte is allocated, so
- * that NULL means failure. */
 SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
   if (b->overflow) {
     return SL_ERR_TOO_LARGE;
@@ -2962,20 +2921,15 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
   return SL_OK;
 }
 
-/* The next array of count elements of a type. */
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 
 /* src/impl/base/hash.h: 128-bit hashes of arrays, by which objects recognize the contents of others */
 
-/* An identity by content. An address or a counter does not identify an object: memory is used again
- * after a release, and every counter starts at 1. Two different contents have equal hashes with a
- * probability of about 2^-64, as long as nobody constructs them: the hash is not cryptographic, so
- * whatever must hold for memory safety is checked separately. */
 typedef struct sli_hash {
   uint64_t a, b;
 } sli_hash;
 
-#define SLI_HASH_STRIPE 64 /* bytes: 16 for each of four chains */
+#define SLI_HASH_STRIPE 64
 #define SLI_HASH_1 0xa0761d6478bd642fu
 #define SLI_HASH_2 0xe7037ed1a0b428dbu
 #define SLI_HASH_3 0x8ebc6af09c88c6e3u
@@ -2985,7 +2939,6 @@ SLI_INLINE int sli_hash_equals(sli_hash g, sli_hash h) {
   return ((g.a ^ h.a) | (g.b ^ h.b)) == 0;
 }
 
-/* The two halves of the 128-bit product, added without carry. */
 SLI_INLINE uint64_t sli_fold(uint64_t x, uint64_t y) {
 #if defined(__SIZEOF_INT128__)
   __extension__ typedef unsigned __int128 sli_wide;
@@ -2999,8 +2952,6 @@ SLI_INLINE uint64_t sli_fold(uint64_t x, uint64_t y) {
 #endif
 }
 
-/* What an array consists of. Its hash does not depend on the byte order of the processor: words are
- * read as a little-endian processor reads them. */
 typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_REALS, SLI_HASH_BYTES } sli_hashed;
 
 SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
@@ -3016,8 +2967,6 @@ SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
   return word;
 }
 
-/* Hashes one stripe. A 31-bit half of a word that reaches 2^31 - `room`, and one with its highest
- * bit set, sets bit 31 or 63 of the result. */
 SLI_ALWAYS_INLINE uint64_t sli_hash_stripe(uint64_t *chain, const unsigned char *bytes,
                        sli_hashed kind, uint64_t room) {
   uint64_t beyond = 0;
@@ -3031,8 +2980,6 @@ SLI_ALWAYS_INLINE uint64_t sli_hash_stripe(uint64_t *chain, const unsigned char 
   return beyond;
 }
 
-/* The chains of an array that is mixed into h. They are independent, because the multiplications of
- * one chain wait for each other: 12 bytes a cycle. */
 SLI_INLINE void sli_hash_begin(sli_hash h, uint64_t *chain) {
   chain[0] = h.a ^ SLI_HASH_2;
   chain[1] = h.b ^ SLI_HASH_3;
@@ -3049,7 +2996,6 @@ SLI_INLINE sli_hash sli_hash_end(const uint64_t *chain, uint64_t bytes) {
   return h;
 }
 
-/* Hashes bytes in stripes; the last one is filled up with zeros. */
 SLI_ALWAYS_INLINE uint64_t sli_hash_stripes(uint64_t *chain, const void *data, size_t bytes,
                       sli_hashed kind, uint64_t room) {
   uint64_t found = 0;
@@ -3066,7 +3012,6 @@ SLI_ALWAYS_INLINE uint64_t sli_hash_stripes(uint64_t *chain, const void *data, s
   return found;
 }
 
-/* Mixes an array into h. */
 SLI_ALWAYS_INLINE sli_hash sli_hash_checked(sli_hash h, const void *data, size_t bytes,
                       sli_hashed kind, uint64_t room, uint64_t *beyond) {
   uint64_t chain[4];
@@ -3100,7 +3045,6 @@ SLI_INLINE sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
 }
 #endif
 
-/* Mixes indices into *h; returns whether all of them are in 0..n-1. */
 static int sli_hash_indices(sli_hash *h, const sl_int *a, sl_int count, sl_int n) {
   const uint64_t room = ((uint64_t)1 << 31) - (uint64_t)n;
   uint64_t beyond;
@@ -3112,11 +3056,10 @@ static int sli_hash_indices(sli_hash *h, const sl_int *a, sl_int count, sl_int n
 /* src/impl/base/file_map.h: files mapped into memory, read-only, and the size of a file */
 
 typedef struct sli_mapping {
-  const void *bytes; /* NULL: nothing is mapped */
+  const void *bytes;
   size_t size;
 } sli_mapping;
 
-/* Maps a file. An empty file cannot be mapped, and gives SL_ERR_IO like one that cannot be read. */
 static sl_status sli_map(const char *path, sli_mapping *out) {
   sl_status status = SL_ERR_IO;
   out->bytes = NULL;
@@ -3145,18 +3088,17 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
   }
 #elif defined(SLI_MAP_VIEW)
   {
-    /* GENERIC_READ; FILE_SHARE_READ and FILE_SHARE_DELETE; OPEN_EXISTING; an ordinary file */
     void *const file = CreateFileA(path, 0x80000000u, 1 | 4, NULL, 3, 0x80, NULL);
     void *section;
     int64_t size = 0;
-    if ((intptr_t)file == -1) { /* INVALID_HANDLE_VALUE */
+    if ((intptr_t)file == -1) {
       return SL_ERR_IO;
     }
     if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
       status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
     }
     section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
-    if (section != NULL) { /* 2: PAGE_READONLY, 4: FILE_MAP_READ */
+    if (section != NULL) {
       out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
       CloseHandle(section);
     }
@@ -3184,7 +3126,6 @@ static void sli_unmap(const sli_mapping *map) {
   }
 }
 
-/* The bytes of an open file, which is left at its start; 0 if it has no size, as a pipe. */
 static uint64_t sli_file_size(FILE *file) {
 #if defined(_WIN32)
   const int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : 0;
@@ -3195,16 +3136,14 @@ static uint64_t sli_file_size(FILE *file) {
   return size > 0 ? (uint64_t)size : 0;
 }
 
-/* Writes what was written to a file so far to its device, where the system can. Returns whether
- * that succeeded. */
 static int sli_flush(FILE *file) {
   if (fflush(file) != 0) {
     return 0;
   }
 #if defined(SLI_FSYNC)
-  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* a device */
+  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
 #elif defined(_WIN32)
-  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file)); /* a device, such as NUL */
+  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file));
 #else
   return 1;
 #endif
@@ -3212,8 +3151,6 @@ static int sli_flush(FILE *file) {
 
 /* src/impl/base/sort.h: sorts pairs (key, value): insertion sort for few, radix sort for many; binary search */
 
-/* A key in the upper half (a row, column or supernode) and its value in the lower half, in one
- * word. */
 SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
   return (uint64_t)(uint32_t)key << 32 | (uint32_t)value;
 }
@@ -3226,7 +3163,6 @@ SLI_INLINE sl_int sli_value(uint64_t keyed) {
   return (sl_int)(uint32_t)(keyed & 0xffffffffu);
 }
 
-/* The number of elements below a bound, of count ascending elements. */
 static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
   sl_int low = 0, high = count;
   while (low < high) {
@@ -3240,11 +3176,8 @@ static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
   return low;
 }
 
-/* Up to this count the moves of insertion cost less than the 256 counters of a radix pass. */
 #define SLI_SORT_SMALL 48
 
-/* Sorts by key, ascending and stable; keys are not negative. scratch holds count elements. O(count)
- * per byte of the largest key. */
 static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
   sl_int i, k;
   sl_int largest = 0;
@@ -3282,8 +3215,6 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
 
 /* src/impl/base/parallel.h: runs work items on the caller's thread pool, with OpenMP, or one after another */
 
-/* The number of workers for the options of threads: their count, or 1 where neither a pool nor
- * OpenMP is available. */
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #if !defined(_OPENMP)
   if (t->run == NULL) {
@@ -3293,7 +3224,6 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
   return sli_max(t->count, 1);
 }
 
-/* Calls body(data, k) for k = 0 .. count-1. */
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
              void *data) {
   sl_int k;
@@ -3309,8 +3239,6 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
   }
 }
 
-/* Where the range of worker k begins among the row tiles first .. last-1: the ranges have equal
- * length, or for a triangle, whose rows grow longer, equal area. */
 static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
                    int is_triangle) {
   const double share = (double)k / workers;
@@ -3320,132 +3248,88 @@ static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int w
 /* kernels: numerical kernels on raw arrays, once for each instruction set */
 /* src/impl/kernels/panel.h: how the columns of L of one supernode are stored: row tiles of 8 */
 
-/* The panel of a supernode with w columns and u rows below its diagonal block has w + u local rows.
- * It is stored in row tiles of 8, [tile][column][8], for every instruction set: entry (r, j) is in
- * tile r / 8, column j, lane r % 8. A tile of the diagonal block keeps only its first 8 (tile + 1)
- * columns. The unit diagonal, the part above it and the padding of the last tile are stored as
- * 0. */
 #define SLI_TILE 8
 
-/* Position of tile t in a panel of w columns, in doubles. The first w / 8 tiles grow by 8 columns
- * each, the others have w columns. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
   sl_off whole = w / SLI_TILE, tile = t;
   return tile <= whole ? 32 * tile * (tile + 1)
              : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
 }
 
-/* Number of tiles that hold some rows. */
 SLI_INLINE sl_int sli_tiles(sl_int rows) {
   return rows / SLI_TILE + (rows % SLI_TILE != 0);
 }
 
-/* Size of a panel of w columns and u rows below the diagonal block, in doubles. */
 SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
   return sli_tile_offset(w, sli_tiles(w + u));
 }
 
-/* Position of local row r of column j in a panel of w columns. */
 SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
   return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;
 }
 
 /* src/impl/kernels/step.h: the steps of a sweep, one for each supernode, and the contract of sweep kernels */
 
-/* One supernode of a reach. The vector x of a sweep holds only the columns of the reach, without
- * gaps; for a full sweep the reach is every column and base is the column itself. A sweep enters a
- * supernode at the start of a row tile. So a local sweep does the same operations in the same order
- * as a full one, which computes with zeros in the columns that the local one leaves out. */
 typedef struct sli_step {
-  sl_off panel;      /* position of the panel in L */
-  sl_int column;     /* first column needed: 8 first_tile columns into the supernode */
-  sl_int base;       /* position of that column in x */
-  sl_int width;      /* columns of the supernode */
-  sl_int below;      /* rows below its diagonal block; the sweep lists their positions in x */
-  sl_int first_tile; /* tiles and columns before it are not needed */
-  sl_int up;         /* step of the parent supernode, -1 at a root */
+  sl_off panel;
+  sl_int column;
+  sl_int base;
+  sl_int width;
+  sl_int below;
+  sl_int first_tile;
+  sl_int up;
 } sli_step;
 
-/* Columns of x that belong to a step. */
 SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
   return s->width - SLI_TILE * s->first_tile;
 }
 
-/* Right-hand sides are interleaved: row i of x is x[i nrhs] .. x[i nrhs + nrhs - 1], with nrhs = 1,
- * 2, 4 or 8. A table of kernels has one kernel for each. */
 enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
 
-/* x := L^-1 x over the steps in ascending order. rows: positions in x of the rows below, step after
- * step. scratch: sli_sweep_scratch doubles for the tallest and widest step, 64-byte aligned. */
 typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
                    const double *L, double *x, double *scratch);
 
-/* x := L'^-1 D^-1 x over the steps in descending order. rows_end: one past the last position of the
- * last step. */
 typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
                   const double *L, const double *D, double *x, double *scratch);
 
-/* Row q of a panel in the up-looking factorization. On entry the panel holds the row of A, and
- * x_super and x hold minus the updates so far. Computes the row of L, adds its updates to the rows
- * of x before q, and clears x_super. D: pivots of the supernode. *pivot -= l' D l for the row l;
- * *magnitude += |l' D l|, summed entry by entry. */
 typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
                  const double *D, double *x_super, double *x, double *scratch,
                  double *pivot, double *magnitude);
 
-/* Doubles of scratch for a step of a given height (width + below) and width. Kernels for 1 and 2
- * right-hand sides copy all rows and keep 8 partial sums for each column. The others work on x in
- * place and copy only the rows of one tile. */
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
   const size_t tile = SLI_TILE;
   return nrhs > 2 ? tile * (size_t)nrhs
           : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
 }
 
-/* Distance in bytes from the entries of L that a sweep reads to those that it prefetches. Small
- * supernodes are read too slowly for the hardware prefetcher to run far enough ahead, and it starts
- * again at every page. */
 #define SLI_PREFETCH_DISTANCE 4096
 
 /* src/impl/kernels/pivot_rule.h: replacement of null pivots and of pivots of the wrong sign */
 
-/* What is known about a pivot of a semidefinite matrix before it is computed. */
 enum {
-  SLI_PIVOT_UNKNOWN = 0, /* null by the tolerance */
-  SLI_PIVOT_NULL,        /* the last pivot of a component with a known null vector */
-  SLI_PIVOT_KEPT,        /* another pivot of such a component: never null */
-  SLI_PIVOT_WEAK         /* the same, and it was within rounding of 0 */
+  SLI_PIVOT_UNKNOWN = 0,
+  SLI_PIVOT_NULL,
+  SLI_PIVOT_KEPT,
+  SLI_PIVOT_WEAK
 };
 
-/* The arrays are indexed by the column of L. */
 typedef struct sli_pivot_rule {
   double null_tolerance;
-  int replaces;          /* 0: pivots are used as computed, and the caller looks for null ones */
-  double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
-  signed char *signs;    /* n: 1, -1, or 0 if both signs are right; NULL: all 1 */
-  signed char *kinds;    /* n: SLI_PIVOT_*; NULL if null pivots are not skipped */
-  /* n: for kept pivots the rounding error that the heaviest row of the component may cause */
+  int replaces;
+  double regularization;
+  signed char *signs;
+  signed char *kinds;
   const double *rounding;
-  double *shifts; /* n: what regularization added to each pivot; NULL without it */
+  double *shifts;
 } sli_pivot_rule;
 
-/* Replaces a null pivot that is skipped. It is so large that a division by it gives 0 or almost 0,
- * and finite, so that 0 times it is 0. */
 #define SLI_NULL_PIVOT DBL_MAX
 
-/* A pivot is null if |pivot| <= tolerance * magnitude, the sum of the magnitudes that it was
- * computed from. If the magnitude overflows and the pivot does not, nothing is known about
- * cancellation, and only 0 is null. */
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
   const double size = fabs(pivot);
   return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
 }
 
-/* The pivot of column k where null pivots are skipped. A kept pivot is not null in exact
- * arithmetic. Rounding may have made it 0, or of the wrong sign if it is small, because it may come
- * from rows that are heavier than this one. A pivot below one rounding error of its own row gets
- * that size, and a small one of the wrong sign changes its sign: both are changes of A within
- * rounding. A larger pivot of the wrong sign means that A is indefinite; the caller refuses it. */
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
                   double magnitude) {
   const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
@@ -3467,11 +3351,6 @@ SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double
   return fabs(d) < least ? sign * least : sign * fabs(d);
 }
 
-/* The pivot of column k, d as computed, by a rule that replaces pivots. A regularized null pivot is
- * regularization * magnitude, so that scaling A changes nothing. A pivot of the wrong sign that is
- * too large for a rounding error keeps its size and changes its sign: a small value would let L
- * grow without bound. Not inlined: inlining slows the factorization of definite matrices by up to 8
- * %. */
 SLI_NOINLINE static double sli_pivot_by_rule(const sli_pivot_rule *rule, sl_int k, double d,
                        double magnitude) {
   int is_null, sign;
@@ -3494,89 +3373,52 @@ SLI_NOINLINE static double sli_pivot_by_rule(const sli_pivot_rule *rule, sl_int 
 
 /* src/impl/kernels/front.h: a front of the factorization, and the contract of the kernels that work on it */
 
-/* The front of a supernode with w columns and u rows below is its panel and its update matrix. The
- * update matrix is the lower triangle, in row tiles as in a panel, that begins at row tile w / 8 of
- * the front, so that the rows below have the same lane in both. Its first w % 8 rows and columns
- * and the part above the diagonal are not used. */
-
-/* Position of row tile t of a triangle, in doubles. */
 SLI_INLINE sl_off sli_triangle_offset(sl_int t) {
   return 32 * (sl_off)t * (t + 1);
 }
 
-/* Row tiles of the update matrix of a supernode with w columns and u rows below. */
 SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
   return u == 0 ? 0 : sli_tiles(w % SLI_TILE + u);
 }
 
-/* Blocking of the products: column tiles that are updated together, and columns that they are
- * updated by at a time. A row tile reads 16 KB of a chunk (fits the first cache), the group 128 KB
- * (fits the second). */
 #define SLI_GROUP_TILES 8
 #define SLI_CHUNK_COLUMNS 256
 
-/* Doubles of scratch for fronts of some width. */
 SLI_INLINE sl_int sli_front_scratch(sl_int width) {
   return SLI_GROUP_TILES * SLI_TILE * sli_min(width, SLI_CHUNK_COLUMNS);
 }
 
-/* Doubles in the array `reciprocals` of a front: 24 for each column tile of a group. */
 #define SLI_FRONT_RECIPROCALS (3 * SLI_GROUP_TILES * SLI_TILE)
 
 typedef struct sli_front {
   double *panel;
   sl_int width, below;
   double *update;
-  double *D;         /* width pivots */
-  double *magnitude; /* 8 for each row tile: what the diagonal was computed from, in magnitude */
-  const unsigned char *pairs; /* width: SLI_PAIR_*; NULL: no 2x2 pivots */
-  double *E;                  /* width: D(k+1, k); NULL: no 2x2 pivots */
-  /* 24 for each column tile of a group: 8 values 1/d, 8 values -sign(d) and, in a tile with 2x2
-   * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
+  double *D;
+  double *magnitude;
+  const unsigned char *pairs;
+  double *E;
   double *reciprocals;
   const sli_pivot_rule *rule;
-  sl_int column; /* first column of the supernode */
+  sl_int column;
 } sli_front;
 
-/* A front is eliminated by groups of SLI_GROUP_TILES column tiles that begin at tile c0: first the
- * row tiles of the group's pivots, then all row tiles below them. The update matrix comes last.
- *
- * On entry panel and update hold A plus the contributions of the children, and magnitude the sum of
- * their magnitudes on the diagonal. At the end the panel holds L, D holds the pivots, and L D L' is
- * subtracted from update. In the rows of the panel magnitude is that of the pivot; in the others it
- * has grown by |L D L'| on the diagonal. Every row tile is computed independently of the others, so
- * row tiles may be distributed over threads. The caller looks for null pivots. */
-
-/* The row tiles of a group's pivots. */
 typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch);
 
-/* Row tiles t0 .. t1-1 of a group, all below its pivots. */
 typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
                 double *scratch);
 
-/* Row tiles t0 .. t1-1 and column tiles c0 .. c1-1 of the update matrix, or of a triangle that is a
- * part of it. update points to the triangle that begins at tile c0. No tile is before the last tile
- * of pivots. */
 typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
                   double *scratch);
 
-/* Extend-add: adds rows first .. last-1 of a descendant's update matrix to a front, in row i the
- * columns 0 .. min(i, columns-1). The first `skipped` rows and columns of the matrix are not used;
- * row 0 is the first after them. relative: the relative indices, ascending: the local row in the
- * front of each row. Two calls for the same front must not run at the same time on rows of the same
- * tile of the front. */
 typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
                   const sl_int *relative, sl_int columns, sl_int first,
                   sl_int last);
 
 /* src/impl/kernels/pairs.h: 2x2 pivots: the column tile that holds some, and the rows below it, in plain C */
 
-/* Two adjacent columns u, u+1 of one supernode and one tile form a pair if they are eliminated
- * together. D then has a 2x2 block [D(u) E(u); E(u) D(u+1)], and L(u+1, u) = 0. Tiles without pairs
- * go through the kernels as always. */
 enum { SLI_PAIR_NONE = 0, SLI_PAIR_FIRST, SLI_PAIR_SECOND };
 
-/* Does column tile c of the front hold pairs? */
 SLI_INLINE int sli_tile_has_pairs(const sli_front *f, sl_int c) {
   sl_int k, any = 0;
   if (f->pairs != NULL) {
@@ -3587,20 +3429,16 @@ SLI_INLINE int sli_tile_has_pairs(const sli_front *f, sl_int c) {
   return any != 0;
 }
 
-/* How [a e; e b] (l, m)' = (x, y)' is solved: one elimination step. Its pivot is e, which swaps the
- * equations, if |a b| <= e^2, and a otherwise. Then the product that is subtracted from the other
- * entry is not larger than that entry, and the residual is within rounding of |D| |l|. An explicit
- * inverse would multiply it by the condition of the block. */
 typedef struct sli_pair_steps {
-  int is_swapped;     /* y belongs to the first equation */
-  double factor;      /* of the first equation, subtracted from the second */
-  double coefficient; /* of m in the first equation */
-  double l, m;        /* reciprocals of the pivots */
+  int is_swapped;
+  double factor;
+  double coefficient;
+  double l, m;
 } sli_pair_steps;
 
 SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
   sli_pair_steps steps;
-  steps.is_swapped = fabs(a / e * b) <= fabs(e); /* not if e is 0 */
+  steps.is_swapped = fabs(a / e * b) <= fabs(e);
   steps.factor = steps.is_swapped ? a / e : e / a;
   steps.coefficient = steps.is_swapped ? b : e;
   steps.l = 1.0 / (steps.is_swapped ? e : a);
@@ -3608,7 +3446,6 @@ SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
   return steps;
 }
 
-/* (l, m) := D^-1 (x, y); x and l may be the same, and so may y and m. */
 SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, double *l,
                  double *m) {
   const double first = steps->is_swapped ? y : x, second = steps->is_swapped ? x : y;
@@ -3616,19 +3453,16 @@ SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, 
   *l = (first - steps->coefficient * *m) * steps->l;
 }
 
-/* A symmetric block [p q; q r]. */
 typedef struct sli_pair {
   double p, q, r;
 } sli_pair;
 
-/* |D| = (D^2)^(1/2) = [p q; q r], positive semidefinite. |l' D l| alone may be 0 where an update
- * cancels the whole row, as in a constraint that repeats another one: l' |D| l is not. */
 SLI_INLINE sli_pair sli_pair_absolute(double a, double b, double e) {
   const double most = fabs(a) > fabs(b) ? fabs(a) : fabs(b),
          size = most > fabs(e) ? most : fabs(e);
   const double f = size > 0.0 ? a / size : 0.0, g = size > 0.0 ? b / size : 0.0;
   const double h = size > 0.0 ? e / size : 0.0, det = fabs(f * g - h * h);
-  const double trace = sqrt(f * f + g * g + 2.0 * (h * h + det)); /* of |D| / size */
+  const double trace = sqrt(f * f + g * g + 2.0 * (h * h + det));
   const double scale = trace > 0.0 ? size / trace : 0.0;
   sli_pair D;
   D.p = scale * (f * f + h * h + det);
@@ -3637,13 +3471,10 @@ SLI_INLINE sli_pair sli_pair_absolute(double a, double b, double e) {
   return D;
 }
 
-/* The magnitude of a row's update by a pair: l' |D| l, summed in magnitude. */
 SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
   return l * l * D->p + 2.0 * fabs(l * m) * D->q + m * m * D->r;
 }
 
-/* A pair is null if its block, scaled by the sums of the magnitudes m that a and b were computed
- * from, has an eigenvalue within rounding of 0: |det| <= tolerance * (largest entry). */
 SLI_INLINE int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
                 double tolerance) {
   const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
@@ -3652,13 +3483,11 @@ SLI_INLINE int sli_pair_is_null(double a, double b, double e, double m_a, double
     return sli_is_null(a, m_a, tolerance) || sli_is_null(b, m_b, tolerance);
   }
   if (m_a == 0.0 || m_b == 0.0 || !sli_is_finite(m_a) || !sli_is_finite(m_b)) {
-    return 0; /* one diagonal entry is 0 and nothing was subtracted from it; or nothing known */
+    return 0;
   }
   return !(fabs(f * g - h * h) > tolerance * (most > fabs(h) ? most : fabs(h)));
 }
 
-/* Regularizes a null pair: moves both diagonal entries away from 0, in the direction of the trace,
- * so that the determinant of a semidefinite block grows. */
 static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, double *b, double e,
                const double *magnitude) {
   const double sign = *a + *b < 0.0 ? -1.0 : 1.0, other = e != 0.0 ? fabs(e) : 1.0;
@@ -3673,7 +3502,6 @@ static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, do
   }
 }
 
-/* Subtracts l x' of one column from the columns i of a tile. p: the tile, 8 x 8. */
 SLI_INLINE void sli_pair_subtract(double *p, sl_int i, sl_int columns, const double *l,
                   const double *x) {
   sl_int r;
@@ -3684,7 +3512,6 @@ SLI_INLINE void sli_pair_subtract(double *p, sl_int i, sl_int columns, const dou
   }
 }
 
-/* One pivot of a tile with pairs. k: the column in the tile. */
 static void sli_pair_tile_single(const sli_front *f, sl_int first, sl_int k, sl_int columns,
                  double *p, double *reciprocals) {
   double *magnitude = f->magnitude + first, d = p[SLI_TILE * k + k];
@@ -3707,8 +3534,6 @@ static void sli_pair_tile_single(const sli_front *f, sl_int first, sl_int k, sl_
   sli_pair_subtract(p, k + 1, columns, l, x);
 }
 
-/* The 2x2 pivot of columns k, k+1 of a tile. For the rows below, the kernel computes x = l D with
- * divisors 1; sli_pair_rows then computes l. */
 static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_int columns,
                  double *p, double *reciprocals) {
   double *magnitude = f->magnitude + first, *u = p + SLI_TILE * k, *v = u + SLI_TILE;
@@ -3745,8 +3570,6 @@ static void sli_pair_tile_double(const sli_front *f, sl_int first, sl_int k, sl_
   sli_pair_subtract(p, k + 2, columns, l[1], x[1]);
 }
 
-/* The pivots of column tile c, which holds pairs. The columns before it are already applied.
- * reciprocals: as in sli_front, then the 8 divisors of the rows below. */
 static void sli_pair_tile(const sli_front *f, sl_int c, double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
   double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
@@ -3765,7 +3588,6 @@ static void sli_pair_tile(const sli_front *f, sl_int c, double *reciprocals) {
   }
 }
 
-/* l := x D^-1 in the pairs of column tile c, for row tiles t0 .. t1-1 that hold x. */
 static void sli_pair_rows(const sli_front *f, sl_int c, sl_int t0, sl_int t1) {
   sl_int k, t, r;
   for (k = SLI_TILE * c; k < sli_min(f->width, SLI_TILE * (c + 1)); k++) {
@@ -3787,7 +3609,6 @@ static void sli_pair_rows(const sli_front *f, sl_int c, sl_int t0, sl_int t1) {
   }
 }
 
-/* B += L E on the 8 rows of a tile, for `length` columns: completes the product L D. */
 static void sli_pair_pack(const double *l, const double *E, sl_int length, double *B) {
   sl_int j, r;
   for (j = 0; j < length; j++) {
@@ -3803,40 +3624,30 @@ static void sli_pair_pack(const double *l, const double *E, sl_int length, doubl
 
 /* src/impl/kernels/inverse_front.h: a front of the inverse, and the contract of the kernels that compute it */
 
-/* Z is the inverse of P A P'. The front of a supernode holds Z on its columns and the rows below, h
- * in all, both triangles, in row tiles [tile][h][8] with the tile numbers of the panel. */
 typedef struct sli_inverse_front {
-  const double *panel; /* L .. */
-  const double *D;     /* .. and its pivots */
+  const double *panel;
+  const double *D;
   double *front;
   sl_int width, below;
-  sl_int first; /* groups of columns that end before this column are not completed */
+  sl_int first;
 } sli_inverse_front;
 
-/* Position of row tile t of an inverse front of h rows, in doubles. */
 SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
   return (ptrdiff_t)SLI_TILE * h * t;
 }
 
-/* Columns are completed in groups: column tiles and columns of a group, and doubles in a row tile
- * of its L'^-1. */
 #define SLI_INVERSE_GROUP 16
 #define SLI_INVERSE_COLUMNS (SLI_INVERSE_GROUP * SLI_TILE)
 #define SLI_INVERSE_ROW (SLI_INVERSE_COLUMNS * SLI_TILE)
 
-/* First column of the last group. */
 SLI_INLINE sl_int sli_inverse_last_group(const sli_inverse_front *f) {
   return (f->width - 1) / SLI_INVERSE_COLUMNS * SLI_INVERSE_COLUMNS;
 }
 
-/* Columns of the group that begins at column j0. */
 SLI_INLINE sl_int sli_inverse_group_columns(const sli_inverse_front *f, sl_int j0) {
   return sli_min(SLI_INVERSE_COLUMNS, f->width - j0);
 }
 
-/* The scratch of a group holds N and P, SLI_INVERSE_GROUP row tiles each, then W: where W begins,
- * its distance in doubles from one column tile to the next, and the doubles of scratch for
- * supernodes of a given height and width. */
 SLI_INLINE double *sli_inverse_weights(double *scratch) {
   return scratch + 2 * SLI_INVERSE_GROUP * SLI_INVERSE_ROW;
 }
@@ -3850,33 +3661,24 @@ SLI_INLINE sl_off sli_inverse_scratch(sl_int height, sl_int width) {
          sli_tiles(height);
 }
 
-/* Copies Z of the rows below a supernode, row tiles t0 .. t1-1, from the front of its parent, which
- * has `height` rows. relative: the relative indices, ascending: the local row in the parent's front
- * of each row below. */
 typedef void (*sli_gather_kernel)(const sli_inverse_front *f, const double *from, sl_int height,
                   const sl_int *relative, sl_int t0, sl_int t1);
 
-/* Completes the front by Takahashi's equations, one group of columns J after another, from the last
- * to the first. S: all rows after the group. With N = -L_JJ'^-1, P = -N D^-1 and W = L_SJ L_JJ^-1:
- * Z_SJ = -Z_SS W and Z_JJ = P N' - W' Z_SJ. */
 typedef void (*sli_takahashi_kernel)(const sli_inverse_front *f, double *scratch);
 
-/* The phases of a group, in order. The row tiles of a phase may be distributed over threads. */
 typedef enum sli_inverse_phase {
-  SLI_INVERSE_TRIANGLE = 0, /* N and P: tiles of the group */
-  SLI_INVERSE_WEIGHTS,      /* W: tiles of S */
-  SLI_INVERSE_PRODUCT,      /* Z_SJ: tiles of S */
-  SLI_INVERSE_MIRROR,       /* Z_JS = Z_SJ': tiles of S */
-  SLI_INVERSE_SQUARE        /* Z_JJ: tiles of the group */
+  SLI_INVERSE_TRIANGLE = 0,
+  SLI_INVERSE_WEIGHTS,
+  SLI_INVERSE_PRODUCT,
+  SLI_INVERSE_MIRROR,
+  SLI_INVERSE_SQUARE
 } sli_inverse_phase;
 #define SLI_INVERSE_PHASES 5
 
-/* Row tiles first .. last-1. */
 typedef struct sli_tile_range {
   sl_int first, last;
 } sli_tile_range;
 
-/* The row tiles of a phase. */
 SLI_INLINE sli_tile_range sli_inverse_tiles(const sli_inverse_front *f, sl_int j0,
                       sli_inverse_phase phase) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
@@ -3888,21 +3690,15 @@ SLI_INLINE sli_tile_range sli_inverse_tiles(const sli_inverse_front *f, sl_int j
   return range;
 }
 
-/* Row tiles t0 .. t1-1 of one phase. */
 typedef void (*sli_inverse_phase_kernel)(const sli_inverse_front *f, sl_int j0,
                      sli_inverse_phase phase, sl_int t0, sl_int t1,
                      double *scratch);
 
 /* src/impl/kernels/table.h: the table of kernels, which every instruction set fills */
 
-/* sums(i, j) -= y(k, i) z(k, j) over `count` rows k of 8 values each. sums: 8 x 8, row-major. All
- * arrays are 64-byte aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
 
-/* Changes the `columns` columns of one row tile l by k = 1, 2, 4 or 8 vectors: w(r) -= l y(r), then
- * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
 typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
-/* The same for k = 1 and four row tiles. w: [4][8] */
 typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
                     double *w);
 
@@ -3925,57 +3721,6 @@ typedef struct sli_kernels {
 
 /* src/impl/kernels/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
 
-/* A template *.inl.h is compiled once for each instruction set. It uses two groups of macros, which
- * the files simd_*.h define and kernel_set.inl.h undefines.
- *
- * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile.
- *
- *  SLV_NAME(f)            name of function f in this instruction set
- *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
- *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
- *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
- *  SLV_DECLARE(a)         declares a
- *  SLV_ZERO(a)            a = 0
- *  SLV_LOAD(a, p)         a = p[0..7]; p is 64-byte aligned
- *  SLV_LOAD_PINNED(a, p)  the same; the compiler may not load it again at each use
- *  SLV_LOAD_PART(a, p, count, rest)   lanes 0 .. count-1 = p[lane], the others = rest
- *  SLV_STORE(p, a)        p[0..7] = a; p is 64-byte aligned. SLV_STORE_ANY: p is not aligned
- *  SLV_BROADCAST(b, p)    every lane of b = *p
- *  SLV_LANE(b, a, k)      every lane of b = lane k of a; k is a constant
- *  SLV_GATHER(a, x, at)   lane k of a = x[at(k)]; at is a macro
- *  SLV_FIRST(a, count)    lanes count .. 7 of a = 0
- *  SLV_BELOW(a, k)        lanes 0 .. k of a = 0
- *  SLV_ADD(a, b)          a += b
- *  SLV_MULTIPLY(a, b, c)  a = b c. SLV_DIVIDE: a = b / c. SLV_FNMA: a -= b c
- *  SLV_AXPY(a, l, p)      a -= l[0..7] * *p
- *  SLV_DOT(a, l, v)       a -= l[0..7] v, lane by lane
- *  SLV_TRANSPOSE(to, from)            8 x 8 doubles, both 64-byte aligned
- *  SLV_EXPAND(mask, lanes, count)     prepares SLV_EXPAND_ADD(to, from), which adds from[i] to
- *                                     to[lanes[i]], i < count. mask has the bits of the lanes
- *  SLV_DUP_LOW(e, l)      e = l[0] l[0] l[1] l[1] l[2] l[2] l[3] l[3]. SLV_DUP_HIGH: from l[4] on
- *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
- *
- *  SLV_SUM_: an accumulator of partial sums, at most 8, as many as suit the registers.
- *  SLV_SUM_DECLARE, _ZERO, _LOAD, _STORE as above; an accumulator has room for 8 doubles in memory
- *  SLV_SUM_DOT(a, l, v)   a -= l[0..7] v, in partial sums
- *  SLV_SUMS(r, a)         lane k of vector r = the sum of accumulator a##k, k = 0 .. 7
- *
- *  SLV_TILES, SLV_COLUMNS             row tiles and columns of the register block of a product
- *  SLV_EACH_COLUMN(op, t)             op(0, t) op(1, t) .. over the columns of that block
- *
- * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.
- *
- *  SLW_NAME(f), SLW_NRHS  name of function f; the number of right-hand sides
- *  SLW_ROWS               rows that are kept in registers, 4 or 8
- *  SLW_HALF(f)            defined where 8 rows do not fit in the registers: name of f for half as
- *                         many right-hand sides
- *  SLW_DECLARE, SLW_ZERO, SLW_ADD     as above; SLW_LOAD and SLW_STORE need no alignment
- *  SLW_FNMA(a, s, b)      a -= s b
- *  SLW_DIVIDE(a, s)       a /= s
- */
-
-/* op(0, k) op(1, k) .. over 4 or 8 values; _AGAIN is the same macro for use inside itself; HIGH and
- * LOW are the two halves in descending order. */
 #define SLI_EACH4(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
 #define SLI_EACH8(op, k) SLI_EACH4(op, k) op(4, k) op(5, k) op(6, k) op(7, k)
 #define SLI_EACH4_AGAIN(op, k) op(0, k) op(1, k) op(2, k) op(3, k)
@@ -3985,7 +3730,6 @@ typedef struct sli_kernels {
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
 
-/* Calls one of 8 copies of a function, compiled for the constant numbers of columns w = 1 .. 8. */
 #define SLI_CASE(k, call) \
   case k: \
     call(k); \
@@ -4003,7 +3747,6 @@ typedef struct sli_kernels {
     call(8); \
   }
 
-/* SLV_EXPAND and SLV_EXPAND_ADD for instruction sets that have no instruction for them. */
 #define SLI_EXPAND_PLAIN(mask, lanes, count) \
   const sl_int *lanes_ = (lanes), count_ = (count); \
   (void)(mask);
@@ -4030,7 +3773,7 @@ typedef struct sli_kernels {
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
 #define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
+#define SLV_FNMA1(a, b, c) ((c) - (a) * (b))
 #define SLV_DECLARE(a) double a[SLI_TILE];
 #define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
@@ -4107,7 +3850,6 @@ typedef struct sli_kernels {
 #define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
 #define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
 
-/* Arrays gain nothing from duplicating L: two right-hand sides use multi_rhs.inl.h too. */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
 /* The header includes itself from here on: its templates, at the end, are compiled once for
@@ -4145,13 +3887,11 @@ typedef struct sli_kernels {
 #define SLV_FUNCTION SLI_TARGET("avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
 
-/* All bits set in lanes k .. 3, k = -3 .. 8. */
 SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
   return _mm256_castsi256_pd(
     _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
 }
 
-/* Lanes 0 .. count-1 from p, the others are rest; count = -3 .. 8. */
 SLV_FUNCTION SLI_INLINE __m256d sli_load_part(const double *p, int count, double rest) {
   const __m256d others = sli_lanes_from(count);
   return _mm256_blendv_pd(
@@ -4160,13 +3900,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_load_part(const double *p, int count, double
     _mm256_set1_pd(rest), others);
 }
 
-/* Number of lanes in a mask of 4. */
 SLI_INLINE int sli_count4(unsigned mask) {
   return (int)((mask & 1u) + (mask >> 1 & 1u) + (mask >> 2 & 1u) + (mask >> 3));
 }
 
-/* The permutation that moves the first lanes of a register to the lanes of a mask, as indices of
- * 32-bit lanes; -1 in the lanes that are not in the mask. */
 SLV_FUNCTION SLI_INLINE __m256i sli_expand_index(unsigned mask) {
   int at[8], k, from = 0;
   for (k = 0; k < 4; k++) {
@@ -4178,12 +3915,10 @@ SLV_FUNCTION SLI_INLINE __m256i sli_expand_index(unsigned mask) {
   return _mm256_loadu_si256((const __m256i *)(const void *)at);
 }
 
-/* All bits set in the lanes of the mask. */
 SLV_FUNCTION SLI_INLINE __m256d sli_expand_keep(__m256i index) {
   return _mm256_castsi256_pd(_mm256_cmpgt_epi32(index, _mm256_set1_epi32(-1)));
 }
 
-/* The first lanes of a in the lanes of the mask, 0 in the others. */
 SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d keep) {
   return _mm256_and_pd(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), index)),
              keep);
@@ -4216,7 +3951,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_GATHER(a, x, at) \
   a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]), \
   a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
-/* One register with 4 partial sums for each column: two would leave none for L. */
 #define SLV_SUM_DECLARE(a) __m256d a;
 #define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
 #define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
@@ -4251,7 +3985,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_LOAD_PINNED(a, p) \
   a##_0 = _mm256_load_pd(p); \
   a##_1 = _mm256_load_pd((p) + 4); \
-  SLI_PIN(a##_0); /* used 4 times */ \
+  SLI_PIN(a##_0);  \
   SLI_PIN(a##_1);
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
 #define SLV_MULTIPLY(a, b, c) \
@@ -4282,7 +4016,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
 
-/* 4 right-hand sides: one register */
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
 #define SLW_ROWS 8
@@ -4304,7 +4037,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_ADD
 #undef SLW_DIVIDE
 
-/* 8 right-hand sides: two registers */
 #define SLW_NAME(f) sli_##f##8_avx2
 #define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_NRHS 8
@@ -4336,7 +4068,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_AVX512 1
 
 #define SLV_NAME(f) sli_##f##_avx512
-/* 4 right-hand sides are one 256-bit register: AVX2's kernels do the same operations. */
 #define SLV_NAME_4(f) sli_##f##4_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
@@ -4372,8 +4103,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
           SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
 #define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
 #define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
-/* Rows i, i + 2, i + 4, i + 6 from pairs of columns; unpack: lo for the even rows, hi for the odd.
- * */
 #define SLV_TRANSPOSE_4(to, from, unpack) \
   { \
     const __m512d a_ = unpack(0xff, _mm512_load_pd(from), _mm512_load_pd((from) + 8)); \
@@ -4395,12 +4124,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_EACH_COLUMN SLI_EACH8
 #define SLV_LOAD_PINNED(a, p) \
   a = _mm512_load_pd(p); \
-  SLI_PIN_ANY(a); /* used 8 times */
+  SLI_PIN_ANY(a);
 #define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
 #define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
-/* A permutation that is computed once: the expand instruction takes twice as long. */
 #define SLV_EXPAND(mask, lanes, count) \
   const __mmask8 expand_ = (__mmask8)(mask); \
   const __m512i order_ = \
@@ -4551,7 +4279,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
-/* 4 right-hand sides: two registers */
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
 #define SLW_ROWS 8
@@ -4583,7 +4310,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_ADD
 #undef SLW_DIVIDE
 
-/* 8 right-hand sides: four registers */
 #define SLW_NAME(f) sli_##f##8_neon
 #define SLW_HALF(f) sli_##f##4_neon
 #define SLW_NRHS 8
@@ -4619,8 +4345,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 /* src/impl/kernels/dispatch.h: detects the instruction sets of this processor and selects a kernel table */
 
 #if defined(SLI_X86)
-/* What CPUID says of a leaf: eax, ebx, ecx, edx. Not by <cpuid.h>, which conflicts with <intrin.h>.
- */
 SLI_INLINE void sli_cpuid(unsigned leaf, unsigned *r) {
 #if defined(SLI_GNU)
   __asm__ volatile("cpuid" : "=a"(r[0]), "=b"(r[1]), "=c"(r[2]), "=d"(r[3]) : "a"(leaf), "c"(0));
@@ -4629,7 +4353,6 @@ SLI_INLINE void sli_cpuid(unsigned leaf, unsigned *r) {
 #endif
 }
 
-/* XCR0: the register states that the operating system saves. */
 SLI_INLINE unsigned sli_xcr0(void) {
 #if defined(SLI_GNU)
   unsigned low, high;
@@ -4644,11 +4367,8 @@ SLI_INLINE unsigned sli_xcr0(void) {
 #if defined(SLI_X86)
 #define SLI_OSXSAVE (1u << 27)
 
-/* The best instruction set, from the last leaf of CPUID, ecx of leaf 1, ebx of leaf 7, and XCR0 (0
- * without SLI_OSXSAVE). */
 SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsigned xcr0) {
   const unsigned avx_fma = 1u << 28 | 1u << 12;
-  /* 0x6: SSE and AVX state; 0xe0: AVX-512 state; bit 5: AVX2; bit 16: AVX512F */
   if (leaves < 7 || (ecx1 & avx_fma) != avx_fma || (xcr0 & 0x6u) != 0x6u || !(ebx7 & 1u << 5)) {
     return SL_ISA_SCALAR;
   }
@@ -4661,14 +4381,12 @@ SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsi
 }
 #endif
 
-/* The best instruction set that is compiled in and that the processor and the operating system
- * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
   unsigned first[4], one[4], seven[4], xcr0;
   sli_cpuid(0, first);
   sli_cpuid(1, one);
-  sli_cpuid(7, seven); /* of a processor without this leaf: anything */
+  sli_cpuid(7, seven);
   xcr0 = one[2] & SLI_OSXSAVE ? sli_xcr0() : 0; /* untested: every processor here has it */
   return sli_isa_of(first[0], one[2], seven[1], xcr0);
 #elif defined(SLI_ARM)
@@ -4678,8 +4396,6 @@ static sl_isa sli_cpu_best(void) {
 #endif
 }
 
-/* The kernel table of an instruction set; SL_ISA_AUTO: of the best one. NULL if the instruction set
- * is not compiled in or not supported here. */
 static const sli_kernels *sli_kernels_select(sl_isa isa) {
   const sl_isa best = sli_cpu_best();
   if (isa == SL_ISA_AUTO) {
@@ -4711,16 +4427,15 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
 struct sl_matrix {
   sl_allocator allocator;
   sl_int n_rows, n_cols;
-  sl_int *p; /* n_cols + 1 */
-  sl_int *i; /* p[n_cols]; allocated longer if duplicates were summed */
-  double *x; /* p[n_cols]; NULL: a pattern */
+  sl_int *p;
+  sl_int *i;
+  double *x;
 };
 
 SLI_INLINE sl_int sli_nnz(const sl_csc *A) {
   return A->n_cols > 0 ? A->p[A->n_cols] : 0;
 }
 
-/* Checks the sizes of a matrix with 32-bit or 64-bit indices. p: its positions. */
 static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void *p) {
   if (n_rows < 0 || n_cols < 0 || (n_cols > 0 && p == NULL)) {
     return SL_ERR_ARGUMENT;
@@ -4757,7 +4472,6 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   return SL_OK;
 }
 
-/* The triangles that have entries. The two patterns are not compared. */
 static sl_triangle sli_triangle_scan(const sl_csc *A) {
   sl_int j, p;
   int lower = 0, upper = 0;
@@ -4773,13 +4487,11 @@ static sl_triangle sli_triangle_scan(const sl_csc *A) {
               : SL_TRIANGLE_NONE;
 }
 
-/* Is this entry read? Of a matrix that stores both triangles only the lower one is. */
 SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
   return triangle == SL_TRIANGLE_NONE ||
        (triangle == SL_TRIANGLE_UPPER ? row <= column : row >= column);
 }
 
-/* Lays out a matrix with room for nnz entries. */
 static void sli_matrix_layout(sl_matrix *M, sli_block *b, size_t nnz, int has_values) {
   (void)sli_take(b, 1, sizeof(sl_matrix));
   M->p = SLI_TAKE(b, sl_int, (size_t)M->n_cols + 1);
@@ -4826,8 +4538,6 @@ SL_API sl_csc sl_matrix_view(const sl_matrix *M) {
 
 /* src/impl/matrix/csc_build.h: builds matrices from triplets and transposes, both by counting sorts */
 
-/* start[k] := number of keys less than k, start[n] := count. Then start[key]++ gives the positions
- * of entries sorted by key. */
 static void sli_count_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int count) {
   sl_int k, total = 0;
   memset(start, 0, ((size_t)n + 1) * sizeof(sl_int));
@@ -4841,7 +4551,6 @@ static void sli_count_starts(sl_int *start, sl_int n, const sl_int *keys, sl_int
   }
 }
 
-/* Sums adjacent entries of equal rows in every column of M; rows ascend. */
 static void sli_matrix_sum_duplicates(sl_matrix *M) {
   sl_int j, p, kept = 0, start = 0;
   for (j = 0; j < M->n_cols; j++) {
@@ -4864,8 +4573,6 @@ static void sli_matrix_sum_duplicates(sl_matrix *M) {
   }
 }
 
-/* Makes columns of triplets in range: two stable counting sorts, by row and then by column, so that
- * rows ascend and duplicates keep their order. */
 static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count,
                    const sl_int *i, const sl_int *j, const double *x,
                    const sl_allocator *a) {
@@ -4955,7 +4662,7 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
       }
     }
   }
-  for (k = A->n_rows; k > 0; k--) { /* each start has moved to the end of its column */
+  for (k = A->n_rows; k > 0; k--) {
     T->p[k] = T->p[k - 1];
   }
   T->p[0] = 0;
@@ -4965,7 +4672,6 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
 
 /* src/impl/matrix/csc64.h: matrices with 64-bit indices, converted to 32 bits */
 
-/* Checks sizes and positions; the indices are checked while they are copied. */
 static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
   sl_status status;
   int64_t j;
@@ -4987,7 +4693,6 @@ static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
   return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
 }
 
-/* Copies the indices of checked positions. */
 static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats) {
   sl_int j, p;
   M->p[0] = 0;
@@ -5038,8 +4743,6 @@ SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const 
 
 /* src/impl/matrix/csc_triangle.h: the triangle that a factorization reads; checks that a pattern is symmetric */
 
-/* Checks that A has the pattern of its transpose T: marks the rows of each column of A, then every
- * row in the same column of T must be marked. mark: n_cols elements. */
 static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int *mark,
                     sl_stats *stats) {
   sl_int j, p;
@@ -5057,9 +4760,6 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
   return SL_OK;
 }
 
-/* The triangle of a checked square matrix that a factorization reads: the one in the options, or
- * else the stored one. If both are stored, the pattern must be symmetric. *out is unchanged on
- * error. */
 static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
                   sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
@@ -5084,7 +4784,7 @@ static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_op
       return status;
     }
     T = sl_matrix_view(transpose);
-    mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int)); /* A->p is longer */
+    mark = (sl_int *)sli_alloc(&a, (size_t)A->n_cols * sizeof(sl_int));
     status = mark == NULL ? SL_ERR_MEMORY : sli_csc_check_symmetry(A, &T, mark, stats);
     sli_free(&a, mark);
     sl_matrix_free(transpose);
@@ -5109,8 +4809,6 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
 
 /* src/impl/matrix/csc_products.h: products with a matrix in compressed columns, its norm, residuals */
 
-/* y += sign A x. SL_TRIANGLE_NONE: every entry counts once, where it is; that is also right for a
- * diagonal matrix. */
 static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, double *y,
               const double *x) {
   sl_int j, p;
@@ -5127,7 +4825,6 @@ static void sli_add_product(const sl_csc *A, sl_triangle triangle, double sign, 
   }
 }
 
-/* Has A the arrays that a product reads? Sizes and p alone are looked at. */
 static int sli_csc_has_arrays(const sl_csc *A) {
   return A->n_rows >= 0 && A->n_cols >= 0 && (A->n_cols == 0 || A->p != NULL) &&
        (sli_nnz(A) <= 0 || (A->i != NULL && A->x != NULL));
@@ -5157,7 +4854,6 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   return SL_OK;
 }
 
-/* The largest magnitude of n numbers; NaN if one of them is, which fmax would ignore. */
 static double sli_largest(const double *x, sl_int n) {
   double largest = 0.0;
   sl_int i;
@@ -5168,7 +4864,6 @@ static double sli_largest(const double *x, sl_int n) {
   return largest;
 }
 
-/* The largest row sum of |A| for a symmetric A; NaN if A has one. sums: n elements of scratch. */
 static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) {
   sl_int j, p;
   memset(sums, 0, (size_t)A->n_cols * sizeof(double));
@@ -5183,8 +4878,6 @@ static double sli_csc_norm(const sl_csc *A, sl_triangle triangle, double *sums) 
   return sli_largest(sums, A->n_cols);
 }
 
-/* ||r|| / (||A|| ||x|| + ||b||). NaN for an infinite denominator: the quotient would be 0, which
- * says nothing about r. */
 static double sli_backward_error(double r, double a, double x, double b) {
   const double size = a * x + b;
   return r == 0.0 ? 0.0 : sli_is_finite(size) ? r / size : (double)NAN;
@@ -5233,8 +4926,6 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
 
 /* src/impl/matrix/permute.h: permutations: check, inverse, P A P' of a stored matrix */
 
-/* iperm := the inverse of perm. Returns the first position where perm is not a permutation, or -1.
- */
 static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
   sl_int k;
   for (k = 0; k < n; k++) {
@@ -5249,7 +4940,6 @@ static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
   return -1;
 }
 
-/* The permuted entries of A as triplets. If A stores one triangle, they are in the lower one. */
 static void sli_permute_entries(const sl_csc *A, const sl_int *iperm, sl_int *row, sl_int *column) {
   const int both = sli_triangle_scan(A) == SL_TRIANGLE_BOTH;
   sl_int j, p;
@@ -5302,14 +4992,12 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
 
 /* src/impl/matrix/sum.h: weighted sums of symmetric matrices with any stored triangles */
 
-/* Entries of all terms as triplets of the lower triangle. */
 typedef struct sli_summands {
   sl_int count;
   sl_int *row, *column;
-  double *x; /* NULL: patterns only */
+  double *x;
 } sli_summands;
 
-/* Checks that the terms can be added; *entries: the number of their stored entries. */
 static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
                  sl_off *entries, sl_stats *stats) {
   sl_int t;
@@ -5329,7 +5017,6 @@ static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, 
   return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
 }
 
-/* Appends c A. c is ignored if only patterns are summed. */
 static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
   sl_int j, p;
   for (j = 0; j < A->n_cols; j++) {
@@ -5387,28 +5074,24 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
 
 /* src/impl/matrix/output_file.h: a file that takes the place of an old one only once it is complete */
 
-#define SLI_TEMPORARY_NAMES 100 /* tried beside a file: path.tmp00 to path.tmp99 */
-#define SLI_TEMPORARY_SUFFIX 16 /* bytes of ".tmp" and any int, as compilers count them */
+#define SLI_TEMPORARY_NAMES 100
+#define SLI_TEMPORARY_SUFFIX 16
 
-/* Files without a name, and how they get one: of Linux, where the headers show the constant. */
 #if defined(SLI_FSYNC) && defined(__linux__) && defined(__O_TMPFILE)
 #define SLI_UNNAMED_FILES 1
-#define SLI_FILE_NAME_MAX 32 /* of /proc/self/fd/ and any int */
-#define SLI_HERE (-100)      /* AT_FDCWD */
-#define SLI_FOLLOW 0x400     /* AT_SYMLINK_FOLLOW */
+#define SLI_FILE_NAME_MAX 32
+#define SLI_HERE (-100)
+#define SLI_FOLLOW 0x400
 #endif
 
 typedef struct sli_output {
   FILE *file;
   const char *path;
-  char *temporary; /* name of the file that is renamed to path; NULL: path itself is written */
-  int is_unnamed;  /* the file gets the temporary name only when it is complete */
+  char *temporary;
+  int is_unnamed;
 } sli_output;
 
 #if defined(SLI_POSIX)
-/* Whether a file can take this name by rename: nothing has the name yet, or a regular file that may
- * be written. Not a device, pipe or symbolic link, whose name would be lost. *exists: whether it is
- * such a file. */
 static int sli_is_replaceable(const char *path, int *exists) {
   struct stat found;
   FILE *probe;
@@ -5430,8 +5113,6 @@ static int sli_is_replaceable(const char *path, int *exists) {
   return probe != NULL;
 }
 
-/* Gives the new file the permissions of the old one. Returns 0 if that fails or the new one has
- * another owner or group, or is on another device: the old one is a mount point then. */
 static int sli_take_attributes(const char *name, const char *old_name) {
   struct stat made, old;
   int can = stat(name, &made) == 0 && stat(old_name, &old) == 0; /* untested: one vanished */
@@ -5441,11 +5122,10 @@ static int sli_take_attributes(const char *name, const char *old_name) {
            chmod(name, old.st_mode & 0777) == 0); /* untested: an owner may */
 }
 #else
-/* The same with the means of C: what has no length, such as a device, is written in place. */
 static int sli_is_replaceable(const char *path, int *exists) {
   FILE *probe;
   long length = 0;
-  *exists = 0; /* no attributes to keep */
+  *exists = 0;
 #if defined(SLI_WINDOWS)
   if (sli_is_link(path)) {
     return 0;
@@ -5455,9 +5135,9 @@ static int sli_is_replaceable(const char *path, int *exists) {
   if (probe != NULL) {
     length = fseek(probe, 0, SEEK_END) == 0 ? ftell(probe) : 0;
     fclose(probe);
-    return length != 0; /* -1: longer than a long can say */
+    return length != 0;
   }
-  probe = fopen(path, "rb"); /* can be read and not written: not to be replaced */
+  probe = fopen(path, "rb");
   if (probe != NULL) {
     fclose(probe);
   }
@@ -5465,8 +5145,6 @@ static int sli_is_replaceable(const char *path, int *exists) {
 }
 #endif
 
-/* Creates a file that did not exist. The mode "x" is of C11; the C libraries of POSIX systems had
- * it before. Elsewhere another program may create the file between the two calls. */
 static FILE *sli_create_new(const char *name) {
 #if defined(SLI_POSIX)
   return fopen(name, "wbx");
@@ -5481,9 +5159,6 @@ static FILE *sli_create_new(const char *name) {
 }
 
 #if defined(SLI_UNNAMED_FILES)
-/* Opens a file without a name in the folder of o->path, which vanishes if the process is killed.
- * o->temporary is used to name the folder. Returns 0, without a file, where the file system has no
- * such files or this one could not take the place of path. */
 static int sli_create_unnamed(sli_output *o, int exists) {
   const char *slash = strrchr(o->path, '/');
   const size_t length = slash == NULL ? 0 : (size_t)(slash - o->path) + 1;
@@ -5503,7 +5178,6 @@ static int sli_create_unnamed(sli_output *o, int exists) {
   return o->file != NULL;
 }
 
-/* Gives an unnamed file the first temporary name that is free. Returns whether it has one. */
 static int sli_name_unnamed(sli_output *o) {
   const size_t length = strlen(o->path);
   char name[SLI_FILE_NAME_MAX];
@@ -5518,9 +5192,6 @@ static int sli_name_unnamed(sli_output *o) {
 }
 #endif
 
-/* Creates the file o->temporary. Returns 0, without a file, if it could not take the place of path,
- * so that path itself must be written. Returns 1 with the file, or with o->file NULL if there is no
- * space for it or no name. */
 static int sli_create_beside(sli_output *o, int exists) {
   const size_t length = strlen(o->path);
   int k;
@@ -5549,7 +5220,6 @@ static int sli_create_beside(sli_output *o, int exists) {
   return 1;
 }
 
-/* Opens o->file for what path shall contain. On error o needs no closing. */
 static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
   int exists, could_replace;
   o->path = path;
@@ -5575,19 +5245,17 @@ static sl_status sli_output_open(sli_output *o, const char *path, const sl_alloc
   return o->file != NULL ? SL_OK : SL_ERR_IO;
 }
 
-/* Gives the temporary file the name of the old one, which it replaces in one step. Returns whether
- * that succeeded; *is_only_copy: it did not, and the old file is gone. */
 static int sli_replace(const sli_output *o, int *is_only_copy) {
   *is_only_copy = 0;
 #if defined(SLI_WINDOWS)
-  if (MoveFileExA(o->temporary, o->path, 1) != 0) { /* 1: replaces an existing file */
+  if (MoveFileExA(o->temporary, o->path, 1) != 0) {
     return 1;
   }
 #endif
   if (rename(o->temporary, o->path) == 0) {
     return 1;
   }
-#if !defined(SLI_POSIX) /* rename may refuse an existing name */
+#if !defined(SLI_POSIX)
   *is_only_copy = remove(o->path) == 0;
   if (*is_only_copy && rename(o->temporary, o->path) == 0) {
     return 1;
@@ -5596,7 +5264,6 @@ static int sli_replace(const sli_output *o, int *is_only_copy) {
   return 0;
 }
 
-/* Closes the file and, if it is complete, gives it its name. Returns whether both succeeded. */
 static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
   int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
 #if defined(SLI_UNNAMED_FILES)
@@ -5616,24 +5283,20 @@ static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) 
 
 /* src/impl/matrix/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
 
-#define SLI_TOKEN_MAX 63        /* no number that a program prints is longer */
-#define SLI_POINT_MAX 16        /* bytes of a decimal point: one multibyte character */
-#define SLI_LINE_MAX 65536      /* bytes of a line that is not a comment; the format allows 1024 */
-#define SLI_ENTRIES_FIRST 65536 /* entries of a file for which memory is allocated at first */
+#define SLI_TOKEN_MAX 63
+#define SLI_POINT_MAX 16
+#define SLI_LINE_MAX 65536
+#define SLI_ENTRIES_FIRST 65536
 
-/* A position in the text, always at the start of a line that has not been read. A file is read
- * through a buffer: its size is not known, and may have no end. */
 typedef struct sli_reader {
   const char *at, *end;
-  FILE *file;   /* follows `end`; NULL: a text in memory, or the file has ended */
-  char *buffer; /* SLI_LINE_MAX, for a file */
-  int failed;   /* the file cannot be read, or a line is too long */
-  sl_off line;  /* lines read so far */
-  char point[SLI_POINT_MAX + 1]; /* the decimal point that strtod expects */
+  FILE *file;
+  char *buffer;
+  int failed;
+  sl_off line;
+  char point[SLI_POINT_MAX + 1];
 } sli_reader;
 
-/* Moves what is not read yet to the start of the buffer, and fills the rest of the buffer from the
- * file. Returns 0 if there is nothing to add. */
 static int sli_reader_fill(sli_reader *r) {
   const size_t kept = (size_t)(r->end - r->at);
   size_t got;
@@ -5653,7 +5316,6 @@ static int sli_reader_fill(sli_reader *r) {
   return got > 0;
 }
 
-/* Skips the rest of a line of any length. */
 static void sli_skip_line(sli_reader *r) {
   do {
     while (r->at < r->end && *r->at != '\n') {
@@ -5663,7 +5325,6 @@ static void sli_skip_line(sli_reader *r) {
   r->at += r->at < r->end;
 }
 
-/* Skips blanks, across the end of the buffer. Returns whether the text goes on. */
 static int sli_skip_blanks(sli_reader *r) {
   do {
     while (r->at < r->end && (*r->at == ' ' || *r->at == '\t' || *r->at == '\r')) {
@@ -5673,9 +5334,6 @@ static int sli_skip_blanks(sli_reader *r) {
   return r->at < r->end;
 }
 
-/* Takes the next line that is not blank; comment lines are skipped unless `comments`. *stop is its
- * end; both are valid until the next call. Returns 0 at the end of the text, and for a line that is
- * too long. */
 static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
   while (r->at < r->end || sli_reader_fill(r)) {
     ptrdiff_t length = 0;
@@ -5706,7 +5364,6 @@ static int sli_next_line(sli_reader *r, const char **start, const char **stop, i
   return 0;
 }
 
-/* Copies the next word of a line; returns 0 if there is none or it is too long. */
 static int sli_token(const char **at, const char *stop, char *token) {
   const char *s = *at;
   int length = 0;
@@ -5724,7 +5381,6 @@ static int sli_token(const char **at, const char *stop, char *token) {
   return length > 0;
 }
 
-/* Reads the next word as an integer in low..high. */
 static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off high, sl_off *out) {
   char token[SLI_TOKEN_MAX + 1];
   sl_off value = 0;
@@ -5746,16 +5402,13 @@ static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off h
   return value >= low && value <= high;
 }
 
-/* Is this a byte that a number in the C locale may have, apart from the decimal point? */
 SLI_INLINE int sli_is_numeric(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
        c == '-' || c == '(' || c == ')' || c == '_';
 }
 
-/* The decimal point of the current locale, taken from a printed number because localeconv need not
- * be thread-safe. */
 static void sli_find_point(char *point) {
-  char half[SLI_POINT_MAX + 3]; /* 0, the point, 5 */
+  char half[SLI_POINT_MAX + 3];
   const int length = snprintf(half, sizeof half, "%.1f", 0.5);
   if (length < 3 || length >= (int)sizeof half) { /* untested: no locale is like this */
     memcpy(half, "0.5", 4);                    /* untested: the same */
@@ -5764,8 +5417,6 @@ static void sli_find_point(char *point) {
   memcpy(point, half + 1, strlen(half));
 }
 
-/* Reads the next word as a number with a decimal point, in any locale: strtod receives the point of
- * the locale, and a word that is a number only in this locale is refused. */
 static int sli_token_double(const sli_reader *r, const char **at, const char *stop, double *out) {
   char token[SLI_TOKEN_MAX + 1], number[SLI_TOKEN_MAX + SLI_POINT_MAX + 1], *to = number, *rest;
   const char *c;
@@ -5788,7 +5439,6 @@ static int sli_token_double(const sli_reader *r, const char **at, const char *st
   return rest != number && *rest == '\0';
 }
 
-/* Is the token this lower-case word, in upper or lower case? */
 static int sli_token_is(const char *token, const char *word) {
   for (; *token != '\0' && *word != '\0'; token++, word++) {
     const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
@@ -5799,7 +5449,6 @@ static int sli_token_is(const char *token, const char *word) {
   return *token == *word;
 }
 
-/* Is the word in a list that ends in NULL? */
 static int sli_token_in(const char *token, const char *const *words) {
   while (*words != NULL && !sli_token_is(token, *words)) {
     words++;
@@ -5807,8 +5456,6 @@ static int sli_token_in(const char *token, const char *const *words) {
   return *words != NULL;
 }
 
-/* Reads the banner "%%MatrixMarket matrix coordinate <field> <symmetry>". A banner of the format
- * that this library does not read gives SL_ERR_UNSUPPORTED, anything else SL_ERR_IO. */
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
   static const char *const sli_formats[] = {"coordinate", "array", NULL};
   static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
@@ -5838,7 +5485,6 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
          : SL_ERR_UNSUPPORTED;
 }
 
-/* Is the rest of the line blank? */
 static int sli_line_ends(const char *s, const char *e) {
   while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
     s++;
@@ -5846,15 +5492,13 @@ static int sli_line_ends(const char *s, const char *e) {
   return s == e;
 }
 
-/* Entries read, with room for more. */
 typedef struct sli_triplets {
   void *block;
   sl_int *i, *j;
-  double *x; /* NULL: a pattern */
+  double *x;
   sl_off count, room;
 } sli_triplets;
 
-/* Allocates room for more entries and moves those that were read. */
 static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
                    const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
@@ -5884,8 +5528,6 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
   return SL_OK;
 }
 
-/* Reads size[2] lines "row column [value]", 1-based, and checks that no other line follows. Entries
- * of a symmetric file are stored in the lower triangle. */
 static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
                   sli_triplets *t, const sl_allocator *a) {
   const char *s, *e;
@@ -5910,8 +5552,6 @@ static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_val
   return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
 }
 
-/* Reads a whole matrix. Memory grows with the entries that are there, not with the number that the
- * header promises. */
 static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
   const char *s, *e;
   sl_off size[3] = {0, 0, 0}, room;
@@ -5932,8 +5572,6 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
       return SL_ERR_TOO_LARGE;
     }
   }
-  /* An entry has at least four bytes. A count that a text in memory cannot hold is refused before
-   * memory is allocated. */
   if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
     (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
     return SL_ERR_IO;
@@ -5950,10 +5588,9 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
   return status;
 }
 
-/* Reads the matrix; in any locale, and without a trace in errno. */
 static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_allocator *a,
                  sl_stats *stats) {
-  const int saved = errno; /* strtod may set it */
+  const int saved = errno;
   sl_status status;
   sli_find_point(r->point);
   status = sli_parse(out, r, a);
@@ -6015,7 +5652,6 @@ SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_opti
   return status;
 }
 
-/* Replaces the decimal point that the locale printed, of any number of bytes, by a point. */
 static void sli_set_point(char *number) {
   const char *from = number;
   char *to = number;
@@ -6032,7 +5668,6 @@ static void sli_set_point(char *number) {
   *to = '\0';
 }
 
-/* Writes one entry, 1-based; value NULL: of a pattern. */
 static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
   char number[40];
   if (value == NULL) {
@@ -6043,7 +5678,6 @@ static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *
   return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
 }
 
-/* Writes a checked matrix; returns 0 if the file system fails. */
 static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
   sl_int j, p;
   sl_off count = 0;
@@ -6095,24 +5729,18 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
 /* ordering: fill-reducing orderings of a graph */
 /* src/impl/ordering/graph.h: adjacency graph, permuted triangles and hash of a symmetric pattern */
 
-/* One triangle of a permuted symmetric pattern, stored by rows or by columns. Duplicate entries are
- * kept. Indices are positions in the elimination order. */
 typedef struct sli_pattern {
-  sl_int *begin; /* n + 1 */
-  sl_int *to;    /* begin[n]: column or row indices */
-  sl_int *from;  /* begin[n]: positions in A's arrays, or NULL if not needed */
+  sl_int *begin;
+  sl_int *to;
+  sl_int *from;
 } sli_pattern;
 
-/* The adjacency graph of a symmetric matrix: the full pattern without its diagonal. An entry given
- * twice is an edge given twice. */
 typedef struct sli_graph {
   sl_int n;
-  sl_off *begin; /* n + 1 */
-  sl_int *to;    /* begin[n]: neighbors */
+  sl_off *begin;
+  sl_int *to;
 } sli_graph;
 
-/* Fills G from the entries of A that are read. Each vertex stands for `block` consecutive rows, so
- * that G->n is A->n_cols / block. G has room for G->n + 1 positions and 2 nnz(A) neighbors. */
 SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle, sl_int block) {
   const sl_int columns = A->n_cols;
   sl_int j, p;
@@ -6132,7 +5760,7 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
     G->begin[j] = total;
     total += here;
   }
-  for (j = 0; j < columns; j++) { /* each begin advances to its list's end; shifted back below */
+  for (j = 0; j < columns; j++) {
     const sl_int v = block == 1 ? j : j / block;
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
@@ -6148,8 +5776,6 @@ SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triang
   G->begin[0] = 0;
 }
 
-/* Returns whether every adjacency list is strictly ascending. It is when the rows of each column of
- * A ascend and no entry is given twice. */
 SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
   sl_int v;
   sl_off e;
@@ -6163,8 +5789,6 @@ SLI_INLINE int sli_graph_is_sorted(const sli_graph *G) {
   return 1;
 }
 
-/* Writes the adjacency lists, sorted, to `to`. Distributing a symmetric graph vertex by vertex
- * produces sorted lists, as in a transposition. at: n of scratch. */
 SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
   sl_int v;
   sl_off e;
@@ -6176,7 +5800,6 @@ SLI_INLINE void sli_graph_sort(const sli_graph *G, sl_int *to, sl_off *at) {
   }
 }
 
-/* Removes repeated edges from sorted adjacency lists. */
 SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
   sl_int v;
   sl_off e, count = 0, first = 0;
@@ -6194,7 +5817,6 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
   G->begin[G->n] = count;
 }
 
-/* Turns counts into starting positions. */
 static void sli_pattern_starts(sli_pattern *h, sl_int n) {
   sl_int k, total = 0;
   for (k = 0; k <= n; k++) {
@@ -6204,9 +5826,6 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n) {
   }
 }
 
-/* Fills both triangles of P A P': rows (row k holds the columns up to k and their positions in A)
- * and columns (column k holds the rows from k on). Later passes walk them in elimination order, and
- * each pass reads only the triangle that it needs. */
 static void sli_pattern_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
                sli_pattern *rows, sli_pattern *columns) {
   const sl_int n = A->n_cols;
@@ -6240,13 +5859,11 @@ static void sli_pattern_fill(const sl_csc *A, sl_triangle triangle, const sl_int
   rows->begin[0] = columns->begin[0] = 0;
 }
 
-/* Hashes the pattern of A. Returns whether it is a pattern at all: positions ascending from 0 and
- * rows in range. Every refactorization calls this, and reads no index of A otherwise. */
 static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
   const sl_int n = A->n_cols, nnz = sli_nnz(A);
   uint32_t descends = n > 0 ? (uint32_t)A->p[0] : 0;
   sl_int j;
-  for (j = 0; j < n; j++) { /* positions that are not negative descend by a negative difference */
+  for (j = 0; j < n; j++) {
     const uint32_t next = (uint32_t)A->p[j + 1];
     descends |= next | (next - (uint32_t)A->p[j]);
   }
@@ -6261,22 +5878,16 @@ static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
 
 /* src/impl/ordering/coarsen.h: multilevel coarsening: each graph is contracted along a matching of its vertices */
 
-/* A graph of the multilevel hierarchy, without loops or repeated edges. A vertex of a coarser level
- * represents a set of finest vertices; an edge represents all finest edges between two sets. */
 typedef struct sli_level {
   sl_int n;
-  sl_off *begin; /* n + 1 */
-  sl_int *to;    /* begin[n] */
-  /* begin[n]: number of finest edges, or after sli_weigh_edges what a separator costs; NULL: 1
-   * each */
+  sl_off *begin;
+  sl_int *to;
   sl_int *edge;
-  sl_int *weight; /* n: number of finest vertices; NULL: 1 each */
-  sl_int *coarse; /* n: the vertex of the next coarser level that contains this one */
-  void *block;    /* the allocation that holds all arrays */
+  sl_int *weight;
+  sl_int *coarse;
+  void *block;
 } sli_level;
 
-/* Coarsening stops when a level would keep more than this share of the vertices: such a level does
- * not repay a pass over it. */
 #define SLI_COARSEN_STALL 0.95
 #define SLI_LEVELS_MAX 64
 
@@ -6288,7 +5899,6 @@ SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
   return g->edge == NULL ? 1 : g->edge[e];
 }
 
-/* A hash of v: a reproducible pseudo-random number. */
 SLI_INLINE uint32_t sli_hash32(uint32_t v) {
   v ^= v >> 16;
   v *= 0x7feb352du;
@@ -6297,15 +5907,12 @@ SLI_INLINE uint32_t sli_hash32(uint32_t v) {
   return v ^ v >> 16;
 }
 
-/* Returns the unmatched neighbor of v with the largest edge weight per vertex weight, or -1. The
- * search starts at a pseudo-random position in the list, so that in a regular grid not all pairs
- * have the same direction. */
 static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, const sl_int *mate) {
   const sl_off first = g->begin[v], degree = g->begin[v + 1] - first;
   const sl_int own = sli_level_weight(g, v);
   sl_int best = -1, best_edge = 0, best_weight = 1;
   sl_off k, e;
-  SLI_ASSERT(degree > 0); /* the graph is connected */
+  SLI_ASSERT(degree > 0);
   e = first + (sl_off)(sli_hash32((uint32_t)v) % (uint64_t)degree);
   for (k = 0; k < degree; k++, e = e + 1 == first + degree ? first : e + 1) {
     const sl_int u = g->to[e], weight = sli_level_weight(g, u), edge = sli_level_edge(g, e);
@@ -6319,9 +5926,6 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
   return best;
 }
 
-/* Matches vertices in pairs: mate[v] := the vertex matched with v, or -1. Vertices are visited in
- * pseudo-random order, but only within windows, for locality of memory access. Returns the number
- * of pairs. */
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
   const sl_int window = 512;
   sl_off first;
@@ -6350,8 +5954,6 @@ static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
   return pairs;
 }
 
-/* Matches the remaining vertices through a common neighbor (two-hop matching), such as the leaves
- * of a star. Returns the number of pairs. */
 static sl_int sli_match_two_hop(const sli_level *g, sl_int heaviest, sl_int *mate) {
   sl_int v, pairs = 0;
   for (v = 0; v < g->n; v++) {
@@ -6376,8 +5978,6 @@ static sl_int sli_match_two_hop(const sli_level *g, sl_int heaviest, sl_int *mat
   return pairs;
 }
 
-/* Numbers the pairs and the single vertices in the order of their first members. Returns how many
- * there are. */
 static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
   sl_int v, count = 0;
   for (v = 0; v < g->n; v++) {
@@ -6387,7 +5987,6 @@ static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
   return count;
 }
 
-/* Fills c, whose arrays have room, with the contracted graph. at: c->n of scratch. */
 static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, sl_off *at) {
   sl_int v, k, member[2];
   sl_off e, count = 0;
@@ -6425,8 +6024,6 @@ static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, s
   c->begin[k] = count;
 }
 
-/* Makes the next coarser level. mate, at: g->n of scratch. *shrunk := whether the level is small
- * enough to be used; c is empty if not. */
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
                sl_off *at, int *shrunk, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
@@ -6457,14 +6054,11 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
   return status;
 }
 
-/* Scratch for weighing the edges of a level. to, count: room for the finest edges; start: n + 1;
- * the other arrays: n. */
 typedef struct sli_edge_weights {
   sl_int *cluster, *member, *start, *seen, *to, *count;
   sl_off *at;
 } sli_edge_weights;
 
-/* Sorts the finest vertices by the vertex of level l that contains them. */
 static void sli_cluster_members(const sli_level *levels, int l, sli_edge_weights *w) {
   const sl_int n = levels[0].n, clusters = levels[l].n;
   sl_int v, k;
@@ -6488,9 +6082,6 @@ static void sli_cluster_members(const sli_level *levels, int l, sli_edge_weights
   w->start[0] = 0;
 }
 
-/* Sets the weight of each edge of level l to the number of finest vertices on both sides of the
- * border that it represents: what a vertex separator there costs. The number of finest edges would
- * charge a diagonal border in a square grid twice as much as a straight one. */
 static void sli_weigh_edges(sli_level *levels, int l, sli_edge_weights *w) {
   const sli_level *finest = &levels[0];
   sli_level *g = &levels[l];
@@ -6516,8 +6107,6 @@ static void sli_weigh_edges(sli_level *levels, int l, sli_edge_weights *w) {
       }
     }
   }
-  /* The weights so far count the vertices of one side; add those of the other side from the
-   * transposed lists. */
   memcpy(w->at, g->begin, (size_t)g->n * sizeof(sl_off));
   for (k = 0; k < g->n; k++) {
     for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
@@ -6538,19 +6127,14 @@ static void sli_weigh_edges(sli_level *levels, int l, sli_edge_weights *w) {
 
 /* src/impl/ordering/labels.h: the separator tree during dissection: a label for each vertex, and border lists */
 
-/* The separator tree of one graph. An inner node is a separator, a leaf is a subgraph that is not
- * dissected. The label of a vertex is its node. After sli_label_tree_number the nodes are numbered
- * in inorder, so that each subtree is an interval of labels. The label of a
- * vertex then shows whether it is below a node and on which side, so that all nodes can share one
- * graph. */
 typedef struct sli_label_tree {
   sl_int count, room;
   sl_int root;
-  sl_int *parent;       /* -1 at the root */
-  sl_int *left, *right; /* -1 at a leaf */
-  sl_int *low, *high;   /* the subtree of a node is low..high */
-  sl_int *weight;       /* weight of the finest vertices in the subtree */
-  sl_int *scratch;      /* 2 room */
+  sl_int *parent;
+  sl_int *left, *right;
+  sl_int *low, *high;
+  sl_int *weight;
+  sl_int *scratch;
 } sli_label_tree;
 
 static void sli_label_tree_layout(sli_label_tree *t, sli_block *b, sl_int room) {
@@ -6564,7 +6148,6 @@ static void sli_label_tree_layout(sli_label_tree *t, sli_block *b, sl_int room) 
   t->scratch = SLI_TAKE(b, sl_int, 2 * (size_t)room);
 }
 
-/* Adds a leaf below parent, -1 for the root, and returns it. */
 static sl_int sli_label_tree_add(sli_label_tree *t, sl_int parent) {
   const sl_int node = t->count++;
   t->parent[node] = parent;
@@ -6573,7 +6156,6 @@ static sl_int sli_label_tree_add(sli_label_tree *t, sl_int parent) {
   return node;
 }
 
-/* Splits a leaf in two. */
 static void sli_label_tree_split(sli_label_tree *t, sl_int leaf) {
   t->left[leaf] = sli_label_tree_add(t, leaf);
   t->right[leaf] = sli_label_tree_add(t, leaf);
@@ -6587,8 +6169,6 @@ SLI_INLINE int sli_label_tree_is_below(const sli_label_tree *t, sl_int node, sl_
   return t->low[node] <= label && label <= t->high[node];
 }
 
-/* The lowest common ancestor of a and b: the node that separates them. Neither is an ancestor of
- * the other. */
 SLI_INLINE sl_int sli_label_tree_lca(const sli_label_tree *t, sl_int a, sl_int b) {
   while (!sli_label_tree_is_below(t, a, b)) {
     a = t->parent[a];
@@ -6596,7 +6176,6 @@ SLI_INLINE sl_int sli_label_tree_lca(const sli_label_tree *t, sl_int a, sl_int b
   return a;
 }
 
-/* The successor of a node in postorder, or -1 after the root. */
 SLI_INLINE sl_int sli_label_tree_next(const sli_label_tree *t, sl_int node) {
   const sl_int up = t->parent[node];
   if (up == -1 || t->right[up] == node) {
@@ -6617,7 +6196,6 @@ SLI_INLINE sl_int sli_label_tree_first(const sli_label_tree *t) {
   return node;
 }
 
-/* Moves the entries of an array to the new numbers of their nodes; values: they are nodes, too. */
 static void sli_label_tree_renumber(sl_int *a, const sl_int *number, sl_int count, int values,
                   sl_int *scratch) {
   sl_int k;
@@ -6627,10 +6205,8 @@ static void sli_label_tree_renumber(sl_int *a, const sl_int *number, sl_int coun
   }
 }
 
-/* Numbers the nodes in inorder and updates the labels of n vertices. */
 static void sli_label_tree_number(sli_label_tree *t, sl_int n, sl_int *label) {
   sl_int *number = t->scratch, *keep = t->scratch + t->room, node, k, next = 0;
-  /* In a postorder walk a node gets its inorder number once its left subtree is done. */
   for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
     const sl_int up = t->parent[node];
     if (t->left[node] == -1) {
@@ -6654,7 +6230,6 @@ static void sli_label_tree_number(sli_label_tree *t, sl_int n, sl_int *label) {
   }
 }
 
-/* order := the nodes in breadth-first order, parents first. */
 static void sli_label_tree_breadth_first(const sli_label_tree *t, sl_int *order) {
   sl_int head, tail = 0;
   order[tail++] = t->root;
@@ -6666,15 +6241,12 @@ static void sli_label_tree_breadth_first(const sli_label_tree *t, sl_int *order)
   }
 }
 
-/* Borders: for each inner node, a list of the vertices that may have a neighbor on its other side.
- * The lists share one pool of entries that grows on demand. */
-
 typedef struct sli_borders {
-  sl_int *head; /* by node: its first entry, or -1 */
+  sl_int *head;
   sl_int count, room;
-  sl_int *vertex, *next; /* room */
+  sl_int *vertex, *next;
   void *block;
-  int failed; /* an allocation failed */
+  int failed;
   const sl_allocator *a;
 } sli_borders;
 
@@ -6710,7 +6282,6 @@ static void sli_borders_grow(sli_borders *l) {
   }
 }
 
-/* Enters v into the border list of node. Sets `failed` if memory runs out. */
 static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
   if (l->count == l->room) {
     sli_borders_grow(l);
@@ -6723,7 +6294,6 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
   l->head[node] = l->count++;
 }
 
-/* Enters each vertex of a level into the lists of the nodes that separate it from a neighbor. */
 static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
                const sl_int *label) {
   sl_int v, k;
@@ -6751,23 +6321,20 @@ static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_
 
 /* src/impl/ordering/subgraph.h: a leaf, or a band along the border of a node, as a graph in its own numbering */
 
-/* A subgraph of a level: the vertices of a leaf, or a few layers on each side of the border between
- * the two sides of a node. `external` is the weight of the edges to the rest of a side, whose
- * vertices do not move: it holds a vertex at its home side. */
 typedef struct sli_subgraph {
   sl_int n;
-  sl_int *vertex; /* n: number in the level */
-  sl_off *begin;  /* n + 1 */
+  sl_int *vertex;
+  sl_off *begin;
   sl_int *to, *edge;
   sl_int *weight;
-  sl_int *external;             /* n: weight of the edges that leave the band */
-  unsigned char *side;          /* n: 0 left, 1 right, 2 separator */
-  unsigned char *home;          /* n: side at the start, that of the external edges */
-  unsigned char *layer;         /* n: distance to the border */
-  int64_t total[2];             /* weight of each side, vertices outside the subgraph included */
-  sl_int *local;                /* by vertex of the level: its number here, or -1 */
-  unsigned char *locked, *best; /* n: scratch of bisection and separation */
-  sl_int *scratch;              /* 6 n */
+  sl_int *external;
+  unsigned char *side;
+  unsigned char *home;
+  unsigned char *layer;
+  int64_t total[2];
+  sl_int *local;
+  unsigned char *locked, *best;
+  sl_int *scratch;
 } sli_subgraph;
 
 static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_off edges) {
@@ -6786,14 +6353,12 @@ static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_of
   sub->scratch = SLI_TAKE(b, sl_int, 6 * (uint64_t)n);
 }
 
-/* Adds vertex v of the level. */
 SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer) {
   sub->local[v] = sub->n;
   sub->layer[sub->n] = (unsigned char)layer;
   sub->vertex[sub->n++] = v;
 }
 
-/* Removes all vertices, in time proportional to their number. */
 static void sli_subgraph_clear(sli_subgraph *sub) {
   sl_int k;
   for (k = 0; k < sub->n; k++) {
@@ -6802,7 +6367,6 @@ static void sli_subgraph_clear(sli_subgraph *sub) {
   sub->n = 0;
 }
 
-/* Builds the edges between the vertices that were added, all of them below node. */
 static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
                  sl_int node, const sl_int *label) {
   sl_int k;
@@ -6826,7 +6390,6 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_
   sub->begin[sub->n] = count;
 }
 
-/* Makes the subgraph of a leaf's vertices. */
 static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
                 sl_int node, const sl_int *label, const sl_int *vertices,
                 sl_int count) {
@@ -6840,13 +6403,8 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_l
   sub->total[1] = 0;
 }
 
-/* A band gets no further layer once it has this percentage of the finest vertices below its node.
- * In a volume, two or three layers contain most of a small subgraph, and a cut anywhere in them
- * would be unbalanced. */
 #define SLI_BAND_SHARE 30
 
-/* Makes the band of a node: the vertices at its border, and up to `layers` layers on each side of
- * them. The first layer is added regardless of SLI_BAND_SHARE. */
 static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
                 sl_int node, const sl_int *label, const sli_borders *l, int layers) {
   const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
@@ -6887,7 +6445,6 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
   sub->total[1] = t->weight[t->right[node]];
 }
 
-/* Moves a vertex to another leaf below node, or into the separator if to == node. */
 static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
                  sli_label_tree *t, sl_int *label, sli_borders *l) {
   const sl_int from = label[v], weight = sli_level_weight(g, v);
@@ -6914,7 +6471,6 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
   }
 }
 
-/* The leaf on v's new side with the heaviest edges to v, or -1. */
 static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tree *t, sl_int node,
                      sl_int v, int side, const sl_int *label) {
   sl_int best = -1, most = 0;
@@ -6930,8 +6486,6 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tre
   return best;
 }
 
-/* Writes the sides of a band to the labels. A vertex without a neighbor on its new side keeps its
- * leaf: all its neighbors are in the separator. */
 static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_tree *t,
                  sl_int node, sl_int *label, sli_borders *l) {
   sl_int *moved = sub->scratch, count = 0, k, left;
@@ -6942,7 +6496,7 @@ static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_
       moved[count++] = k;
     }
   }
-  do { /* moves spread in layers from the border, so that one or two rounds are enough */
+  do {
     left = 0;
     for (k = 0; k < count; k++) {
       const sl_int m = moved[k], v = sub->vertex[m];
@@ -6962,13 +6516,11 @@ static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_
 
 /* src/impl/ordering/heap.h: a priority queue of vertices by gain, the largest gain first */
 
-/* A binary heap. Several heaps may share `position` and `key`, because a vertex is in at most one
- * of them. */
 typedef struct sli_heap {
   sl_int count;
-  sl_int *item;     /* count; item[0] has the largest key */
-  sl_int *position; /* by vertex: its index in item, or -1 */
-  sl_int *key;      /* by vertex: its gain */
+  sl_int *item;
+  sl_int *position;
+  sl_int *key;
 } sli_heap;
 
 SLI_INLINE void sli_heap_up(sli_heap *h, sl_int k, sl_int v) {
@@ -7003,7 +6555,6 @@ SLI_INLINE void sli_heap_add(sli_heap *h, sl_int v) {
   sli_heap_up(h, h->count++, v);
 }
 
-/* Restores the heap after key[v] has changed. */
 SLI_INLINE void sli_heap_update(sli_heap *h, sl_int v) {
   const sl_int k = h->position[v];
   if (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
@@ -7025,16 +6576,12 @@ SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int v) {
 
 /* src/impl/ordering/bisect.h: graph bisection: greedy graph growing, and Fiduccia-Mattheyses refinement of a cut */
 
-#define SLI_BISECT_BALANCE 60 /* percent of the weight that one side may get */
+#define SLI_BISECT_BALANCE 60
 
-/* The cost of a cut: the weight of its edges times that of the heavier side, so that imbalance
- * increases it. At most 2^31 * 2^31. */
 SLI_INLINE int64_t sli_cut_cost(int64_t cut, const int64_t *total) {
   return cut * (total[0] > total[1] ? total[0] : total[1]);
 }
 
-/* The gain of moving v to the other side: the weight of its edges across the cut minus that of its
- * edges within its side. */
 static sl_int sli_subgraph_gain(const sli_subgraph *sub, sl_int v, int *on_border) {
   const int side = sub->side[v];
   sl_int across = side != sub->home[v] ? sub->external[v] : 0;
@@ -7051,7 +6598,6 @@ static sl_int sli_subgraph_gain(const sli_subgraph *sub, sl_int v, int *on_borde
   return across - within;
 }
 
-/* The weight of the edges across the cut, external edges included. */
 static int64_t sli_subgraph_cut_weight(const sli_subgraph *sub) {
   int64_t twice = 0;
   sl_int v;
@@ -7065,17 +6611,14 @@ static int64_t sli_subgraph_cut_weight(const sli_subgraph *sub) {
   return twice / 2;
 }
 
-/* The state of a Fiduccia-Mattheyses refinement. */
 typedef struct sli_fm {
   sli_subgraph *sub;
-  sli_heap heap[2]; /* one for each side */
+  sli_heap heap[2];
   unsigned char *locked;
-  sl_int *moves; /* the vertices moved so far */
-  int64_t most;  /* largest weight of a side */
+  sl_int *moves;
+  int64_t most;
 } sli_fm;
 
-/* Returns whether v may move: afterwards its new side is within the limit, or not heavier than its
- * old side is now. */
 SLI_INLINE int sli_fm_may_move(const sli_fm *m, sl_int v) {
   const sli_subgraph *sub = m->sub;
   const int from = sub->side[v];
@@ -7083,7 +6626,6 @@ SLI_INLINE int sli_fm_may_move(const sli_fm *m, sl_int v) {
   return after <= m->most || after <= sub->total[from];
 }
 
-/* The side whose best vertex should move next, or -1 if no vertex may move. */
 static int sli_fm_choose(const sli_fm *m) {
   int side, best = -1;
   for (side = 0; side < 2; side++) {
@@ -7099,7 +6641,6 @@ static int sli_fm_choose(const sli_fm *m) {
   return best;
 }
 
-/* Moves v to the other side. */
 static void sli_fm_flip(sli_fm *m, sl_int v) {
   sli_subgraph *sub = m->sub;
   const int from = sub->side[v];
@@ -7108,7 +6649,6 @@ static void sli_fm_flip(sli_fm *m, sl_int v) {
   sub->total[1 - from] += sub->weight[v];
 }
 
-/* Updates the gains of the neighbors of a vertex that has just moved. */
 static void sli_fm_update(sli_fm *m, sl_int v) {
   sli_subgraph *sub = m->sub;
   sl_off e;
@@ -7131,8 +6671,6 @@ static void sli_fm_update(sli_fm *m, sl_int v) {
   }
 }
 
-/* One pass: repeatedly moves the vertex of highest gain, even at a loss, but each vertex only once;
- * then undoes the moves after the best cut. Returns whether that cut is better than the first. */
 static int sli_fm_pass(sli_fm *m, int64_t *cut) {
   sli_subgraph *sub = m->sub;
   const sl_int patience = 20 + sub->n / 20 < 100 ? 20 + sub->n / 20 : 100;
@@ -7170,7 +6708,6 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
   return best > 0;
 }
 
-/* A refinement of a subgraph, in its scratch arrays. */
 static sli_fm sli_fm_of(sli_subgraph *sub) {
   sli_fm m;
   m.sub = sub;
@@ -7185,7 +6722,6 @@ static sli_fm sli_fm_of(sli_subgraph *sub) {
   return m;
 }
 
-/* Refines the cut of a subgraph in up to `rounds` passes and returns its cost. [FM82] */
 static int64_t sli_subgraph_refine(sli_subgraph *sub, int rounds) {
   sli_fm m = sli_fm_of(sub);
   int64_t cut = sli_subgraph_cut_weight(sub);
@@ -7194,8 +6730,6 @@ static int64_t sli_subgraph_refine(sli_subgraph *sub, int rounds) {
   return sli_cut_cost(cut, sub->total);
 }
 
-/* A vertex far from v: the last one that a breadth-first search reaches. queue, seen: n of
- * scratch. */
 static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *queue,
                   unsigned char *seen) {
   sl_int head, tail = 0;
@@ -7214,8 +6748,6 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
   return queue[tail - 1];
 }
 
-/* Grows side 0 from seed until it has half of the weight. The next vertex is always the one that
- * leaves the lightest cut. */
 static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
   sli_fm m = sli_fm_of(sub);
   sl_int v, unseen = 0;
@@ -7237,7 +6769,7 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
     if (m.heap[1].count > 0) {
       v = m.heap[1].item[0];
       sli_heap_remove(&m.heap[1], v);
-    } else { /* the subgraph is not connected */
+    } else {
       while (unseen < sub->n && m.locked[unseen]) {
         unseen++;
       }
@@ -7249,7 +6781,6 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
   }
 }
 
-/* Bisects a subgraph: keeps the cheapest cut of several tries. */
 static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
   int64_t best = 0, total[2] = {0, 0};
   int k;
@@ -7275,28 +6806,21 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
 
 /* src/impl/ordering/separator.h: a minimum vertex separator in a band, by maximum flow */
 
-/* A flow of vertex-disjoint paths from the left side to the right. Each vertex is split into two
- * states, 2 v its entrance and 2 v + 1 its exit, and at most one path passes between them. By
- * Menger's theorem the largest number of such paths is the size of the smallest vertex separator. A
- * round searches for an augmenting path from each source vertex in turn and enters no state twice.
- * [FF56] */
 typedef struct sli_flow {
   sli_subgraph *sub;
-  sl_int *before, *after;  /* n: neighbors of v on its path; SLI_FLOW_NONE if v is on no path */
-  sl_int *seen;            /* 2 n: the last round that entered the state */
-  sl_int *path;            /* 2 n: states of an augmenting path, source first */
-  sl_off *next;            /* n: the edge to try next */
-  unsigned char *terminal; /* n: 1 source, 2 sink, 0 neither */
+  sl_int *before, *after;
+  sl_int *seen;
+  sl_int *path;
+  sl_off *next;
+  unsigned char *terminal;
 } sli_flow;
 
 #define SLI_FLOW_NONE (-1)
-#define SLI_FLOW_END (-2)     /* the path begins or ends here */
-#if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 1 */
-#define SLI_FLOW_ROUNDS 60    /* no band seen needed more than 20 */
+#define SLI_FLOW_END (-2)
+#if !defined(SLI_FLOW_ROUNDS)
+#define SLI_FLOW_ROUNDS 60
 #endif
 
-/* Chooses the terminals: vertices with neighbors outside the band. If the whole of
- * a side lies in the band, its layer farthest from the border replaces them. */
 static void sli_flow_terminals(sli_flow *f) {
   const sli_subgraph *sub = f->sub;
   int last[2] = {-1, -1}, touches_outside[2] = {0, 0};
@@ -7313,8 +6837,6 @@ static void sli_flow_terminals(sli_flow *f) {
   }
 }
 
-/* Sorts the edges of each vertex: those towards the right first, those towards the left last.
- * Straight paths leave the most room for others. */
 static void sli_flow_sort_edges(sli_flow *f) {
   sli_subgraph *sub = f->sub;
   sl_int v;
@@ -7337,7 +6859,6 @@ static void sli_flow_sort_edges(sli_flow *f) {
   }
 }
 
-/* The state to visit next from the exit of v, or -1 if none is left. */
 static sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
   const sli_subgraph *sub = f->sub;
   for (; f->next[v] < sub->begin[v + 1]; f->next[v]++) {
@@ -7346,12 +6867,9 @@ static sl_int sli_flow_next_state(sli_flow *f, sl_int v, sl_int round) {
       return 2 * u;
     }
   }
-  /* Go back through the vertex if a path leaves it here. */
   return f->before[v] != SLI_FLOW_NONE && f->seen[2 * v] != round ? 2 * v : -1;
 }
 
-/* Searches for an augmenting path from the entrance of v to a sink. Returns its number of states, 0
- * if there is none. */
 static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
   sl_int length = 0, state = 2 * v;
   f->path[length++] = state;
@@ -7361,13 +6879,13 @@ static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
     state = f->path[length - 1];
     v = state / 2;
     if (state % 2 == 1) {
-      if (f->terminal[v] == 2) { /* no path ends here yet: its entrance would lead back */
+      if (f->terminal[v] == 2) {
         break;
       }
       next_state = sli_flow_next_state(f, v, round);
     } else if (f->before[v] == SLI_FLOW_NONE) {
       next_state = 2 * v + 1;
-    } else if (f->before[v] >= 0) { /* go back along the path that enters here */
+    } else if (f->before[v] >= 0) {
       next_state = 2 * f->before[v] + 1;
     }
     if (next_state == -1 || f->seen[next_state] == round) {
@@ -7383,14 +6901,12 @@ static sl_int sli_flow_find_path(sli_flow *f, sl_int v, sl_int round) {
   return length;
 }
 
-/* Augments the flow along `path`. */
 static void sli_flow_augment(sli_flow *f, sl_int length) {
   sl_int k;
   f->before[f->path[0] / 2] = SLI_FLOW_END;
   for (k = 0; k < length; k++) {
     const sl_int state = f->path[k], v = state / 2;
     if (state % 2 == 0) {
-      /* the state that follows shows whether the path passes through v or turns back */
       continue;
     }
     if (k + 1 == length) {
@@ -7404,8 +6920,6 @@ static void sli_flow_augment(sli_flow *f, sl_int length) {
   }
 }
 
-/* Finds a maximum flow. Returns whether the search ended within SLI_FLOW_ROUNDS; then seen == *last
- * marks the states that the left side reaches. */
 static int sli_flow_maximize(sli_flow *f, sl_int *last) {
   const sl_int n = f->sub->n;
   sl_int v, round, found = 1;
@@ -7417,8 +6931,6 @@ static int sli_flow_maximize(sli_flow *f, sl_int *last) {
     found = 0;
     for (v = 0; v < n; v++) {
       if (f->terminal[v] == 1 && f->seen[2 * v] != round) {
-        /* An entrance where a path begins is a dead end, but it must be marked as
-         * reached. */
         const sl_int length = sli_flow_find_path(f, v, round);
         if (length > 0) {
           sli_flow_augment(f, length);
@@ -7439,7 +6951,6 @@ SLI_INLINE sl_int sli_flow_mark(sli_flow *f, sl_int state, sl_int tail) {
   return tail;
 }
 
-/* Marks by -1 the states from which a sink can be reached. */
 static void sli_flow_mark_sink_side(sli_flow *f) {
   const sli_subgraph *sub = f->sub;
   sl_int v, head, tail = 0;
@@ -7468,8 +6979,6 @@ static void sli_flow_mark_sink_side(sli_flow *f) {
   }
 }
 
-/* Adds the exit of v, and all that can be reached from it, to the states marked as reached. None of
- * them reaches a sink. Returns the weight of the vertices that the left side gains. */
 static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
   const sli_subgraph *sub = f->sub;
   sl_int head, tail = 0, next_state;
@@ -7480,7 +6989,6 @@ static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
   for (head = 0; head < tail; head++) {
     v = f->path[head] / 2;
     if (f->path[head] % 2 == 0) {
-      /* not an entrance where a path begins: all of those are marked */
       next_state = f->before[v] == SLI_FLOW_NONE ? 2 * v + 1 : 2 * f->before[v] + 1;
       if (f->seen[next_state] != mark) {
         f->seen[next_state] = mark;
@@ -7504,8 +7012,6 @@ static int64_t sli_flow_extend_source_side(sli_flow *f, sl_int v, sl_int mark) {
   return gained;
 }
 
-/* Chooses a balanced one among the smallest separators: starts with the one nearest to the left,
- * then moves vertices that do not reach a sink to the left side until it has half of the weight. */
 static void sli_flow_balance(sli_flow *f, sl_int mark) {
   const sli_subgraph *sub = f->sub;
   int64_t left = sub->total[0], half = sub->total[0] + sub->total[1];
@@ -7518,7 +7024,6 @@ static void sli_flow_balance(sli_flow *f, sl_int mark) {
   }
   half /= 2;
   for (k = 0; k < 2 * sub->n && left < half; k++) {
-    /* the left side from far to near, then the right side */
     v = k < sub->n ? sub->n - 1 - k : k - sub->n;
     if (sub->side[v] == (k >= sub->n) && f->seen[2 * v + 1] != mark &&
       f->seen[2 * v + 1] != -1) {
@@ -7527,7 +7032,6 @@ static void sli_flow_balance(sli_flow *f, sl_int mark) {
   }
 }
 
-/* The fallback if the search takes too long: the border vertices of the lighter side. */
 static void sli_separator_from_border(sli_subgraph *sub) {
   const int side = sub->total[0] > sub->total[1];
   sl_int v;
@@ -7536,8 +7040,6 @@ static void sli_separator_from_border(sli_subgraph *sub) {
   }
 }
 
-/* Makes a smallest vertex separator the separator of a band. terminal, next: n of scratch; scratch:
- * 6 n. */
 static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl_int *scratch,
                   sl_off *next) {
   const size_t n = (size_t)sub->n;
@@ -7566,23 +7068,19 @@ static void sli_subgraph_separate(sli_subgraph *sub, unsigned char *terminal, sl
 
 /* src/impl/ordering/mindeg.h: minimum degree ordering of leaf subgraphs, with the graph as a bit matrix */
 
-#define SLI_MINDEG_MAX 1024 /* most vertices of a leaf; larger leaves keep their order */
+#define SLI_MINDEG_MAX 1024
 #define SLI_MINDEG_ELIMINATED UINT32_MAX
 
-/* A leaf subgraph and its halo, the vertices of surrounding separators. They are eliminated later,
- * so that they count in every degree. */
 typedef struct sli_mindeg {
-  sl_int n;       /* vertices of the leaf: bits 0..n-1; the halo follows */
-  size_t words;   /* 64-bit words of a row */
-  uint64_t *rows; /* n x words: adjacency matrix with diagonal */
-  uint32_t *key;  /* n: degree, then number; SLI_MINDEG_ELIMINATED once eliminated */
-  size_t room;    /* words available in rows */
-  uint64_t alive[SLI_MINDEG_MAX / 64]; /* vertices of the leaf not yet eliminated */
-  int has_popcnt;                      /* every processor with AVX2 has the instruction */
+  sl_int n;
+  size_t words;
+  uint64_t *rows;
+  uint32_t *key;
+  size_t room;
+  uint64_t alive[SLI_MINDEG_MAX / 64];
+  int has_popcnt;
 } sli_mindeg;
 
-/* The number of bits set: one instruction where the function that inlines this is compiled for it,
- * see sli_mindeg_run_popcnt. */
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
 #if defined(SLI_GNU)
   return (uint32_t)__builtin_popcountll(w);
@@ -7602,7 +7100,6 @@ SLI_ALWAYS_INLINE sl_int sli_lowest_bit(uint64_t w) {
 #endif
 }
 
-/* other |= row, without bit v. Returns the new degree; `other` includes its own diagonal bit. */
 SLI_ALWAYS_INLINE uint32_t sli_mindeg_join(uint64_t *other, const uint64_t *row, size_t words,
                        sl_int v) {
   uint32_t degree = 0;
@@ -7615,9 +7112,6 @@ SLI_ALWAYS_INLINE uint32_t sli_mindeg_join(uint64_t *other, const uint64_t *row,
   return degree - 1;
 }
 
-/* Eliminates v: its neighbors become a clique. Vertices whose neighbors are then just that clique
- * are indistinguishable from v and eliminated with it (mass elimination). Appends all of them to
- * order from `at` on and returns the new end. */
 SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *order, sl_int at) {
   const uint32_t degree = m->key[v] / SLI_MINDEG_MAX;
   const size_t leaf_words = ((size_t)m->n + 63) / 64;
@@ -7634,7 +7128,7 @@ SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *o
       const sl_int u = (sl_int)(64 * k) + sli_lowest_bit(bits);
       const uint32_t now = sli_mindeg_join(m->rows + (size_t)u * m->words, row, m->words, v);
       m->key[u] = now * SLI_MINDEG_MAX + (uint32_t)u;
-      if (now + 1 == degree) { /* adjacent to the clique of v and to nothing else */
+      if (now + 1 == degree) {
         m->key[u] = SLI_MINDEG_ELIMINATED;
         eliminated[k] |= (uint64_t)1 << (u % 64);
         order[at++] = u;
@@ -7659,7 +7153,6 @@ SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *o
   return at;
 }
 
-/* The vertex of minimum degree, the one with the smallest number among several. */
 SLI_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
   uint32_t least[4] = {SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED,
              SLI_MINDEG_ELIMINATED};
@@ -7678,7 +7171,6 @@ SLI_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
   return (sl_int)(least[0] % SLI_MINDEG_MAX);
 }
 
-/* order := the vertices in the order of elimination. */
 SLI_ALWAYS_INLINE void sli_mindeg_run_body(sli_mindeg *m, sl_int *order) {
   sl_int at = 0;
   while (at < m->n) {
@@ -7696,8 +7188,6 @@ SLI_TARGET("popcnt") static void sli_mindeg_run_popcnt(sli_mindeg *m, sl_int *or
 }
 #endif
 
-/* Fills the bit matrix of a leaf. Returns whether it fits. local: -1 for each vertex of g, on entry
- * and on return. */
 static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vertices, sl_int count,
                sl_int *local) {
   sl_int k, bits = count;
@@ -7739,7 +7229,6 @@ static int sli_mindeg_fill(sli_mindeg *m, const sli_level *g, const sl_int *vert
   return fits;
 }
 
-/* Reorders the vertices of a leaf in place by minimum degree. order: count of scratch. */
 static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices, sl_int count,
                sl_int *local, sl_int *order) {
   sl_int k;
@@ -7762,50 +7251,38 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 
 /* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph, and the estimated cost of a tree */
 
-/* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as
- * a further separator. With METIS's separators, smaller leaves save another 0.5 % of fill. */
 #define SLI_DISSECT_LEAF 200
 #define SLI_DISSECT_LEAF_REFINED 140
-/* A leaf is bisected on the coarsest level on which it has more vertices than this. */
 #define SLI_DISSECT_BISECT_MIN 100
-/* Leaves are bisected only on levels of at most n / SLI_DISSECT_SHRINK vertices. */
 #define SLI_DISSECT_SHRINK 7
-/* Tries of graph growing: TRIES_FIRST while the tree has fewer than FIRST nodes, because the first
- * separators decide most, then TRIES. */
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
-/* Layers on each side of a border whose vertices may change sides: LAYERS on coarse levels, BAND
- * for the final separators, and more than BAND from BAND_FROM finest vertices on. */
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
-/* Largest percentage of the weight that one side of a separator may have. It exceeds
- * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
 #define SLI_SEPARATOR_BALANCE 70
 
-/* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
- * the largest. */
 typedef struct sli_dissection {
   const sl_allocator *a;
-  sli_level levels[SLI_LEVELS_MAX]; /* finest first; the arrays of the finest are borrowed */
-  int n_levels, level;              /* level: the one that the labels refer to */
-  sl_int total;                     /* weight of the finest level */
-  sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
-  int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
+  sli_level levels[SLI_LEVELS_MAX];
+  int n_levels, level;
+  sl_int total;
+  sl_int leaf_size;
+  int band_growth;
   sli_label_tree tree;
   sli_borders borders;
   sli_subgraph subgraph;
   sli_mindeg mindeg;
-  sl_int *label, *other; /* n: the node of each vertex; `other` is scratch */
-  sl_int *begin;         /* room + 1: where each node's vertices begin in order */
-  sl_int *order;         /* n */
-  sl_int *nodes;         /* room */
-  sl_off *next;          /* n */
+  sl_int *label, *other;
+  sl_int *begin;
+  sl_int *order;
+  sl_int *nodes;
+  sl_off *next;
 } sli_dissection;
 
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
-  const sl_int room = n + 1; /* there are never more nodes than vertices */
+  const sl_int room = n + 1;
   d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
   sli_label_tree_layout(&d->tree, b, room);
   d->borders.head = SLI_TAKE(b, sl_int, room);
@@ -7821,7 +7298,6 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
   d->mindeg.rows = SLI_TAKE(b, uint64_t, d->mindeg.room);
 }
 
-/* Sorts the vertices by node: those of node t become order[begin[t]] .. order[begin[t + 1] - 1]. */
 static void sli_dissect_sort(sli_dissection *d) {
   const sli_level *g = &d->levels[d->level];
   sl_int v, k, total = 0;
@@ -7841,7 +7317,6 @@ static void sli_dissect_sort(sli_dissection *d) {
   d->begin[0] = 0;
 }
 
-/* Starts with a tree of one leaf that contains all vertices. */
 static void sli_dissect_start(sli_dissection *d) {
   const sl_int n = d->levels[d->level].n;
   d->tree.count = 0;
@@ -7851,7 +7326,6 @@ static void sli_dissect_start(sli_dissection *d) {
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* Gives the two sides of the subgraph to two new leaves below node. */
 static void sli_dissect_assign(sli_dissection *d, sl_int node) {
   const sli_subgraph *sub = &d->subgraph;
   sl_int k, weight[2] = {0, 0};
@@ -7865,8 +7339,6 @@ static void sli_dissect_assign(sli_dissection *d, sl_int node) {
   d->tree.weight[d->tree.right[node]] = weight[1];
 }
 
-/* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
- * finest. Returns the number of leaves bisected. */
 static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
   const sli_level *g = &d->levels[d->level];
   const sl_int nodes = d->tree.count;
@@ -7896,7 +7368,6 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
   return split;
 }
 
-/* Refines the borders of all nodes on this level, the root's first. */
 static void sli_dissect_refine(sli_dissection *d) {
   const sli_level *g = &d->levels[d->level];
   sl_int k;
@@ -7914,8 +7385,6 @@ static void sli_dissect_refine(sli_dissection *d) {
   }
 }
 
-/* Returns whether the sides are balanced now that the subgraph has a separator, or at least no less
- * balanced than before. */
 static int sli_dissect_is_balanced(const sli_dissection *d) {
   const sli_subgraph *sub = &d->subgraph;
   int64_t total[2], sum, before = sub->total[0] > sub->total[1] ? sub->total[0] : sub->total[1];
@@ -7933,9 +7402,6 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
   return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
-/* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
- * subgraph, the wider its band: the first separators decide most of the fill, and there are few of
- * them. If a separator is unbalanced, narrower bands are tried, finally only the border. */
 static void sli_dissect_separate(sli_dissection *d) {
   const sli_level *g = &d->levels[0];
   sl_int k;
@@ -7965,7 +7431,6 @@ static void sli_dissect_separate(sli_dissection *d) {
   }
 }
 
-/* Projects the labels to the next finer level. */
 static void sli_dissect_project(sli_dissection *d) {
   const sli_level *g = &d->levels[--d->level];
   sl_int v, *coarser = d->label;
@@ -7976,7 +7441,6 @@ static void sli_dissect_project(sli_dissection *d) {
   d->other = coarser;
 }
 
-/* Weighs the edges of level l by what a separator costs. */
 static void sli_dissect_weigh(sli_dissection *d, int l) {
   sli_edge_weights w;
   w.cluster = d->label;
@@ -7989,7 +7453,6 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
   sli_weigh_edges(d->levels, l, &w);
 }
 
-/* Makes the coarser levels. *working := the finest level on which leaves are bisected. */
 static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
   const sl_int n = d->levels[0].n,
          enough = sli_min(SLI_DISSECT_BISECT_MIN, n / SLI_DISSECT_SHRINK);
@@ -8000,8 +7463,6 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
   for (;;) {
     const int last = d->n_levels - 1;
     const sli_level *g = &d->levels[last];
-    /* Three times the mean weight keeps the weights of a level even enough for balanced
-     * bisection. */
     const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
     if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
       *working = last;
@@ -8029,8 +7490,6 @@ static void sli_dissect_free_levels(sli_dissection *d) {
   d->n_levels = 1;
 }
 
-/* Builds the separator tree: each leaf is bisected on the coarsest level on which it is large
- * enough, and its border is then refined from level to level. */
 static sl_status sli_dissect_multilevel(sli_dissection *d) {
   int working;
   sl_status status = sli_dissect_coarsen(d, &working);
@@ -8054,12 +7513,10 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
   return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
-/* An estimate of cost, exact: high * 2^32 + low, with low < 2^32. */
 typedef struct sli_tree_cost {
   uint64_t high, low;
 } sli_tree_cost;
 
-/* Adds a * b: a < 2^62, b < 2^31. */
 SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
   c->low += (a & 0xffffffffu) * b;
   c->high += (a >> 32) * b + (c->low >> 32);
@@ -8077,10 +7534,6 @@ SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
   return a.high < b.high || (a.high == b.high && a.low < b.low);
 }
 
-/* Estimates the cost of local solves with the order of a tree, as path weight: the entries of L on
- * the paths from the columns to the root. The paths of about half of a subgraph's vertices contain
- * its separator, which has about as many columns as rows below. So each node counts its weight
- * times the square of its border. *flat := the same for square flat grids of that size. */
 static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
   const sli_level *g = &d->levels[0];
   sl_int *border = d->nodes, v, k;
@@ -8112,12 +7565,8 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
 
 /* src/impl/ordering/levelset.h: bisection between level sets of a breadth-first search, cheaper in regular volumes */
 
-/* Each side of a bisection has at least this percentage, if a level set allows it. */
 #define SLI_LEVELSET_SHARE 35
 
-/* Breadth-first search: distances from a vertex, and the vertices in the order of their distances.
- * Vertices that are not reached follow at larger distances. Returns one more than the largest
- * distance, at most 2 n. */
 static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
                   sl_int *distance) {
   sl_int v, head = 0, tail = 0, unseen = 0;
@@ -8142,14 +7591,11 @@ static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *
     while (distance[unseen] != -1) {
       unseen++;
     }
-    /* a gap of one keeps the components apart */
     distance[unseen] = distance[order[tail - 1]] + 2;
     order[tail++] = unseen;
   }
 }
 
-/* Bisects along a level set of a vertex at the end of a long path. The smallest level set near the
- * middle becomes the border; the imbalance of the sides increases its cost. */
 static void sli_levelset_bisect(sli_subgraph *sub) {
   const sl_int n = sub->n;
   sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
@@ -8166,19 +7612,17 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
   }
   for (k = 0; k < n_sets; before += size[k++]) {
     const int64_t skew = n - size[k] - 2 * (int64_t)before;
-    const int64_t here = (n + (skew < 0 ? -skew : skew)) * size[k]; /* < 2^63 */
+    const int64_t here = (n + (skew < 0 ? -skew : skew)) * size[k];
     if (before >= low && before + size[k] <= high && (best == -1 || here < cost)) {
       best = k;
       cost = here;
     }
   }
-  /* If no level set is near enough to the middle, halve the search order. */
   for (k = 0; k < n; k++) {
     sub->side[order[k]] = (unsigned char)(best == -1 ? k >= n / 2 : distance[order[k]] >= best);
   }
 }
 
-/* Finds labels only by level sets, down to the size of leaves. */
 static void sli_dissect_levelset(sli_dissection *d) {
   const sli_level *g = &d->levels[0];
   sl_int node, nodes;
@@ -8201,7 +7645,6 @@ static void sli_dissect_levelset(sli_dissection *d) {
   } while (d->tree.count > nodes);
 }
 
-/* The number of vertices on the left side of the root's border. */
 static sl_int sli_dissect_root_border(const sli_dissection *d) {
   const sli_level *g = &d->levels[0];
   const sl_int root = d->tree.root;
@@ -8217,13 +7660,8 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
   return count;
 }
 
-/* A border of more than half of this many times sqrt(n) vertices is unusual on a surface: the graph
- * may be a volume. */
 #define SLI_VOLUME_BORDER 5
 
-/* Finds labels by multilevel dissection. In graphs that may be volumes, level sets are tried too
- * and taken if they are estimated to be cheaper: in a 7-point grid they are diagonal planes, and
- * the largest has 3/4 of the vertices of a straight plane. */
 static sl_status sli_dissect_graph(sli_dissection *d) {
   sli_tree_cost multilevel, flat;
   sl_status status = sli_dissect_multilevel(d);
@@ -8242,14 +7680,11 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
 
 /* src/impl/ordering/geometric.h: nested dissection by coordinates, used where its estimated cost is lower */
 
-/* Coordinates of the vertices of a graph: those of vertex v start at xyz[dimensions * row[v]].
- * Multiplied by unit, they are below 2^60 and become integers, so that every compiler and processor
- * finds the same order. */
 typedef struct sli_points {
   const double *xyz;
   sl_int dimensions;
   const sl_int *row;
-  double unit; /* a power of 2 */
+  double unit;
 } sli_points;
 
 SLI_INLINE double sli_points_unit(const double *xyz, size_t count) {
@@ -8263,17 +7698,13 @@ SLI_INLINE double sli_points_unit(const double *xyz, size_t count) {
   return ldexp(1.0, exponent > 60 - DBL_MAX_EXP ? 60 - exponent : DBL_MAX_EXP - 1);
 }
 
-/* Directions of bisection as sums of coordinates: the axes and the diagonals of two axes. */
 static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
                          {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
                          {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
 
-/* Subgraphs of at least MANY vertices choose their direction, by a sample of about TRIED points;
- * smaller ones are bisected across their longest axis. */
 #define SLI_POINTS_MANY 16384
 #define SLI_POINTS_TRIED 512
 
-/* The coordinate of v along a direction, which has length 1 or, for a diagonal, sqrt(2). */
 SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction) {
   const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
   const signed char *along = sli_directions[direction];
@@ -8281,8 +7712,6 @@ SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction)
        (p->dimensions == 3 ? along[2] * (int64_t)(x[2] * p->unit) : 0);
 }
 
-/* The axis along which the vertices have the largest extent, and *spread := that extent, from a
- * sample of about SLI_POINTS_TRIED vertices. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                int64_t *spread) {
   static const int sli_axes[3] = {0, 1, 4};
@@ -8305,7 +7734,6 @@ static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int c
   return best;
 }
 
-/* A vertex and its coordinate along a direction, ordered by both, so that no two are equal. */
 typedef struct sli_projection {
   int64_t x;
   sl_int v;
@@ -8315,8 +7743,6 @@ SLI_INLINE int sli_projection_is_less(const sli_projection *a, const sli_project
   return a->x < b->x || (a->x == b->x && a->v < b->v);
 }
 
-/* Moves the smaller half of an array to its front (quickselect). The pivots are pseudo-random: the
- * remaining range halves on average, whatever the order of the input. */
 static void sli_projection_halve(sli_projection *a, sl_int count) {
   sl_int low = 0, high = count - 1;
   const sl_int half = count / 2;
@@ -8348,8 +7774,6 @@ static void sli_projection_halve(sli_projection *a, sl_int count) {
   }
 }
 
-/* The direction with the fewest points close to the median plane, where a separator will be
- * small. */
 static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_int count,
                 sli_projection *projections) {
   int64_t spread;
@@ -8362,7 +7786,7 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
   }
   for (direction = 0; direction < directions; direction++) {
     const int is_diagonal = direction == 2 || direction == 3 || direction > 4;
-    const int64_t close = spread / 1000 * (is_diagonal ? 141 : 100); /* a tenth */
+    const int64_t close = spread / 1000 * (is_diagonal ? 141 : 100);
     int64_t middle;
     sl_int n_close = 0;
     for (k = 0; k < SLI_POINTS_TRIED; k++) {
@@ -8376,7 +7800,6 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
       const int64_t away = projections[k].x - middle;
       n_close += (away < 0 ? -away : away) < close;
     }
-    /* a handicap: chance must not decide against the longest axis */
     n_close += direction == axis ? 0 : n_close / 3;
     if (n_close < fewest) {
       fewest = n_close;
@@ -8386,8 +7809,6 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
   return best;
 }
 
-/* Finds labels by halves of space, down to the size of leaves. The vertices of a node are
- * consecutive in d->order. projections: n of scratch. */
 static void sli_dissect_points(sli_dissection *d, const sli_points *points,
                  sli_projection *projections) {
   const sl_int n = d->levels[0].n;
@@ -8399,7 +7820,7 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
   }
   begin[0] = 0;
   end[0] = n;
-  for (node = 0; node < d->tree.count; node++) { /* tree.count grows in the loop */
+  for (node = 0; node < d->tree.count; node++) {
     const sl_int first = begin[node], count = end[node] - first;
     sl_int *vertices = d->order + first;
     int direction;
@@ -8427,12 +7848,8 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* A tree that costs less than this percentage of a flat square grid is taken without comparison.
- * Flat grids have 90 to 106; surfaces have 200 and more, because a plane cuts several sheets. */
 #define SLI_FLAT_ENOUGH 110
 
-/* Finds labels by coordinates. They are used if their estimated cost is that of a flat mesh, or
- * lower than that of the labels found without coordinates; otherwise the latter are used. */
 static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
                      sli_projection *projections) {
   sli_tree_cost cost, flat;
@@ -8453,15 +7870,12 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
 
 /* src/impl/ordering/septree.h: from labels to the elimination order and the separator tree of all rows */
 
-/* The separator tree over all rows: its nodes in elimination order, none of them empty. */
 typedef struct sli_septree {
-  sl_int count;    /* 0: the ordering has no such tree */
-  sl_int *node_of; /* by row: its node */
-  sl_int *parent;  /* by node: the separator above it, which has a higher number, or -1 */
+  sl_int count;
+  sl_int *node_of;
+  sl_int *parent;
 } sli_septree;
 
-/* Sorts the vertices of a separator by the mean label of their neighbors on the left. Rows that are
- * consecutive in one supernode of L then form longer runs in the row lists of the others. */
 static void sli_septree_sort_separator(sli_dissection *d, sl_int node, sl_int *vertices,
                      sl_int count) {
   const sli_level *g = &d->levels[0];
@@ -8485,8 +7899,6 @@ static void sli_septree_sort_separator(sli_dissection *d, sl_int node, sl_int *v
   }
 }
 
-/* Appends the order of a dissected graph to perm, from position `at` on: each subgraph before the
- * separator above it, leaves by minimum degree. row[v] is the row of vertex v. */
 static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
                  sli_septree *septree) {
   const sli_label_tree *t = &d->tree;
@@ -8522,8 +7934,6 @@ static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *per
 
 #include <metis.h>
 
-/* Returns whether METIS can run with these options. With others it prints a message or never ends.
- * Options that METIS_NodeND does not read may have any value; -1 is METIS's default. */
 static int sli_metis_options_are_valid(const sl_int *options) {
   static const struct {
     int option, low, high;
@@ -8537,7 +7947,7 @@ static int sli_metis_options_are_valid(const sl_int *options) {
     {METIS_OPTION_CCORDER, 0, 1},
     {METIS_OPTION_PFACTOR, 0, INT32_MAX},
     {METIS_OPTION_NSEPS, 1, INT32_MAX},
-    {METIS_OPTION_UFACTOR, 1, 999}, /* from 1000 on, bisections may leave a side empty */
+    {METIS_OPTION_UFACTOR, 1, 999},
   };
   size_t k;
   for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
@@ -8549,7 +7959,6 @@ static int sli_metis_options_are_valid(const sl_int *options) {
   return 1;
 }
 
-/* Builds the component's graph in METIS's format, numbered by component. */
 static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
               const sl_int *local, idx_t *xadj, idx_t *adjncy) {
   sl_int k;
@@ -8565,8 +7974,6 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
   xadj[count] = edges;
 }
 
-/* Reorders the vertices of a component of G in place. local[v]: the index of v in vertices on
- * entry. */
 static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int count,
                  const sl_int *local, const sl_int *metis_options,
                  const sl_allocator *a) {
@@ -8599,10 +8006,10 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
     options[k] = metis_options[k];
   }
   options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_DBGLVL] = 0; /* any other level prints */
+  options[METIS_OPTION_DBGLVL] = 0;
   result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
   if (result == METIS_OK) {
-    for (k = 0; k < count; k++) { /* xadj is free now: it keeps the old order */
+    for (k = 0; k < count; k++) {
       xadj[k] = vertices[k];
     }
     for (k = 0; k < count; k++) {
@@ -8615,9 +8022,6 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
                       : SL_ERR_ORDERING;
 }
 
-/* Finds nested separators of a graph. n_leaves: of the separator tree, a power of two. order := the
- * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 weights: those of
- * the leaf subgraphs, then those of the separators level by level, the root's last. */
 static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_int *order,
                     sl_int *sizes, const sl_allocator *a) {
   const sl_off edges = g->begin[g->n];
@@ -8643,7 +8047,7 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
   if (status != SL_OK) {
     return status;
   }
-  memset(size, 0, 2 * (size_t)n_leaves * sizeof(idx_t)); /* METIS skips empty subgraphs */
+  memset(size, 0, 2 * (size_t)n_leaves * sizeof(idx_t));
   for (k = 0; k <= g->n; k++) {
     xadj[k] = (idx_t)g->begin[k];
   }
@@ -8654,7 +8058,7 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
     weight[k] = g->weight[k];
   }
   METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NSEPS] = 2; /* the better of two tries for each separator */
+  options[METIS_OPTION_NSEPS] = 2;
   result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
                (idx_t)n_leaves, options, perm, iperm, size);
   if (result == METIS_OK) {
@@ -8677,8 +8081,6 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
 
 #if defined(SLI_METIS)
 
-/* Makes a complete binary tree with this many leaves, numbered level by level: the children of node
- * k are 2 k + 1 and 2 k + 2. */
 static void sli_metis_refined_tree(sli_dissection *d, sl_int n_leaves) {
   sl_int node;
   for (node = 0; node < n_leaves - 1; node++) {
@@ -8686,7 +8088,6 @@ static void sli_metis_refined_tree(sli_dissection *d, sl_int n_leaves) {
   }
 }
 
-/* The label of a leaf below node that is adjacent to v, or -1. */
 static sl_int sli_metis_refined_adjacent_leaf(const sli_dissection *d, sl_int node, sl_int v) {
   const sli_level *g = &d->levels[0];
   sl_off e;
@@ -8700,8 +8101,6 @@ static sl_int sli_metis_refined_adjacent_leaf(const sli_dissection *d, sl_int no
   return -1;
 }
 
-/* Gives the vertices of a separator to adjacent leaves, so that a border runs where the separator
- * was. The vertices of deeper separators are in leaves already. */
 static void sli_metis_refined_dissolve(sli_dissection *d, sl_int node, sl_int *vertices,
                      sl_int count) {
   sl_int k, left;
@@ -8715,7 +8114,7 @@ static void sli_metis_refined_dissolve(sli_dissection *d, sl_int node, sl_int *v
         vertices[left++] = v;
       }
     }
-    if (left == count) { /* vertices adjacent to no leaf may go to any */
+    if (left == count) {
       for (k = 0; k < count; k++) {
         d->label[vertices[k]] = d->tree.low[node];
       }
@@ -8725,7 +8124,6 @@ static void sli_metis_refined_dissolve(sli_dissection *d, sl_int node, sl_int *v
   } while (count > 0);
 }
 
-/* Finds labels by METIS. */
 static sl_status sli_dissect_metis(sli_dissection *d) {
   const sli_level *g = &d->levels[0];
   sl_int n_leaves = 1, v, node, k, *sizes = d->begin, *size = d->nodes;
@@ -8740,8 +8138,6 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
   }
   sli_dissect_start(d);
   sli_metis_refined_tree(d, n_leaves);
-  /* METIS lists the weights of the leaves, then those of the separators of each level, the root's
-   * last. */
   for (k = n_leaves, v = 0; k > 0; v += k, k /= 2) {
     for (node = 0; node < k; node++) {
       size[k - 1 + node] = sizes[v + node];
@@ -8749,7 +8145,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
   }
   node = sli_label_tree_first(&d->tree);
   for (k = 0; k < g->n; k++) {
-    while (size[node] <= 0 && node != d->tree.root) { /* all of its vertices have their label */
+    while (size[node] <= 0 && node != d->tree.root) {
       node = sli_label_tree_next(&d->tree, node);
     }
     d->label[d->order[k]] = node;
@@ -8773,12 +8169,8 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
   return SL_OK;
 }
 
-/* The borders left by METIS's separators are ragged and overestimate its cost. The tree of this
- * library's dissection is used only if its estimate is below this percentage of METIS's. */
 #define SLI_METIS_REFINED_SHARE 80
 
-/* Finds labels by METIS, or by this library's dissection if that is estimated to be cheaper. This
- * happens occasionally, because the quality of METIS's trees varies as that of any heuristic. */
 static sl_status sli_dissect_metis_refined(sli_dissection *d) {
   sli_tree_cost own, flat;
   sl_status status = sli_dissect_graph(d);
@@ -8801,26 +8193,21 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
 
 /* src/impl/ordering/nd.h: nested dissection of any graph: component by component, dense rows last */
 
-/* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
- * eliminated last. */
 #define SLI_ND_DENSE_ROW 10
 
-/* A leaf that is more than twice its intended size after the borders have moved is bisected again.
- * This many rounds at most. */
 #define SLI_ND_RESPLITS 12
 
-/* A graph, and the dissection of one of its components after the other. */
 typedef struct sli_nd {
   const sli_graph *G;
-  const sl_int *weight; /* NULL: 1 each */
-  sli_points points;    /* points.xyz is NULL: none */
+  const sl_int *weight;
+  sli_points points;
   int by_metis;
-  sl_int *local;   /* n: number of a row in its component; -1 not yet visited, -2 dense */
-  sl_int *row;     /* n: the rows of the component */
-  sl_off *begin;   /* n + 1: graph of the component */
-  sl_int *to;      /* as many as edges of G */
-  sl_int *weights; /* n, if there are weights */
-  sli_projection *projections; /* n, if there are coordinates */
+  sl_int *local;
+  sl_int *row;
+  sl_off *begin;
+  sl_int *to;
+  sl_int *weights;
+  sli_projection *projections;
   sli_dissection d;
 } sli_nd;
 
@@ -8836,8 +8223,6 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
   sli_dissection_layout(&w->d, b, n, edges);
 }
 
-/* Collects the rows reachable from root in breadth-first order, which also numbers the component:
- * neighbors are then close in memory, however the caller numbers them. */
 static sl_int sli_nd_component(sli_nd *w, sl_int root) {
   const sli_graph *G = w->G;
   sl_int head, tail = 0;
@@ -8855,7 +8240,6 @@ static sl_int sli_nd_component(sli_nd *w, sl_int root) {
   return tail;
 }
 
-/* Builds the graph of the current component, which has `count` rows, without dense rows. */
 static void sli_nd_graph(sli_nd *w, sl_int count) {
   const sli_graph *G = w->G;
   sl_off e, edges = 0;
@@ -8883,8 +8267,6 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
   }
 }
 
-/* Finds labels of the current component by the requested method. The cruder the borders of a
- * method, the wider the bands in which they are refined. */
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
   d->band_growth = 2;
@@ -8901,7 +8283,6 @@ static sl_status sli_nd_label(sli_nd *w) {
   return sli_dissect_graph(d);
 }
 
-/* Finds labels and separators of the current component. */
 static sl_status sli_nd_dissect(sli_nd *w) {
   sli_dissection *d = &w->d;
   int rounds = SLI_ND_RESPLITS;
@@ -8921,7 +8302,6 @@ static sl_status sli_nd_dissect(sli_nd *w) {
   return status;
 }
 
-/* Marks the dense rows and puts them at the end of the order. Returns their number. */
 static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
   const sli_graph *G = w->G;
   sl_int v, count = 0;
@@ -8935,7 +8315,6 @@ static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
   return count;
 }
 
-/* Orders all components, then the dense rows, which become the root of all separator trees. */
 static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   const sl_int n = w->G->n, dense = sli_nd_dense(w, perm);
   sl_int v, k, at = 0;
@@ -8947,7 +8326,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   for (v = 0; v < n && status == SL_OK; v++) {
     if (w->local[v] == -1) {
       const sl_int count = sli_nd_component(w, v);
-      if (count == 1) { /* no dissection; there may be very many of these */
+      if (count == 1) {
         perm[at++] = v;
         septree->node_of[v] = septree->count;
         septree->parent[septree->count++] = -1;
@@ -8973,8 +8352,6 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   return status;
 }
 
-/* Orders a graph without repeated edges and builds its separator tree. weight: of each vertex, for
- * the balance of bisections; NULL: 1 each. */
 static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_metis,
                 const double *xyz, sl_int dimensions, sl_int *perm,
                 sli_septree *septree, const sl_allocator *a) {
@@ -9008,18 +8385,16 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
 
 /* src/impl/ordering/compress.h: graph compression: indistinguishable rows are ordered as one vertex */
 
-/* The graph is compressed if at most this percentage of its vertices remains. */
 #define SLI_COMPRESS_SHARE 80
 
 typedef struct sli_compressed {
   sli_graph G;
-  sl_int *weight; /* G.n: number of rows in each vertex */
-  sl_int *first;  /* n: the first row indistinguishable from this one */
-  sl_int *number; /* n: the vertex in G of a first row */
-  sl_int *perm;   /* G.n */
+  sl_int *weight;
+  sl_int *first;
+  sl_int *number;
+  sl_int *perm;
 } sli_compressed;
 
-/* Returns whether the neighbors u and v have the same neighbors otherwise. */
 static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_int v) {
   sl_off a = G->begin[u], b = G->begin[v];
   for (;;) {
@@ -9034,8 +8409,6 @@ static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_in
   }
 }
 
-/* Finds the first indistinguishable row of each row, in a graph with sorted lists. Returns the
- * number of first rows. key: n of scratch, hashes of the closed neighborhoods. */
 static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key) {
   sl_int v, count = 0;
   sl_off e;
@@ -9059,8 +8432,6 @@ static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key
   return count;
 }
 
-/* Fills the compressed graph from the lists of the first rows. That suffices: a neighbor of any row
- * of a vertex is a neighbor of the first one too. */
 static void sli_compress_fill(sli_compressed *c, const sli_graph *G) {
   sl_int v, k = 0;
   sl_off e, edges = 0;
@@ -9085,7 +8456,6 @@ static void sli_compress_fill(sli_compressed *c, const sli_graph *G) {
   c->G.begin[c->G.n] = edges;
 }
 
-/* Expands the order and the separator tree from vertices to rows. start: G.n + 1 of scratch. */
 static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *perm,
                 sli_septree *septree, sl_int *start) {
   sl_int k, v, at = 0;
@@ -9096,12 +8466,11 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
   for (v = 0; v < rows; v++) {
     perm[start[c->number[c->first[v]]]++] = v;
   }
-  for (v = rows - 1; v >= 0; v--) { /* backwards: a vertex's number is at most that of its rows */
+  for (v = rows - 1; v >= 0; v--) {
     septree->node_of[v] = septree->node_of[c->number[c->first[v]]];
   }
 }
 
-/* Orders a graph, compressed if that is worthwhile. scratch: n. */
 static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
                     sl_int *scratch, sli_septree *septree,
                     const sl_allocator *a) {
@@ -9137,42 +8506,36 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
 
 /* src/impl/ordering/quotient.h: approximate minimum degree ordering of a whole graph, kept as a quotient graph */
 
-/* A row with more than this many times sqrt(n) neighbors, and more than 16, is eliminated last:
- * its degree would be updated by every pivot. */
 #define SLI_QUOTIENT_DENSE_ROW 10
 
-#if !defined(SLI_MARKS_BEGIN) /* a test defines it as a variable */
+#if !defined(SLI_MARKS_BEGIN)
 #define SLI_MARKS_BEGIN 2
 #endif
 
-enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
+enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 };
 
-/* The quotient graph. A variable stands for rows that have become indistinguishable. A pivot
- * becomes an element, whose list names the variables of its front. The list of a variable holds
- * elements first, then the variables that only an entry of A joins to it. No list ever grows, so
- * that the graph stays within its first size, plus one front that is being formed. [ADD96] */
 typedef struct sli_quotient {
   sl_int n;
-  sl_off end, room;    /* of list: positions used, and available */
-  sl_int *list;        /* all lists */
-  sl_off *begin;       /* n: where the list of a variable or an element begins */
-  sl_int *length;      /* n: entries in it; 0 if it is dead */
-  sl_int *elements;    /* n: elements in the list of a variable, or SLI_QUOTIENT_PIVOT, _MERGED */
-  sl_int *weight;      /* n: rows of a variable; 0: merged; negated in the front being formed */
-  sl_int *degree;      /* n: bound on the external degree; of an element, weight of its list */
-  sl_int *mark;        /* n: 0 for a dead element, otherwise see sli_quotient_overlaps */
-  sl_int *head;        /* n: first variable of each degree, or -1 */
-  sl_int *next;        /* n: list of equal degrees; chain of equal hashes within the front */
-  sl_int *previous;    /* n: list of equal degrees; the hash within the front */
-  sl_int *bucket;      /* n: first variable of each hash, or -1 */
-  sl_int *into;        /* n: what a merged variable is merged into */
-  sl_int *sequence;    /* n: pivots in the order of elimination */
-  sl_int live;         /* rows that are not dense */
-  sl_int pivots, rows; /* pivots and rows eliminated */
-  double flops;        /* about 4 times the operations of the pivots so far; a whole number */
-  sl_int least;        /* no variable has a smaller degree */
-  sl_int widest;       /* largest degree of an element */
-  sl_int base;         /* marks below it are old */
+  sl_off end, room;
+  sl_int *list;
+  sl_off *begin;
+  sl_int *length;
+  sl_int *elements;
+  sl_int *weight;
+  sl_int *degree;
+  sl_int *mark;
+  sl_int *head;
+  sl_int *next;
+  sl_int *previous;
+  sl_int *bucket;
+  sl_int *into;
+  sl_int *sequence;
+  sl_int live;
+  sl_int pivots, rows;
+  double flops;
+  sl_int least;
+  sl_int widest;
+  sl_int base;
 } sli_quotient;
 
 static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_int n, sl_off edges) {
@@ -9216,8 +8579,6 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
   }
 }
 
-/* Makes every vertex of G a variable, except for dense rows, which are written to the end of perm.
- */
 static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
   const sl_off limit = (sl_off)SLI_QUOTIENT_DENSE_ROW * SLI_QUOTIENT_DENSE_ROW * G->n;
   sl_int v;
@@ -9254,8 +8615,6 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
   }
 }
 
-/* Moves the lists together. Meanwhile the first entry of a list is kept in place of its begin, and
- * the owner of the list stands there instead, as ~owner. */
 static void sli_quotient_collect(sli_quotient *q) {
   sl_off from = 0, to = 0;
   sl_int v, k;
@@ -9269,7 +8628,7 @@ static void sli_quotient_collect(sli_quotient *q) {
   while (from < q->end) {
     v = q->list[from++];
     if (v >= 0) {
-      continue; /* no longer in any list */
+      continue;
     }
     v = ~v;
     q->list[to] = (sl_int)q->begin[v];
@@ -9281,7 +8640,6 @@ static void sli_quotient_collect(sli_quotient *q) {
   q->end = to;
 }
 
-/* Moves the variables of one list into the front that is being formed, which ends at `to`. */
 SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count, sl_off to,
                     sl_int *total) {
   for (; count > 0; count--) {
@@ -9296,14 +8654,12 @@ SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count
   return to;
 }
 
-/* Makes the variable `pivot` an element: its list becomes the variables next to it, directly or
- * through its elements, which it absorbs. Returns the weight of the list. */
 static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
   const sl_int elements = q->elements[pivot];
   sl_int total = 0, k;
   sl_off at, begin, to;
   q->elements[pivot] = SLI_QUOTIENT_PIVOT;
-  q->weight[pivot] = -q->weight[pivot]; /* stays out of its own front */
+  q->weight[pivot] = -q->weight[pivot];
   if (elements == 0) {
     begin = q->begin[pivot];
     to = sli_quotient_gather(q, begin, q->length[pivot], begin, &total);
@@ -9329,8 +8685,6 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
   return total;
 }
 
-/* mark[e] - base := the weight of what element e has outside the front, for every element next to a
- * variable of the front. */
 static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
   const sl_int *front = q->list + q->begin[pivot];
   sl_int k, p, v;
@@ -9354,9 +8708,6 @@ static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
   }
 }
 
-/* Rewrites the list of variable v of the front: the new element comes first, elements within the
- * front are absorbed, variables of the front are left out. Returns whether anything but the new
- * element is left. Otherwise v can be eliminated with the pivot. */
 static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
   sl_int *list = q->list + q->begin[v];
   const sl_int elements = q->elements[v], length = q->length[v];
@@ -9388,7 +8739,7 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
   if (to == 0) {
     return 0;
   }
-  list[to] = list[first_variable]; /* the pivot, or what it absorbed, has left a gap */
+  list[to] = list[first_variable];
   list[first_variable] = list[0];
   list[0] = pivot;
   q->elements[v] = first_variable + 1;
@@ -9401,17 +8752,14 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
   return 1;
 }
 
-/* Merges variable v into `root`, a pivot or a variable. */
 SLI_INLINE void sli_quotient_merge(sli_quotient *q, sl_int v, sl_int root) {
   q->into[v] = root;
-  q->weight[root] += q->weight[v]; /* both negative */
+  q->weight[root] += q->weight[v];
   q->weight[v] = 0;
   q->length[v] = 0;
   q->elements[v] = SLI_QUOTIENT_MERGED;
 }
 
-/* Returns whether the lists of u and v agree after their first entry, the new element. All entries
- * of u's list are marked with base. */
 SLI_INLINE int sli_quotient_is_indistinguishable(const sli_quotient *q, sl_int u, sl_int v) {
   const sl_int *list = q->list + q->begin[v];
   sl_int k = 1;
@@ -9424,7 +8772,6 @@ SLI_INLINE int sli_quotient_is_indistinguishable(const sli_quotient *q, sl_int u
   return k == q->length[v];
 }
 
-/* Merges the variables of the front that are indistinguishable, among those of one hash. */
 static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
   for (; u != -1 && q->next[u] != -1; u = q->next[u], q->base++) {
     const sl_int *list = q->list + q->begin[u];
@@ -9445,7 +8792,6 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
   }
 }
 
-/* Eliminates a variable of least degree, and with it those that have no other neighbors. */
 static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   const sl_int total = sli_quotient_form(q, pivot), count = q->length[pivot];
   sl_int *front = q->list + q->begin[pivot];
@@ -9489,8 +8835,6 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   q->flops += height * height * q->weight[pivot];
 }
 
-/* Writes the rows in the order of their pivots. A merged row follows the pivot at the end of its
- * chain. Dense rows are there already. */
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
   sl_int *start = q->head;
   sl_int v, k, at = 0;
@@ -9509,7 +8853,7 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
     while (q->elements[root] != SLI_QUOTIENT_PIVOT) {
       root = q->into[root];
     }
-    for (k = v; k != root;) { /* shortens the chain for those that come later */
+    for (k = v; k != root;) {
       const sl_int up = q->into[k];
       q->into[k] = root;
       k = up;
@@ -9518,8 +8862,6 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
   }
 }
 
-/* Orders a graph without repeated edges by approximate minimum degree. Of equal degrees the latest
- * comes first. *flops := about the operations of a factorization in this order. */
 static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, double *flops,
                   const sl_allocator *a) {
   sli_quotient q;
@@ -9559,7 +8901,6 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
   }
 }
 
-/* Copies a given order after a check that it is a permutation. scratch: n. */
 static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch,
                  sl_stats *stats) {
   sl_int bad;
@@ -9577,10 +8918,8 @@ static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl
 }
 
 #if defined(SLI_METIS)
-#define SLI_ORDER_TINY 4 /* components of at most this size are not passed to METIS */
+#define SLI_ORDER_TINY 4
 
-/* Orders the graph by METIS, component by component. A breadth-first search finds each component,
- * with perm itself as its queue; the component is then reordered in place. */
 static sl_status sli_order_metis(const sli_graph *G, const sl_int *metis_options, sl_int *perm,
                  sl_int *local, const sl_allocator *a) {
   sl_int root, head, tail = 0, start;
@@ -9614,8 +8953,6 @@ static sl_status sli_order_metis(const sli_graph *G, const sl_int *metis_options
 
 #endif
 
-/* Sorts unsorted adjacency lists and removes repeated edges, so that a matrix has one order however
- * it is stored. */
 static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
   const sl_off edges = G->begin[G->n];
   sli_block b = {NULL, 0, 0};
@@ -9640,7 +8977,6 @@ static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
   return status;
 }
 
-/* Expands the order and the separator tree from blocks of rows to rows. */
 static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_septree *septree) {
   sl_int k, c;
   for (k = blocks - 1; k >= 0; k--) {
@@ -9652,12 +8988,8 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
   }
 }
 
-/* For each directed edge, a dissection takes as long as about this many operations of a
- * factorization; it saves about half of those that minimum degree leads to. Measured on grids of
- * 1e4 to 1e5 rows in 2D, 20^3 and 30^3, and scans. */
 #define SLI_ORDER_ND_FLOPS 5000.0
 
-/* Orders a graph of rows or of blocks of rows. perm and septree hold its vertices. */
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                  sl_int *perm, sl_int *scratch, sli_septree *septree,
                  const sl_allocator *a) {
@@ -9682,7 +9014,6 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
                         scratch, septree, a);
 }
 
-/* Does A store a diagonal entry in column j? */
 static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
   sl_int p = A->p[j];
   while (p < A->p[j + 1] && A->i[p] != j) {
@@ -9691,10 +9022,6 @@ static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
   return p < A->p[j + 1];
 }
 
-/* A row with many neighbors and without a diagonal entry is a constraint, as in [L m; m' 0] with a
- * Laplacian L and weights m. After all of its neighbors, it would follow a null pivot of L. So the
- * last one of them moves behind it: L without that row is definite. Both are in the last dense
- * block, and the exchange costs nothing. position: n of scratch. */
 static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
                sli_septree *septree) {
   sl_int k, v, last;
@@ -9722,11 +9049,10 @@ static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, 
     }
     perm[k] = v;
     position[v] = k;
-    septree->count = 0; /* its nodes would no longer be contiguous */
+    septree->count = 0;
   }
 }
 
-/* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                   const sl_options *opt, sl_int *perm, sl_int *scratch,
                   sli_septree *septree, const sl_allocator *a) {
@@ -9759,8 +9085,6 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
   return status;
 }
 
-/* Returns whether purpose, block size and coordinates are valid for n rows. *bad := the first row
- * of a block with a coordinate that is not finite, otherwise -1. */
 static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *bad) {
   sl_int v, k;
   *bad = -1;
@@ -9783,8 +9107,6 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
   return 1;
 }
 
-/* Finds the elimination order of a checked symmetric pattern. perm := n rows; septree := the
- * separator tree if the ordering has one (n entries of each array); scratch: n. */
 static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
                sl_int *perm, sl_int *scratch, sli_septree *septree,
                const sl_allocator *a, sl_stats *stats) {
@@ -9822,51 +9144,40 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
 
 struct sl_symbolic {
   sl_allocator allocator;
-  sl_stats stats;           /* its symbolic group */
-  sl_int n;                 /* rows of A */
-  sl_int n_supers;          /* supernodes, in postorder */
-  sl_int nnz_input;         /* entries stored in A, read or not */
-  sli_hash pattern;         /* of A's arrays p and i; a refactorization must match it */
-  sli_hash identity;        /* of the pattern, the triangle read, the order and the supernodes */
-  sl_int tallest, widest;   /* largest height (columns and rows below) and width of a supernode */
-  sl_int *perm, *iperm;     /* n */
-  sl_int *parent;           /* n: elimination tree, -1 at a root */
-  int is_pivoted;           /* created from values: pivots of any sign are right */
-  sl_int n_pairs;           /* 2x2 pivots */
-  unsigned char *pairs;     /* n: SLI_PAIR_*; n_pairs = 0: none */
-  sl_int *counts;           /* n: entries of each column of L, without relaxation */
-  sl_int *super_of;         /* n */
-  sl_int *super_first;      /* n_supers + 1 */
-  sl_int *super_parent;     /* n_supers, -1 at a root */
-  sl_off *rows_begin;       /* n_supers + 1 */
-  sl_int *rows;             /* rows_begin[n_supers]: rows below each supernode, ascending */
-  sl_off *panel_begin;      /* n_supers + 1, in doubles */
-  sli_step *steps;          /* n_supers: the steps of a sweep over all supernodes */
-  sl_int *first_descendant; /* n_supers: first supernode of each subtree */
-  /* Relative indices, rows_begin[n_supers]: for each row below a supernode, its local row in the
-   * parent's front. */
+  sl_stats stats;
+  sl_int n;
+  sl_int n_supers;
+  sl_int nnz_input;
+  sli_hash pattern;
+  sli_hash identity;
+  sl_int tallest, widest;
+  sl_int *perm, *iperm;
+  sl_int *parent;
+  int is_pivoted;
+  sl_int n_pairs;
+  unsigned char *pairs;
+  sl_int *counts;
+  sl_int *super_of;
+  sl_int *super_first;
+  sl_int *super_parent;
+  sl_off *rows_begin;
+  sl_int *rows;
+  sl_off *panel_begin;
+  sli_step *steps;
+  sl_int *first_descendant;
   sl_int *relative;
-  /* The scatter map of A into L. Entries are grouped by supernode; duplicates share a position in
-   * L.
-   *
-   *     scatter_begin  n_supers + 1
-   *     scatter_from   scatter_begin[n_supers]: positions in A
-   *     scatter_to     scatter_begin[n_supers]: positions in L
-   */
   sl_off *scatter_begin;
   sl_int *scatter_from;
   sl_off *scatter_to;
-  sl_int n_nodes;                   /* nodes of the separator tree; 0: the ordering has none */
-  sl_int *node_of;                  /* n: the node of each column */
-  sl_int *node_parent, *node_level; /* n_nodes */
-  sli_mapping mapping;              /* the mapped file that holds the arrays; empty: none */
-  int is_partial;                   /* made from a file that has more than this library reads */
+  sl_int n_nodes;
+  sl_int *node_of;
+  sl_int *node_parent, *node_level;
+  sli_mapping mapping;
+  int is_partial;
 };
 
 /* src/impl/analysis/etree.h: elimination tree, postorder, and renumbering of the columns */
 
-/* parent[k] := the first row below the diagonal of column k of L, or -1. ancestor: n of scratch,
- * path-compressed links towards the roots found so far. [Liu90] */
 static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
   sl_int k, p;
   for (k = 0; k < n; k++) {
@@ -9886,15 +9197,13 @@ static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int 
   }
 }
 
-/* post[k] := the k-th node of a forest in postorder, with children in ascending order. parent[j] >
- * j is not required. child, sibling: n of scratch each. */
 static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child,
               sl_int *sibling) {
   sl_int j, k = 0, root;
   for (j = 0; j < n; j++) {
     child[j] = -1;
   }
-  for (j = n - 1; j >= 0; j--) { /* backwards: the lists then ascend */
+  for (j = n - 1; j >= 0; j--) {
     if (parent[j] != -1) {
       sibling[j] = child[parent[j]];
       child[parent[j]] = j;
@@ -9906,7 +9215,6 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
     }
     j = root;
     for (;;) {
-      /* Descend to the first leaf. A visited child is removed from its list. */
       while (child[j] != -1) {
         const sl_int c = child[j];
         child[j] = sibling[c];
@@ -9921,8 +9229,6 @@ static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *
   }
 }
 
-/* Renumbers the columns: order[k] = the old number of the new column k. Updates old_of, its inverse
- * new_of, and the tree. scratch: 2n. */
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
             sl_int *parent, sl_int *scratch) {
   sl_int *fresh = scratch, *number = scratch + n, k;
@@ -9945,23 +9251,12 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
 
 /* src/impl/analysis/counts.h: column counts of L in nearly O(nnz(A)), from the leaves of the row subtrees */
 
-/* counts[j] := entries of column j of L, diagonal included. The columns are numbered in a postorder
- * of parent; `columns` has the numbers before it, and column j had number old_of[j]. scratch: 4n.
- *
- * Row i of L has the structure of the row subtree of i: the part of the elimination tree between i
- * and the columns of row i of A. counts[j] is the number of row subtrees that contain j. To count
- * them, each row subtree contributes +1 at each of its leaves, -1 at the lowest common ancestor of
- * successive leaves, and -1 at the parent of its root i; sums over subtrees then give the counts.
- * In a postorder, j is a leaf of the row subtree of i if no earlier neighbor of i is a descendant
- * of j. [GNP94]
- */
 static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_of,
              const sl_int *new_of, const sl_int *parent, sl_int *counts,
              sl_int *scratch) {
   sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n,
        *set = scratch + 3 * (size_t)n;
   sl_int i, j, p;
-  /* first: the first descendant; seen: the largest `first` of a leaf of row i; leaf: that leaf */
   for (j = 0; j < n; j++) {
     first[j] = j;
     seen[j] = -1;
@@ -9969,7 +9264,7 @@ static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_o
     set[j] = j;
   }
   for (j = 0; j < n; j++) {
-    counts[j] = first[j] == j; /* a leaf of the tree is also a leaf of its own row subtree */
+    counts[j] = first[j] == j;
     if (parent[j] != -1) {
       first[parent[j]] = sli_min(first[parent[j]], first[j]);
     }
@@ -9977,7 +9272,7 @@ static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_o
   for (j = 0; j < n; j++) {
     const sl_int end = columns->begin[old_of[j] + 1];
     if (parent[j] != -1) {
-      counts[parent[j]]--; /* the row subtree of j ends at j */
+      counts[parent[j]]--;
     }
     for (p = columns->begin[old_of[j]]; p < end; p++) {
       i = new_of[columns->to[p]];
@@ -9986,8 +9281,6 @@ static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_o
       }
       counts[j]++;
       seen[i] = first[j];
-      /* The lowest common ancestor of two successive leaves is the root of the earlier leaf's
-       * set. */
       if (leaf[i] != -1) {
         sl_int root = leaf[i], q = leaf[i];
         while (root != set[root]) {
@@ -10015,24 +9308,18 @@ static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_o
 
 /* src/impl/analysis/supernodes.h: fundamental supernodes, and relaxed amalgamation over the whole assembly tree */
 
-/* Supernodes during amalgamation; all arrays have n entries. A merged supernode is identified by
- * the fundamental supernode on its top. */
 typedef struct sli_amalgamation {
-  sl_int count;        /* fundamental supernodes */
-  sl_int *first;       /* n + 1: first column of each */
-  sl_int *parent;      /* parent supernode, -1 at a root */
-  sl_int *width;       /* columns so far */
-  sl_int *below;       /* rows below */
-  sl_off *zeros;       /* entries stored so far that L does not have */
-  sl_int *merged_into; /* the supernode it was merged into, or itself; finally the new number */
-  /* 1: always merged into its parent, as its last column and the next one are a 2x2 pivot; NULL:
-   * none */
+  sl_int count;
+  sl_int *first;
+  sl_int *parent;
+  sl_int *width;
+  sl_int *below;
+  sl_off *zeros;
+  sl_int *merged_into;
   unsigned char *is_tied;
-  int relaxes; /* merge others too */
+  int relaxes;
 } sli_amalgamation;
 
-/* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
- * the next. The column count falls by one along a run. */
 static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
               sl_int *super_of, sli_amalgamation *g) {
   sl_int j, s = -1;
@@ -10060,27 +9347,17 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
   }
 }
 
-/* Largest percentage of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44
- * entries, 64 %, and 2D grids have no more. It bounds the stored entries of each supernode by
- * 1 / (1 - 0.70) = 3.34 times its entries of L, even where short columns are children of tall
- * ones. */
 #define SLI_ZEROS_SMALL 70
 
-/* Returns whether a supernode of this width may have so many zeros among its stored entries. The
- * cost of small panels is their calls, not their flops. The thresholds gave the fastest solves on
- * 2D and 3D meshes, at 2-3 % more flops. Integers, so that all platforms merge alike. */
 static int sli_may_merge(sl_int width, sl_off zeros, sl_off stored) {
   const sl_off percent = width <= 8 ? SLI_ZEROS_SMALL : width <= 16 ? 30 : width <= 48 ? 15 : 5;
   return zeros < stored / 100 * percent + (stored % 100 * percent + 99) / 100;
 }
 
-/* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
 static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
   return (sl_off)g->width[c] * (g->width[p] + g->below[p] - g->below[c]);
 }
 
-/* Merges children into p while the share of zeros allows it, those with the fewest new zeros first.
- * list: the children. */
 static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *list, sl_int count,
                   uint64_t *scratch) {
   sl_int k;
@@ -10103,8 +9380,6 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
   }
 }
 
-/* Amalgamates bottom up: each supernode merges children, which come before it. child, sibling:
- * lists of children; list, scratch: room for all supernodes. */
 static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
                uint64_t *scratch) {
   sl_int s, c, count;
@@ -10126,14 +9401,10 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
   }
 }
 
-/* Finds the supernodes after amalgamation: top[k] := the fundamental supernode on top of the k-th,
- * tree[k] := its parent, merged_into[s] := the k that s now belongs to. Returns their number.
- * sequence: the columns in the order that numbers the supernodes, by their last columns; NULL: 0,
- * 1, ... number: n of scratch. */
 static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequence,
               const sl_int *super_of, sl_int *top, sl_int *tree, sl_int *number) {
   sl_int s, k, count = 0;
-  for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
+  for (s = g->count - 1; s >= 0; s--) {
     g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
   }
   for (k = 0; k < n; k++) {
@@ -10154,14 +9425,6 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
   return count;
 }
 
-/* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
- * = the old number of the new column k. On return super_of and the arrays of g refer to the new
- * numbers, and g->count is the number of supernodes.
- *
- * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
- * by their last columns in the sequence, and the columns of a supernode keep its order. So a
- * sequence that is a postorder of the supernodes is kept as it is. scratch: 5n.
- */
 static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
                   sl_int *order, sl_int *super_of, sl_int *scratch) {
   sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
@@ -10171,14 +9434,13 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
   sli_postorder(tree, count, post, at, number);
   for (k = 0; k < count; k++) {
     number[post[k]] = k;
-    at[post[k]] = column; /* where the next column of the supernode goes */
+    at[post[k]] = column;
     column += g->width[top[post[k]]];
   }
   for (k = 0; k < n; k++) {
     const sl_int from = sequence == NULL ? k : sequence[k];
     order[at[g->merged_into[super_of[from]]]++] = from;
   }
-  /* merged_into and at are free now: they hold the sizes by new number. */
   for (k = 0; k < count; k++) {
     at[k] = g->width[top[post[k]]];
     g->merged_into[k] = g->below[top[post[k]]];
@@ -10197,8 +9459,6 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
   g->count = count;
 }
 
-/* The end of the part of a supernode that begins at column `from`: a 2x2 pivot that would be in two
- * column tiles starts the next part. */
 SLI_INLINE sl_int sli_part_end(const unsigned char *is_first, sl_int from, sl_int end) {
   sl_int k;
   for (k = from + SLI_TILE - 1; k < end && !is_first[k]; k += SLI_TILE) {
@@ -10206,7 +9466,6 @@ SLI_INLINE sl_int sli_part_end(const unsigned char *is_first, sl_int from, sl_in
   return sli_min(k, end);
 }
 
-/* Cuts supernodes into parts: first, below, and part, the part of each column. Returns how many. */
 static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_first,
                sl_int *first, sl_int *below, sl_int *part) {
   sl_int s, k, count = 0;
@@ -10223,16 +9482,11 @@ static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_
   return count;
 }
 
-/* Splits supernodes into parts so that every 2x2 pivot is in one column tile, and numbers them in a
- * postorder again: order[k] = the old number of the new column k. Each part keeps the rows of its
- * supernode, and the next part is its parent. earlier[s] := the part before s in its supernode, or
- * -1. Returns 0 if nothing is to be split. parent: the elimination tree; is_first: by column, is it
- * the first of a pair? scratch: 5n. */
 static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
                const unsigned char *is_first, sl_int *super_of, sl_int *earlier,
                sl_int *order, sl_int *scratch) {
   sl_int *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
-  sl_int *first = g->merged_into; /* free now */
+  sl_int *first = g->merged_into;
   const sl_int count = sli_find_parts(g, is_first, first, below, order);
   sl_int s, k, c, column = 0;
   for (k = 0; k < n; k++) {
@@ -10276,7 +9530,6 @@ static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
 
 /* src/impl/analysis/structure.h: rows of the supernodes, relative indices, and the scatter map of A into L */
 
-/* scatter_begin := sums of the numbers of entries of A in each supernode's columns. */
 static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
                   const sl_int *old_of) {
   sl_int s, k = 0;
@@ -10290,14 +9543,6 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
   S->scatter_begin[S->n_supers] = total;
 }
 
-/* Fills the rows of all supernodes and the scatter map in one pass over the rows of L.
- *
- * Row k of L occupies the part of the supernode tree between row k's entries of A and k's own
- * supernode. k is appended to the row list of each of these supernodes; as k ascends, so do the
- * lists. The position in the list is the local row of k's entries. end: n_supers, the end of each
- * list so far; mark: n_supers. earlier: the part before each supernode if one was split, or NULL:
- * a row of one part is also a row of the parts before it.
- */
 static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
                  const sl_int *new_of, const sl_int *earlier, sl_off *end,
                  sl_int *mark) {
@@ -10324,7 +9569,6 @@ static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl
         }
       }
       local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
-      /* each begin advances to its group's end; shifted back below */
       at = S->scatter_begin[home]++;
       S->scatter_from[at] = rows->from[p];
       S->scatter_to[at] = S->panel_begin[home] + sli_panel_at(width, local, i - first);
@@ -10337,8 +9581,6 @@ static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl
   S->scatter_begin[0] = 0;
 }
 
-/* Fills the steps of a sweep over all supernodes: the vector has all n columns, so that `base` is
- * the column. */
 static void sli_fill_steps(sl_symbolic *S) {
   sl_int s;
   S->tallest = 0;
@@ -10357,8 +9599,6 @@ static void sli_fill_steps(sl_symbolic *S) {
   }
 }
 
-/* Fills first_descendant. As supernodes are in postorder, the children of s are s - 1, then the
- * supernode before the first descendant of s - 1, and so on, down to the first descendant of s. */
 static void sli_fill_descendants(sl_symbolic *S) {
   sl_int s;
   for (s = 0; s < S->n_supers; s++) {
@@ -10372,7 +9612,6 @@ static void sli_fill_descendants(sl_symbolic *S) {
   }
 }
 
-/* Fills the relative indices of all supernodes in their parents' fronts. local: n of scratch. */
 static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
   sl_int s, c;
   sl_off at;
@@ -10391,15 +9630,10 @@ static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
   }
 }
 
-/* The last row tile of supernode s. */
 SLI_INLINE sl_int sli_last_tile(const sl_symbolic *S, sl_int s) {
   return sli_tiles(S->steps[s].width + S->steps[s].below) - 1;
 }
 
-/* Finds the pivots k >= j such that entry m of the scatter map goes to L(k, j). m belongs to
- * supernode s. tile: where to start, the row tile of m or a later one; set to the tile of m. Within
- * a supernode the rows ascend along the map: a backward pass that starts with the last tile visits
- * each tile once. */
 static void sli_scatter_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_int *tile,
                    sl_int *k, sl_int *j) {
   const sl_int first = S->super_first[s], w = S->steps[s].width;
@@ -10417,65 +9651,49 @@ static void sli_scatter_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_
 
 /* src/impl/analysis/schedule.h: tasks of the tree of fronts for parallel workers, and the layout of update stacks */
 
-/* A task is a subtree, a run of consecutive supernodes, that is factored by one worker. The fronts
- * above all tasks follow one by one, with all workers in each. A single worker has one task: the
- * whole forest. */
 typedef struct sli_schedule {
   sl_int workers;
   sl_int n_tasks, n_tops;
-  sl_int *first, *last; /* n_tasks: supernodes first..last */
-  sl_int *worker;       /* n_tasks: its worker */
-  sl_int *top;          /* n_tops: supernodes above the tasks, ascending */
-  sl_off *stack_begin;  /* n_supers: start of each update matrix, in doubles */
-  sl_off stack;         /* doubles of all stacks together */
+  sl_int *first, *last;
+  sl_int *worker;
+  sl_int *top;
+  sl_off *stack_begin;
+  sl_off stack;
 } sli_schedule;
 
-/* A forest of fronts numbered in postorder: all supernodes of an analysis, or those of a reach. */
 typedef struct sli_forest {
   sl_int count;
-  const sl_int *parent; /* count: -1 at a root */
-  const sl_int *low;    /* count: first of the subtree */
+  const sl_int *parent;
+  const sl_int *low;
 } sli_forest;
 
-/* Scratch of the scheduling. */
 typedef struct sli_schedule_work {
-  double *flops;   /* count: of the front, later of the subtree */
-  double *load;    /* workers: flops assigned */
-  sl_int *side;    /* count: 0 or 1, the stack; plus 2 within a task */
-  uint64_t *order; /* count: tasks, the largest last */
+  double *flops;
+  double *load;
+  sl_int *side;
+  uint64_t *order;
   uint64_t *scratch;
 } sli_schedule_work;
 
-/* Tasks per worker, on average. Small tasks even out the error of the flop estimate. */
 #define SLI_TASKS_PER_WORKER 8
 
-/* A front of this many flops takes about 50 us. Sharing it among workers costs 1 to 2 us a step
- * with OpenMP, more with other thread pools. */
 #define SLI_SHARED_FLOPS 4e6
 
-/* Doubles that a supernode passes to its parent: the update matrix and the magnitudes of its
- * rows. */
 SLI_INLINE sl_off sli_update_size(const sli_step *s) {
   const sl_int tiles = sli_update_tiles(s->width, s->below);
   return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)tiles;
 }
 
-/* Flops of a front: the sum of (entries)^2 over its columns. */
 SLI_INLINE double sli_front_flops(const sli_step *s) {
   const double w = s->width, h = w + s->below;
   return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
 }
 
-/* Two update stacks that grow towards each other, one for supernodes of even depth and one for odd
- * depth. Supernodes are pushed in ascending order. When a supernode is done, its children are on
- * top of the other stack, so that no update matrix is ever moved. */
 typedef struct sli_stacks {
   sl_off top[2];
   sl_off most;
 } sli_stacks;
 
-/* Pushes the update matrix of supernode s, then pops those of its children: they are free once s is
- * factored. Within a task only children of the same task are on these stacks. */
 static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
               sl_off *begin) {
   const int own = side[s] & 1, in_task = side[s] & 2;
@@ -10491,16 +9709,11 @@ static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const
   }
 }
 
-/* Turns a position into a final one: the second stack counts from the end, which is known only
- * now. */
 SLI_INLINE void sli_stacks_settle(const sli_stacks *k, sl_int s, const sl_int *side, sl_off base,
                   sl_off *begin) {
   begin[s] += base + ((side[s] & 1) == 0 ? 0 : k->most);
 }
 
-/* Lays out the update stacks. All tasks of a worker use its two stacks, one task after the other.
- * The update matrices of task roots wait for the fronts above and have memory of their own; so have
- * the stacks of the fronts above. */
 static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
   sli_stacks k;
   sl_int m, s, worker;
@@ -10534,10 +9747,9 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
   p->stack += k.most;
 }
 
-/* Finds the tasks: largest subtrees of at most `limit` flops, in ascending order of flops. */
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
                double limit) {
-  const double scale = 1e9 / limit; /* a front has at least one flop */
+  const double scale = 1e9 / limit;
   sl_int s;
   p->n_tasks = p->n_tops = 0;
   for (s = 0; s < f->count; s++) {
@@ -10551,7 +9763,6 @@ static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_wo
   sli_sort(w->order, p->n_tasks, w->scratch);
 }
 
-/* Assigns the tasks, the largest first, each to the worker with the least load. */
 static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w) {
   sl_int m, k;
   for (k = 0; k < p->workers; k++) {
@@ -10570,8 +9781,6 @@ static void sli_share_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_w
   }
 }
 
-/* Finds tasks and tops for p->workers. w->flops: those of the fronts, read if there are several
- * workers. */
 static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w) {
   double total = 0.0;
   sl_int s;
@@ -10595,7 +9804,6 @@ static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_wo
   sli_share_tasks(p, f, w);
 }
 
-/* Fills a schedule for p->workers. The arrays of p and w have room. */
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedule_work *w) {
   const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
   sl_int s, m;
@@ -10632,26 +9840,23 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 
 /* src/impl/analysis/symbolic.h: the analysis: from the pattern of A to the supernodes and the storage of L */
 
-/* Scratch of the analysis. Rows have three numberings: that of A; the order found or given, used
- * by rows, columns and perm; and the final postorder of supernodes, used by everything else. */
 typedef struct sli_analysis {
   sl_int n;
   sli_pattern rows, columns;
   sli_amalgamation amalgamation;
-  sl_int *perm;                       /* n: the order found or given */
-  sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
-  sl_int *parent, *counts, *super_of; /* n each */
-  sl_int *scratch;                    /* 5n */
-  uint64_t *list;                     /* 2n */
-  /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
+  sl_int *perm;
+  sl_int *old_of, *new_of;
+  sl_int *parent, *counts, *super_of;
+  sl_int *scratch;
+  uint64_t *list;
   const unsigned char *pairs;
-  unsigned char *is_first; /* n: the same, by column */
-  sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
-  sli_septree septree;     /* n each: by rows of A */
+  unsigned char *is_first;
+  sl_int *earlier;
+  sli_septree septree;
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
-  const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
+  const uint64_t n = (uint64_t)rows;
   w->n = rows;
   w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
   w->rows.to = SLI_TAKE(b, sl_int, nnz);
@@ -10681,7 +9886,6 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
 }
 
-/* All arrays. A saved analysis has them in this order (save/format.h). */
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
   S->perm = SLI_TAKE(b, sl_int, n);
@@ -10706,7 +9910,6 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
   S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
-/* Renumbers tree and counts: order[k] = the old number of the new column k. */
 static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
   sl_int k;
   for (k = 0; k < w->n; k++) {
@@ -10718,7 +9921,6 @@ static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
   sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
-/* Marks the supernodes whose last column is the first of a 2x2 pivot. */
 static void sli_analysis_tie(sli_analysis *w) {
   sl_int s;
   for (s = 0; s < w->amalgamation.count; s++) {
@@ -10726,7 +9928,6 @@ static void sli_analysis_tie(sli_analysis *w) {
   }
 }
 
-/* Splits supernodes so that each 2x2 pivot is in one tile. Its two columns have the same rows. */
 static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   sl_int k;
   for (k = 0; k < w->n; k++) {
@@ -10745,7 +9946,6 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   }
 }
 
-/* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
 static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
   const sl_int n = w->n;
   const int keeps_order =
@@ -10765,7 +9965,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   if (w->amalgamation.relaxes || w->pairs != NULL) {
     sli_amalgamate(&w->amalgamation, order, more, w->list, w->list + n);
   }
-  order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
+  order = (sl_int *)(void *)w->list;
   sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
               w->scratch);
   sli_analysis_reorder(w, order);
@@ -10774,7 +9974,6 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
 }
 
-/* Fills the statistics. depth: n of scratch. */
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
   sl_int k;
   stats->symbolic.n = S->n;
@@ -10790,7 +9989,6 @@ static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *sta
   }
 }
 
-/* Copies the separator tree, indexed by columns of L. Parents have higher numbers. */
 static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
   sl_int k;
   for (k = 0; k < S->n && S->n_nodes > 0; k++) {
@@ -10802,8 +10000,6 @@ static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
   }
 }
 
-/* Hashes what determines the object. Plans, regions and selected inverses keep the hash, and notice
- * by it that their analysis was released and another one created at its address. */
 static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
   const sl_int kind = (sl_int)triangle;
   sl_int k;
@@ -10817,7 +10013,6 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
   }
 }
 
-/* Copies the tree out of the scratch and fills everything that depends on it. */
 static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
   const size_t bytes = (size_t)S->n * sizeof(sl_int);
   sl_int s, k;
@@ -10837,8 +10032,6 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     S->panel_begin[s + 1] =
       S->panel_begin[s] + sli_panel_size(w->amalgamation.width[s], w->amalgamation.below[s]);
   }
-  /* list has 2n words of 8 bytes: one half for the ends of the row lists, the other for the
-   * marks. */
   for (k = 0; k < S->n && S->n_pairs > 0; k++) {
     S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
             : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
@@ -10913,13 +10106,10 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   return SL_OK;
 }
 
-/* Copies the symbolic group. */
 static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
   to->symbolic = from->symbolic;
 }
 
-/* sl_symbolic_create of a matrix for which 2x2 pivots are given, or pairs NULL. opt then gives the
- * order, and pairs[k] = 1 if its rows k and k + 1 are a 2x2 pivot. */
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
@@ -11013,19 +10203,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S) {
 
 /* src/impl/analysis/reach.h: the reach of a set of columns: their paths to the roots, compiled for the kernels */
 
-/* A compiled reach: its supernodes ascending, each from the first column needed, and the rows below
- * them as indices into a compact vector that has the columns of the reach only. */
 typedef struct sli_reach {
-  sl_int count;           /* supernodes */
-  sl_int columns;         /* length of the compact vector */
-  sl_int tallest, widest; /* largest height and width, for the scratch */
-  sl_off n_rows;          /* length of rows */
-  sl_off entries;         /* doubles of L that a sweep reads */
-  const sli_step *steps;  /* count */
-  const sl_int *rows;     /* n_rows, step after step */
+  sl_int count;
+  sl_int columns;
+  sl_int tallest, widest;
+  sl_off n_rows;
+  sl_off entries;
+  const sli_step *steps;
+  const sl_int *rows;
 } sli_reach;
 
-/* The reach of all columns, which the analysis has already compiled. */
 static sli_reach sli_reach_all(const sl_symbolic *S) {
   sli_reach R;
   R.count = S->n_supers;
@@ -11039,38 +10226,28 @@ static sli_reach sli_reach_all(const sl_symbolic *S) {
   return R;
 }
 
-/* Where paths end below the roots of the tree: a forest of whole subtrees, and a boundary that
- * contains at least all rows of L below them. In a compact vector of a reach inside the extent, the
- * boundary comes last. */
 typedef struct sli_region_extent {
   sl_int n_roots;
-  const sl_int *roots; /* ascending: the roots of the subtrees */
+  const sl_int *roots;
   sl_int n_rows;
-  const sl_int *rows; /* ascending: the boundary, columns of L */
+  const sl_int *rows;
 } sli_region_extent;
 
-/* The index of the subtree that contains supernode s, or -1. */
 SLI_INLINE sl_int sli_extent_find(const sl_symbolic *S, const sli_region_extent *extent, sl_int s) {
   const sl_int at = sli_lower_bound(extent->roots, extent->n_roots, s);
   return at < extent->n_roots && S->first_descendant[extent->roots[at]] <= s ? at : -1;
 }
 
-/* The index of a column in the boundary, or -1. */
 SLI_INLINE sl_int sli_extent_boundary(const sli_region_extent *extent, sl_int column) {
   const sl_int at = sli_lower_bound(extent->rows, extent->n_rows, column);
   return at < extent->n_rows && extent->rows[at] == column ? at : -1;
 }
 
-/* The end of the path of supernode s, which is inside the extent: one past its last supernode.
- * extent NULL: the path ends at the root of the tree. */
 SLI_INLINE sl_int sli_extent_end(const sl_symbolic *S, const sli_region_extent *extent, sl_int s) {
   return extent == NULL ? S->n_supers
               : extent->roots[sli_lower_bound(extent->roots, extent->n_roots, s)] + 1;
 }
 
-/* The supernode where the path of the k-th seed stops: the next supernode that contains a seed. In
- * a postorder the first ancestor at or after it is on the next seed's own path, so that paths join
- * without a mark on any column. Advances *k past the seeds of this supernode. */
 SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                 sl_int *k) {
   const sl_int here = S->super_of[sli_key(seeds[*k])];
@@ -11084,14 +10261,11 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
   return S->n_supers;
 }
 
-/* Doubles of L that a sweep reads of a panel, from a row tile on. */
 SLI_INLINE sl_off sli_entries_from(sl_int width, sl_int below, sl_int first_tile) {
   return sli_panel_size(width, below) - sli_tile_offset(width, first_tile) -
        (sl_off)SLI_TILE * SLI_TILE * first_tile * (sli_tiles(width + below) - first_tile);
 }
 
-/* Adds the supernodes of column k's path that are below supernode `high` and have no descendant at
- * or before `low`. */
 static void sli_reach_add_path(const sl_symbolic *S, sl_int k, sl_int low, sl_int high,
                  sli_reach *R) {
   sl_int s = S->super_of[k];
@@ -11109,18 +10283,12 @@ static void sli_reach_add_path(const sl_symbolic *S, sl_int k, sl_int low, sl_in
   }
 }
 
-/* Adds column k to a reach: the supernodes of its path up to the paths of the nearest columns
- * before and behind it that are in the reach already; -1: none. count, n_rows, tallest and widest
- * are exact. columns counts whole supernodes, and entries does not include that k may enter a
- * shared supernode at an earlier tile. O(supernodes added). */
 static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
               sli_reach *R) {
   sli_reach_add_path(S, k, before < 0 ? -1 : S->super_of[before],
              behind < 0 ? S->n_supers : S->super_of[behind], R);
 }
 
-/* Measures the reach of seeds, which are ascending columns of L: inside an extent, or, if it is
- * NULL, up to the roots. O(reach). */
 static void sli_reach_measure_within(const sl_symbolic *S, const sli_region_extent *extent,
                    const uint64_t *seeds, sl_int count, sli_reach *R) {
   sl_int k, low = -1;
@@ -11138,9 +10306,6 @@ static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_in
   sli_reach_measure_within(S, NULL, seeds, count, R);
 }
 
-/* Adds supernode s as step `at`. It is entered by a seed or by children on the pending list; its
- * parent is in the reach only if it is below supernode `end`. The list links, through `up`, the
- * steps whose parent has not been added yet, the one with the smallest parent on top. */
 static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
               sl_int end, sl_int *pending) {
   const sl_int first = S->super_first[s];
@@ -11165,8 +10330,6 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
   }
 }
 
-/* The last of the steps low..high whose first column is at or before a row. There is one. Steps
- * ascend. */
 SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high, sl_int row) {
   while (low < high) {
     const sl_int middle = low + (high - low + 1) / 2;
@@ -11179,13 +10342,8 @@ SLI_INLINE sl_int sli_reach_find(const sli_step *steps, sl_int low, sl_int high,
   return low;
 }
 
-/* this many ancestors cost about as much as a search among a few thousand steps */
 #define SLI_REACH_WALK 8
 
-/* Converts the first `inside` rows of a step to indices of the compact vector. Both the rows and
- * the ancestors that own them ascend, and the owner of the next row is usually a few ancestors up.
- * If it is not, it is searched among all `count` steps: following ancestors only would take
- * quadratic time in a tree with one long branch. */
 static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step *steps,
                  sl_int count, sl_int at, sl_int *indices) {
   sl_int i = 0;
@@ -11203,7 +10361,6 @@ static void sli_reach_map_rows(const sl_int *rows, sl_int inside, const sli_step
   }
 }
 
-/* Converts rows in a boundary, which starts at index `base`. Both ascend. */
 static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, const sl_int *rows,
                 sl_int count, sl_int *indices) {
   sl_int i, at = 0;
@@ -11213,8 +10370,6 @@ static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, co
   }
 }
 
-/* Compiles the reach of seeds; sli_reach_measure_within gives the sizes. O(reach), with a
- * logarithmic factor where rows skip many ancestors and for rows in the boundary. */
 static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
                   const uint64_t *seeds, sl_int count, sli_step *steps,
                   sl_int *rows, sli_reach *R) {
@@ -11261,8 +10416,6 @@ static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int c
   sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
 }
 
-/* The index of a column in the compact vector. *at, 0 at first, keeps the step for the next call,
- * whose column must not be smaller. */
 SLI_INLINE sl_int sli_reach_index(const sli_reach *R, sl_int *at, sl_int column) {
   while (column >= R->steps[*at].column + sli_step_columns(&R->steps[*at])) {
     ++*at;
@@ -11270,7 +10423,6 @@ SLI_INLINE sl_int sli_reach_index(const sli_reach *R, sl_int *at, sl_int column)
   return column - R->steps[*at].column + R->steps[*at].base;
 }
 
-/* The index of any column in the compact vector, or -1 if it is not in the reach. */
 static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
   const sli_step *step;
   if (R->count == 0) {
@@ -11282,13 +10434,11 @@ static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
          : -1;
 }
 
-/* Iterates over the supernodes that two reaches share: sli_intersection_of, then
- * sli_intersection_next until it returns 0. */
 typedef struct sli_intersection {
   const sli_step *a, *a_end, *b, *b_end;
-  sl_int count;      /* shared columns of the current supernode */
-  sl_int column;     /* the first of them */
-  sl_int in_a, in_b; /* its indices in the two compact vectors */
+  sl_int count;
+  sl_int column;
+  sl_int in_a, in_b;
 } sli_intersection;
 
 SLI_INLINE sli_intersection sli_intersection_of(const sli_reach *a, const sli_reach *b) {
@@ -11303,7 +10453,7 @@ SLI_INLINE sli_intersection sli_intersection_of(const sli_reach *a, const sli_re
 
 SLI_INLINE int sli_intersection_next(sli_intersection *m) {
   while (m->a < m->a_end && m->b < m->b_end) {
-    if (m->a->panel == m->b->panel) { /* the panel identifies the supernode */
+    if (m->a->panel == m->b->panel) {
       m->column = sli_max(m->a->column, m->b->column);
       m->count = m->a->column + sli_step_columns(m->a) - m->column;
       m->in_a = m->a->base + m->column - m->a->column;
@@ -11324,120 +10474,101 @@ SLI_INLINE int sli_intersection_next(sli_intersection *m) {
 /* factor: the numbers of L and D */
 /* src/impl/factor/factor_types.h: the factor object, and what both methods share: panel loading, pivot checks */
 
-/* The source of a factorization's entries: a matrix A, or a weighted sum of value arrays in the
- * order of the scatter map. */
 typedef struct sli_source {
-  const sl_csc *A;             /* NULL: the sum over t of coefficients[t] values[t] */
-  const double *const *values; /* terms arrays, scatter_begin[n_supers] values each */
-  const double *coefficients;  /* terms */
+  const sl_csc *A;
+  const double *const *values;
+  const double *coefficients;
   sl_int terms;
 } sli_source;
 
-/* The first failure of a factorization. */
 typedef struct sli_failure {
   sl_status status;
-  sl_int super; /* the supernode in which it occurred */
-  sl_int pivot; /* the pivot that is null or not finite, or -1 */
-  /* the entry that is not finite, as a position in the scatter map; -1: a coefficient */
+  sl_int super;
+  sl_int pivot;
   sl_off position;
   double value;
 } sli_failure;
 
-/* Row i of A z. A cache line holds two: the product may visit rows at random. */
 typedef struct sli_null_row {
   double z;
-  double product; /* (A z)(i) */
-  double size;    /* (|A| |z|)(i) */
-  sl_int entries; /* entries of the row */
-  sl_int up;      /* a later pivot's row in the component; i itself: the last one */
+  double product;
+  double size;
+  sl_int entries;
+  sl_int up;
 } sli_null_row;
 
-/* What a supernode contributes to pivot growth (growth.h). */
 typedef struct sli_extent {
-  double entry;     /* the largest |a| in its columns */
-  double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
-  sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
-  sl_int zero;      /* instead of padding: saved factors have no undefined bytes */
+  double entry;
+  double magnitude;
+  sl_int pivot;
+  sl_int zero;
 } sli_extent;
 
 struct sl_factor {
   sl_allocator allocator;
-  sl_stats stats;       /* the factor group and the error group */
-  const sl_symbolic *S; /* borrowed */
+  sl_stats stats;
+  const sl_symbolic *S;
   const sli_kernels *kernels;
   sli_pivot_rule rule;
   sl_null_pivots null_pivots;
   sl_method method;
-  int is_valid;     /* L and D hold a factor */
-  int is_immutable; /* L, D and the other arrays are those of a mapped file */
-  void *scratch;    /* the block of all scratch arrays; NULL: not allocated yet */
-  sl_status status; /* of the last factorization */
-  /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
-   * numbers keeps it */
+  int is_valid;
+  int is_immutable;
+  void *scratch;
+  sl_status status;
   sli_hash identity;
-  /* counts factorizations and changes, also those that give the same numbers again */
   uint64_t generation;
-  sl_off updates; /* rank-one changes since the last complete factorization */
-  double drift;   /* the rounding errors that they have added, relative to the largest entry */
-  sli_hash analysis;   /* the identity of S */
-  double *L;           /* the panels of all supernodes */
-  double *D;           /* n pivots */
-  double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
-  sli_extent *extents; /* n_supers */
-  double growth_limit; /* a larger growth is refused */
-  double error_limit;  /* a refinement that ends above it is reported */
-  /* n: the pivots that regularization changed, ascending; NULL: no regularization */
+  sl_off updates;
+  double drift;
+  sli_hash analysis;
+  double *L;
+  double *D;
+  double *E;
+  sli_extent *extents;
+  double growth_limit;
+  double error_limit;
   sl_int *regularized;
 
-  /* null pivots */
-  double consistency; /* the bound on |z' b| relative to the sum of |b|; negative: no check */
-  int checks;         /* there are null pivots, and solves check that b is consistent */
-  int is_centered;    /* there are null pivots, and solves center x by the weights in mass */
+  double consistency;
+  int checks;
+  int is_centered;
   sl_int n_nulls;
-  sl_int *nulls; /* n: the n_nulls skipped pivots, ascending */
+  sl_int *nulls;
   sl_int n_anchors;
-  /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
   sl_int *anchors;
-  double *mass;       /* n: the weights m in pivot order; NULL: none */
-  double *z;          /* n: the assumed null vectors of all components */
-  double *g;          /* n: z in trees with one component whose null vector is known, else 0 */
-  int has_duplicates; /* of the pattern; known with the scratch arrays */
-  sli_null_row *rows; /* n: scratch */
-  sl_int *last;       /* n: scratch, the last pivot of each component */
-  double *rounding;   /* n: scratch for the rule */
-  /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
+  double *mass;
+  double *z;
+  double *g;
+  int has_duplicates;
+  sli_null_row *rows;
+  sl_int *last;
+  double *rounding;
   double *center;
-  double *squares; /* components: w' D^+ w of the tree of each anchor */
-  double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
-  /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
-   * and in 2x2 pivots, which are applied before it; read if is_centered or with pairs */
+  double *squares;
+  double *ratios;
   double *divisors;
   double *center_scratch;
-  double *buffer; /* kernel scratch, one piece a worker */
+  double *buffer;
 
-  /* multifrontal; scratch arrays hold one piece a worker */
   sl_threads threads;
   sli_schedule schedule;
-  double *stack; /* the update stack: update matrices until their parents assemble them */
-  /* rows of the tallest front: the sum of the magnitudes that went into each diagonal entry */
+  double *stack;
   double *magnitude;
-  double *reciprocals;   /* SLI_FRONT_RECIPROCALS */
-  sli_failure *failures; /* the first failure of a worker */
+  double *reciprocals;
+  sli_failure *failures;
 
-  /* up-looking */
-  double *x;        /* n: row k while it is computed; all 0 between rows */
-  sl_int *head;     /* n: the first supernode whose next row is k, -1 for none */
-  sl_int *next;     /* n_supers: the next supernode in the same list, -1 at the end */
-  sl_int *position; /* n_supers: how many rows below each supernode are computed */
-  uint64_t *list;   /* n_supers: the supernodes in the reach of row k */
+  double *x;
+  sl_int *head;
+  sl_int *next;
+  sl_int *position;
+  uint64_t *list;
   uint64_t *list_scratch;
 };
 
-/* The numbers of a factor at one time. */
 typedef struct sli_numbers {
   const sl_factor *F;
   sli_hash identity;
-  uint64_t generation; /* 0: none */
+  uint64_t generation;
 } sli_numbers;
 
 SLI_INLINE sli_numbers sli_numbers_of(const sl_factor *F) {
@@ -11448,30 +10579,24 @@ SLI_INLINE sli_numbers sli_numbers_of(const sl_factor *F) {
   return numbers;
 }
 
-/* Does F hold these numbers? Also false for another factor that was created at the same address. */
 SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F) {
   return numbers->F == F && numbers->generation == F->generation &&
        sli_hash_equals(numbers->identity, F->identity);
 }
 
-/* Is F a factor over the analysis S, with this identity? Also false if the analysis of F was
- * released and another one created at its address. */
 SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_hash identity) {
   return F->S == S && sli_hash_equals(F->analysis, S->identity) &&
        sli_hash_equals(identity, S->identity);
 }
 
-/* Entries of the inverse are computed with a diagonal D only. */
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
   return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
-/* May the numbers of F change, and is its analysis still there? */
 SLI_INLINE int sli_factor_may_change(const sl_factor *F) {
   return !F->is_immutable && sli_factor_is_over(F, F->S, F->analysis);
 }
 
-/* Fills in a failure and returns its status. */
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
                 sl_off position, double value) {
   f->status = status;
@@ -11488,10 +10613,9 @@ SLI_INLINE void sli_keep_first_failure(sli_failure *f, const sli_failure *other)
   }
 }
 
-/* Returns the column of A that holds position p. */
 static sl_int sli_column_of(const sl_csc *A, sl_int p) {
   sl_int low = 0, high = A->n_cols - 1;
-  while (low < high) { /* finds the last column that begins at or before p */
+  while (low < high) {
     const sl_int middle = low + (high - low + 1) / 2;
     if (A->p[middle] <= p) {
       low = middle;
@@ -11502,9 +10626,6 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
   return low;
 }
 
-/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, and records the
- * largest magnitude. With scatter_from, x is A's value array and scatter_from[m] the position of
- * entry m; without, x[0] is the value of entry `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, sl_off first,
                            sl_off last, const double *x,
                            const sl_int *scatter_from,
@@ -11526,22 +10647,20 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
   return SL_OK;
 }
 
-#define SLI_SUM_ENTRIES 64 /* entries that are summed at a time; most supernodes have no more */
+#define SLI_SUM_ENTRIES 64
 
-/* sums := the weighted sums of the map's entries first .. first+count-1 */
 static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, double *sums) {
   sl_int k, t;
   memset(sums, 0, (size_t)count * sizeof(double));
   for (t = 0; t < from->terms; t++) {
     const double c = from->coefficients[t], *v = from->values[t] + first;
     for (k = 0; k < count; k++) {
-      const double product = c * v[k]; /* rounded, as in a sum that the caller computes */
+      const double product = c * v[k];
       sums[k] += product;
     }
   }
 }
 
-/* Adds the matrix's entries to the panel of supernode s. */
 static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s,
                 sli_failure *failure) {
   const sl_symbolic *S = F->S;
@@ -11563,17 +10682,14 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   return status;
 }
 
-/* Was pivot k null and skipped? */
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
   return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
 }
 
-/* Was pivot k changed by regularization? */
 SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
   return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
 }
 
-/* Keeps the largest sum of magnitudes that a pivot k of supernode s was computed from. */
 SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, double magnitude) {
   if (magnitude > F->extents[s].magnitude) {
     F->extents[s].magnitude = magnitude;
@@ -11581,8 +10697,6 @@ SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, dou
   }
 }
 
-/* Records the magnitudes that pivot k of supernode s was computed from. Refuses a pivot that is not
- * finite, or one that is null against these magnitudes and was not replaced. */
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
                    double magnitude, sli_failure *failure) {
   sli_record_magnitude(F, s, k, magnitude);
@@ -11593,14 +10707,12 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
   if (F->null_pivots == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
-    !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
+    !(pivot * F->rule.signs[k] > 0.0)) {
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
   return SL_OK;
 }
 
-/* At the first column k of a 2x2 pivot of supernode s: records the magnitudes that both columns
- * were computed from, and refuses a pivot that is not finite or null. */
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
                   sli_failure *failure) {
   double a, b, e;
@@ -11611,7 +10723,7 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
   a = F->D[k];
   b = F->D[k + 1];
   e = F->E[k];
-  for (r = 0; r < 2; r++) { /* e does not show in the magnitudes */
+  for (r = 0; r < 2; r++) {
     sli_record_magnitude(F, s, k + r, magnitude[r] > fabs(e) ? magnitude[r] : fabs(e));
   }
   if (!sli_is_finite(a) || !sli_is_finite(b) || !sli_is_finite(e)) {
@@ -11627,7 +10739,6 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
   return SL_OK;
 }
 
-/* The eigenvalues of the 2x2 pivot of columns k, k+1, the one of larger magnitude first. */
 SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *values) {
   const double a = F->D[k], b = F->D[k + 1], e = F->E[k];
   const double middle = 0.5 * a + 0.5 * b, half = 0.5 * a - 0.5 * b;
@@ -11635,11 +10746,9 @@ SLI_INLINE void sli_pair_eigenvalues(const sl_factor *F, sl_int k, double *value
   const double x = size > 0.0 ? half / size : 0.0, y = size > 0.0 ? e / size : 0.0;
   const double radius = size * sqrt(x * x + y * y);
   values[0] = middle < 0.0 ? middle - radius : middle + radius;
-  /* the product of both is the determinant; their difference would cancel */
   values[1] = a * (b / values[0]) - e * (e / values[0]);
 }
 
-/* Counts one eigenvalue of D by its sign, and records its magnitude. */
 SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
   const double size = fabs(d);
   if (info->positive + info->negative == 0) {
@@ -11651,7 +10760,6 @@ SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
   info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
-/* Counts the first pivots by sign and records their least and largest magnitude. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
   sl_stats *stats = &F->stats;
   sl_int k;
@@ -11680,40 +10788,33 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
 
 /* src/impl/factor/pivot_search.h: a multifrontal factorization that only selects 1x1 and 2x2 pivots by values */
 
-/* Pivots are selected by threshold partial pivoting [DR83]: no entry of L exceeds
- * 1 / SLI_PIVOT_THRESHOLD. Where no column of a front has such a pivot, those that remain are
- * delayed: they become columns of the parent's front. At a root all rows are columns, and every
- * finite column has one. */
 #define SLI_PIVOT_THRESHOLD 0.01
 
-/* What a front passes to its parent: a lower triangle, column-major. */
 typedef struct sli_contribution {
-  void *block;    /* owns index and values */
-  sl_int delayed; /* columns that come first and could not be eliminated */
-  sl_int count;   /* rows */
-  sl_int *index;  /* count: columns of L */
-  double *values; /* count x count */
+  void *block;
+  sl_int delayed;
+  sl_int count;
+  sl_int *index;
+  double *values;
 } sli_contribution;
 
-/* A front as a dense column-major matrix. The columns of its pivots are complete; of the others
- * only the lower triangle is used. */
 typedef struct sli_dense_front {
-  sl_int rows, columns; /* rows and columns are numbered alike; the columns come first */
-  sl_int *index;        /* rows: columns of L */
-  double *values;       /* rows x rows */
-  double *D, *E;        /* columns: the pivots found, E as in sl_factor */
+  sl_int rows, columns;
+  sl_int *index;
+  double *values;
+  double *D, *E;
 } sli_dense_front;
 
 typedef struct sli_pivot_search {
   const sl_symbolic *S;
   sl_allocator allocator;
-  sli_contribution *contributions; /* n_supers */
-  sl_int *local;                   /* n: the row of each column of L in the current front */
-  sl_int *order;                   /* n: the columns of S in the order of elimination */
-  unsigned char *is_first;         /* n: by position in order, is it the first of a pair? */
-  sl_int selected;                 /* length of order */
-  sl_int delayed;                  /* how often a column was delayed */
-  void *front_block;               /* memory of the current front; grows */
+  sli_contribution *contributions;
+  sl_int *local;
+  sl_int *order;
+  unsigned char *is_first;
+  sl_int selected;
+  sl_int delayed;
+  void *front_block;
   size_t front_size;
 } sli_pivot_search;
 
@@ -11721,7 +10822,6 @@ SLI_INLINE double *sli_dense_column(const sli_dense_front *f, sl_int j) {
   return f->values + (size_t)f->rows * (size_t)j;
 }
 
-/* The largest magnitude in rows first .. last-1 of a column, except rows a and b, and its row. */
 static double sli_column_max(const double *column, sl_int first, sl_int last, sl_int a, sl_int b,
                sl_int *row) {
   double most = 0.0;
@@ -11736,8 +10836,6 @@ static double sli_column_max(const double *column, sl_int first, sl_int last, sl
   return most;
 }
 
-/* Tests column c after k pivots. Returns the size of an acceptable pivot, 1 or 2 with *partner, or
- * 0. */
 static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *partner) {
   const double *column = sli_dense_column(f, c), *other;
   sl_int t = -1, row = -1;
@@ -11756,13 +10854,11 @@ static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *
   rest_t = sli_column_max(other, k, f->rows, c, t, &row);
   a = fabs(column[c] / e);
   b = fabs(other[t] / e);
-  /* |D^-1| = [b 1; 1 a] / (e |a b - 1|), with the signs of a and b in the determinant */
   room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
   *partner = t;
   return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
 }
 
-/* Exchanges rows and columns i and j of the pivots' part. */
 static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
   double *a = sli_dense_column(f, i), *b = sli_dense_column(f, j);
   const sl_int index = f->index[i];
@@ -11785,8 +10881,6 @@ static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
   f->index[j] = index;
 }
 
-/* Eliminates `size` columns from k on: their columns become those of L, and the remaining columns
- * are updated. */
 static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
   double *u = sli_dense_column(f, k), *v = u;
   const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
@@ -11802,7 +10896,7 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
     f->E[k + 1] = 0.0;
     steps = sli_pair_eliminate(u[k], v[k + 1], u[k + 1]);
   }
-  for (j = k + size; j < f->columns; j++) { /* x is symmetric: row j of it is in both columns */
+  for (j = k + size; j < f->columns; j++) {
     double *column = sli_dense_column(f, j);
     double x = inverse * u[j], y;
     if (size == 2) {
@@ -11825,8 +10919,6 @@ static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
   }
 }
 
-/* Selects and eliminates pivots while there are acceptable ones. Returns how many columns were
- * eliminated. */
 static sl_int sli_dense_factor(sli_pivot_search *p, sli_dense_front *f) {
   sl_int k = 0, c = 0, failures = 0;
   while (k < f->columns && failures < f->columns - k) {
@@ -11852,8 +10944,6 @@ static sl_int sli_dense_factor(sli_pivot_search *p, sli_dense_front *f) {
   return k;
 }
 
-/* Subtracts L D L' of the first `pivots` columns, four at a time, from the rows below the columns.
- */
 static void sli_dense_update(const sli_dense_front *f, sl_int pivots) {
   sl_int i, j, k, m;
   for (j = f->columns; j < f->rows; j++) {
@@ -11878,7 +10968,6 @@ static void sli_dense_update(const sli_dense_front *f, sl_int pivots) {
   }
 }
 
-/* Adds a value at a row and a column of the front. */
 SLI_INLINE void sli_dense_add(const sli_dense_front *f, sl_int i, sl_int j, double value) {
   const sl_int low = sli_min(i, j), high = sli_max(i, j);
   sli_dense_column(f, low)[high] += value;
@@ -11887,7 +10976,6 @@ SLI_INLINE void sli_dense_add(const sli_dense_front *f, sl_int i, sl_int j, doub
   }
 }
 
-/* Adds the entries of A in the columns of supernode s. */
 static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_int s,
                  const sli_dense_front *f, sl_stats *stats) {
   const sl_symbolic *S = p->S;
@@ -11917,8 +11005,6 @@ static void sli_search_assemble(const sli_pivot_search *p, const sli_contributio
   }
 }
 
-/* Makes an empty front of supernode s: the columns that its children delay, its own, and the rows
- * below. */
 static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front *f) {
   const sl_symbolic *S = p->S;
   sli_block b = {NULL, 0, 0};
@@ -11967,7 +11053,6 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
   return SL_OK;
 }
 
-/* Keeps what is left of a front after `pivots` columns for its parent. */
 static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
                  sl_int pivots) {
   sli_contribution *c = &p->contributions[s];
@@ -11996,7 +11081,6 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
   return SL_OK;
 }
 
-/* Selects the pivots of supernode s and of what its children delayed. */
 static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
                     sl_stats *stats) {
   const sl_symbolic *S = p->S;
@@ -12019,7 +11103,7 @@ static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_i
     sli_dense_update(&f, k);
     return sli_search_keep(p, s, &f, k);
   }
-  for (; k < f.columns; k++) { /* not finite: the factorization refuses them */
+  for (; k < f.columns; k++) {
     p->is_first[p->selected] = 0;
     p->order[p->selected++] = f.index[k];
   }
@@ -12033,7 +11117,6 @@ static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
   p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
 }
 
-/* Selects all pivots of a matrix that has the analyzed pattern. p has its memory. */
 static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
   sl_status status = SL_OK;
   sl_int s;
@@ -12051,7 +11134,6 @@ static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *
 
 /* src/impl/factor/pivoted.h: sl_symbolic_create_pivoted: an analysis whose order follows the values of a matrix */
 
-/* Analyzes A again, in the order of the pivots that were found. */
 static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *p, const sl_csc *A,
                    const sl_options *opt, sl_stats *stats) {
   sl_options given = sli_options_with(&p->allocator);
@@ -12120,19 +11202,14 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
 
 /* src/impl/factor/scatter.h: scatters a matrix into a value array in the order of the scatter map */
 
-/* Work arrays of the scattering of a matrix K. An entry belongs to the column of its earlier pivot,
- * both in K and in the map. Column by column, the rows of the map are marked with their positions,
- * and the entries of K look their rows up. */
 typedef struct sli_scatter_work {
-  sl_int *begin; /* n + 1: where each column begins in from and to */
-  sl_int *from;  /* positions of the entries of K that are read */
-  sl_int *to;    /* their rows, later their positions in the map, -1 for none */
-  /* n: the position of row k of the current column in the map, -1 between columns */
+  sl_int *begin;
+  sl_int *from;
+  sl_int *to;
   sl_int *index;
-  sl_int *head; /* columns of the widest supernode: the first map entry of each column */
-  /* map entries of the largest supernode: the next one in its column, -1 at the end */
+  sl_int *head;
   sl_int *next;
-  sl_int *row; /* map entries of the largest supernode: its row */
+  sl_int *row;
 } sli_scatter_work;
 
 static void sli_scatter_layout(sli_scatter_work *w, sli_block *b, const sl_symbolic *S,
@@ -12152,8 +11229,6 @@ static void sli_scatter_layout(sli_scatter_work *w, sli_block *b, const sl_symbo
   w->row = SLI_TAKE(b, sl_int, most);
 }
 
-/* Sorts K's entries by columns. Within a column they keep the order of K, in which duplicates are
- * summed. */
 static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl_csc *K,
                sl_triangle triangle) {
   const sl_int *iperm = S->iperm;
@@ -12169,7 +11244,6 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
     w->begin[j] = total;
     total += here;
   }
-  /* each begin advances to its column's end, and is shifted back below */
   for (j = 0; j < S->n; j++) {
     for (p = K->p[j]; p < K->p[j + 1]; p++) {
       if (sli_is_read(triangle, K->i[p], j)) {
@@ -12183,7 +11257,6 @@ static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl
   w->begin[0] = 0;
 }
 
-/* Lists the map entries of supernode s by columns, ascending in each. */
 static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s) {
   const sl_off start = S->scatter_begin[s];
   sl_int k, j, m, tile = sli_last_tile(S, s);
@@ -12199,13 +11272,10 @@ static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s
   }
 }
 
-/* Finds the map positions of K's entries in column j. Returns the first entry of K without one, if
- * before `missing`, else missing. */
 static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_int start,
                  sl_int missing) {
   sl_int m, q;
   for (m = head; m != -1; m = w->next[m]) {
-    /* duplicates share a row: the last entry receives all values */
     w->index[w->row[m]] = start + m;
   }
   for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
@@ -12218,8 +11288,6 @@ static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_in
   return missing;
 }
 
-/* Finds the map position of every entry. Returns the first entry of K that has none, or
- * INT32_MAX. */
 static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
   sl_int s, j, missing = INT32_MAX;
   for (j = 0; j < S->n; j++) {
@@ -12241,7 +11309,6 @@ static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
 }
 
 SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
-  /* fits: the map has no more entries than A */
   return S == NULL ? 0 : (sl_int)S->scatter_begin[S->n_supers];
 }
 
@@ -12293,7 +11360,6 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
 
 /* src/impl/factor/uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
 
-/* Links supernode s into the list of its next row below, if it has one. */
 static void sli_row_link(sl_factor *F, sl_int s) {
   const sl_off at = F->S->rows_begin[s] + F->position[s];
   if (at < F->S->rows_begin[s + 1]) {
@@ -12303,7 +11369,6 @@ static void sli_row_link(sl_factor *F, sl_int s) {
   }
 }
 
-/* Computes local row q of supernode s. See sli_row_kernel. */
 static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int first = S->super_first[s];
@@ -12311,8 +11376,6 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
           F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
-/* Computes row k: first from the supernodes linked to it, ascending so that descendants come first,
- * then from its own. */
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
@@ -12332,7 +11395,6 @@ static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *mag
   }
 }
 
-/* Factors the whole matrix, which has the analyzed pattern. [LDL05], [Davis06] 4.7 */
 static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_status status = SL_OK;
@@ -12370,29 +11432,10 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
 
 /* src/impl/factor/null_vectors.h: before a factorization: components of A, and which of them have a null vector */
 
-/* Rounding alone cannot tell whether a small pivot is null: the rounding error of a pivot comes
- * from all rows before it, which may be much heavier than its own row. The structure can tell. Let
- * z be a vector with A z = 0 in a connected component C of A, not 0 in the last row k of C. The
- * Schur complement of all rows of C before k is the pivot d of row k, and d z(k) = 0. So this pivot
- * is null, whatever rounding makes of it. If A is semidefinite and z spans its null space in C, no
- * other pivot of C is null.
- *
- * A z = 0 is tested row by row with a bound on the rounding errors of the entries and of the
- * product, |A z|_i <= 16 n_i epsilon (|A| |z|)_i, where row i has n_i entries [Hi02] 3.1. A
- * diagonal that is the sum of n_i - 1 weights needs n_i epsilon / 2 for itself and as much for the
- * product. The factor 16 is for entries that are themselves sums with cancellation, such as
- * cotangent weights.
- *
- * Components are those of the graph of nonzero values, so that explicit zeros separate, and so do
- * duplicates that cancel. */
-
-/* The rows of A z. A matrix is walked column by column, in the caller's numbering: neighbors are
- * mostly close to each other there. A sum exists only as the map, and duplicates are neighbors only
- * in it, so these are walked along the map, and their rows are pivots. */
 typedef struct sli_null_walk {
   sli_null_row *rows;
-  const sl_int *perm, *iperm; /* NULL: rows are pivots */
-  int is_joined; /* 0: there is no zero off the diagonal, and components are the trees */
+  const sl_int *perm, *iperm;
+  int is_joined;
 } sli_null_walk;
 
 SLI_INLINE sl_int sli_null_walk_row(const sli_null_walk *w, sl_int k) {
@@ -12403,7 +11446,6 @@ SLI_INLINE sl_int sli_null_walk_pivot(const sli_null_walk *w, sl_int row) {
   return w->iperm == NULL ? row : w->iperm[row];
 }
 
-/* The last row of the component of row i, as far as entries were joined. Halves the path. */
 SLI_INLINE sl_int sli_component_last(sli_null_row *rows, sl_int i) {
   while (rows[i].up != i) {
     rows[i].up = rows[rows[i].up].up;
@@ -12412,7 +11454,6 @@ SLI_INLINE sl_int sli_component_last(sli_null_row *rows, sl_int i) {
   return i;
 }
 
-/* Joins the components of rows i and j. */
 SLI_INLINE void sli_null_join(const sli_null_walk *w, sl_int i, sl_int j) {
   if (w->rows[i].up != w->rows[j].up) {
     const sl_int x = sli_component_last(w->rows, i), y = sli_component_last(w->rows, j);
@@ -12421,7 +11462,6 @@ SLI_INLINE void sli_null_join(const sli_null_walk *w, sl_int i, sl_int j) {
   }
 }
 
-/* Adds the entry (i, j) of value a, times z(j), to row i. */
 SLI_INLINE void sli_null_add(sli_null_row *rows, sl_int i, sl_int j, double a) {
   const double term = a * rows[j].z;
   rows[i].product += term;
@@ -12429,7 +11469,6 @@ SLI_INLINE void sli_null_add(sli_null_row *rows, sl_int i, sl_int j, double a) {
   rows[i].entries++;
 }
 
-/* Adds the matrix A, which has no duplicates. Returns 1 if it has a zero off the diagonal. */
 static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle triangle,
                 double *diagonal) {
   int has_zero = 0;
@@ -12460,7 +11499,6 @@ static int sli_null_add_columns(sli_null_row *rows, const sl_csc *A, sl_triangle
   return has_zero;
 }
 
-/* Joins the components of A by columns. */
 static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_triangle triangle) {
   sl_int j, p;
   for (j = 0; j < A->n_cols; j++) {
@@ -12472,22 +11510,19 @@ static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_tr
   }
 }
 
-/* A walk along the map, backward. */
 typedef struct sli_null_map_state {
-  double *diagonal; /* n: the diagonal of A; NULL: not needed */
-  sl_off to;        /* where the last entry goes in L; -1: none */
-  sl_int k, j;      /* its pivots */
-  double value;     /* the sum of the duplicates so far */
+  double *diagonal;
+  sl_off to;
+  sl_int k, j;
+  double value;
 } sli_null_map_state;
 
-/* Joins the components of the entry that is complete now. */
 SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_state *p) {
   if (p->to != -1 && p->k != p->j && p->value != 0.0) {
     sli_null_join(w, p->k, p->j);
   }
 }
 
-/* Adds the map entries first .. first+count-1 of supernode s, whose values are a. Runs backward. */
 static void sli_null_add_entries(const sli_null_walk *w, const sl_symbolic *S, sl_int s,
                  sl_off first, sl_int count, const double *values,
                  const sl_int *scatter_from, sl_int *tile, sli_null_map_state *p) {
@@ -12510,7 +11545,6 @@ static void sli_null_add_entries(const sli_null_walk *w, const sl_symbolic *S, s
   }
 }
 
-/* Adds all entries of the map. */
 static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const sli_source *from,
                double *diagonal) {
   double sums[SLI_SUM_ENTRIES];
@@ -12538,7 +11572,6 @@ static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const
   sli_null_map_join(w, &p);
 }
 
-/* Has A entries that are summed? */
 static int sli_map_has_duplicates(const sl_symbolic *S) {
   sl_off m;
   for (m = 1; m < S->scatter_begin[S->n_supers]; m++) {
@@ -12549,8 +11582,6 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
   return 0;
 }
 
-/* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal, by rows of the walk.
- * z: by pivots; NULL: all 1. */
 static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
                     int by_columns, sli_null_row *rows, const double *z,
                     double *diagonal) {
@@ -12579,18 +11610,15 @@ static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *fr
   return w;
 }
 
-/* Can (A z)(i), as computed, be the rounding error of 0? */
 SLI_INLINE int sli_null_row_is_zero(const sli_null_row *row) {
   const double bound = 16.0 * DBL_EPSILON * row->entries * row->size;
   return fabs(row->product) <= bound && sli_is_finite(bound);
 }
 
-/* last(k) := the last pivot of the component of pivot k. most(k) := infinity if k is such a pivot
- * and z is not a null vector of its component, else 0. */
 static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, const double *z,
                 sl_int *last, double *most) {
   sl_int k, i;
-  for (k = S->n - 1; k >= 0; k--) { /* descending: the last pivot comes first */
+  for (k = S->n - 1; k >= 0; k--) {
     sl_int up = S->parent[k];
     if (w->is_joined) {
       i = sli_null_walk_row(w, k);
@@ -12606,10 +11634,9 @@ static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, co
   }
 }
 
-/* Sets the sign and the kind of every pivot; spreads the rounding errors over the components. */
 static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
   sl_int k;
-  for (k = 0; k < F->S->n; k++) { /* ascending: the last pivot of a component comes last */
+  for (k = 0; k < F->S->n; k++) {
     const sl_int last = F->last[k];
     F->rounding[k] = F->rounding[last];
     F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
@@ -12623,14 +11650,13 @@ static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const doub
   }
 }
 
-/* g := z in each tree with one component of several rows whose null vector is known, else 0. */
 static void sli_null_vectors_load(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int k, first = 0, only = -1, count = 0;
   for (k = 0; k < S->n; k++) {
     const sl_int last = F->last[k];
     if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
-      only = last; /* two components may alternate: then more than one is counted anyway */
+      only = last;
       count++;
     }
     if (S->parent[k] == -1) {
@@ -12643,28 +11669,21 @@ static void sli_null_vectors_load(sl_factor *F) {
   }
 }
 
-/* May both be diagonal entries of one semidefinite component of several rows? NaN passes. */
 SLI_INLINE int sli_signs_agree(double a, double b) {
   return a != 0.0 && b != 0.0 && !(a < 0.0 && b > 0.0) && !(a > 0.0 && b < 0.0);
 }
 
-/* The rounding error that the heaviest rows of a matrix may cause in a pivot, relative to their
- * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign
- * stayed below (128 + n/4) epsilon. The factor 16 leaves a margin. */
 static double sli_null_rounding(sl_int n) {
   return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
 }
 
-/* Finds the components of A and those whose null vector is known, and with them the kind of every
- * pivot. Refuses a matrix whose diagonal shows that it is indefinite. An entry that is not finite
- * is left to the factorization. */
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n), *diagonal = F->g;
   const sli_null_walk w =
     sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, F->z, F->g);
-  sl_int i, refused = S->n; /* a pivot */
+  sl_int i, refused = S->n;
   F->stats.factor.regular = 0;
   sli_null_components(&w, S, F->z, F->last, F->rounding);
   for (i = 0; i < S->n; i++) {
@@ -12677,7 +11696,7 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     F->rounding[last] = here > F->rounding[last] ? here : F->rounding[last];
   }
   if (refused < S->n) {
-    memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
+    memset(F->D, 0, (size_t)S->n * sizeof(double));
     return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
             diagonal[sli_null_walk_row(&w, refused)]);
   }
@@ -12687,7 +11706,6 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   return SL_OK;
 }
 
-/* Are all pivots that were skipped before still null, or judged by the tolerance? */
 static int sli_nulls_remain(const sl_factor *F) {
   sl_int m;
   for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
@@ -12698,8 +11716,6 @@ static int sli_nulls_remain(const sl_factor *F) {
   return 1;
 }
 
-/* Where null pivots are refused: may a root of the elimination forest be a null pivot that the
- * tolerance missed, because its rounding error comes from heavier rows? Reads D only. */
 static int sli_null_is_suspected(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n);
@@ -12717,14 +11733,12 @@ static int sli_null_is_suspected(const sl_factor *F) {
   return 0;
 }
 
-/* Refuses A if constants are a null vector of a component whose last pivot is suspected. Overwrites
- * L, which has 8 doubles or more for each column. */
 static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n);
   sli_null_row *rows = (sli_null_row *)(void *)F->L;
-  double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
+  double *most = (double *)(void *)(rows + S->n);
   sl_int *last = (sl_int *)(void *)(most + S->n), k;
   const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
   sli_null_components(&w, S, NULL, last, most);
@@ -12742,12 +11756,10 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
 
 /* src/impl/factor/multifrontal.h: supernodal factorization: fronts in postorder pass update matrices upward */
 
-/* What the workers of one parallel call share. First each worker factors whole subtrees; then all
- * workers factor the fronts above them together, each on its own row tiles. */
 typedef struct sli_job {
   sl_factor *F;
   const sli_source *from;
-  sl_int super, group; /* the current front, and its current group of column tiles */
+  sl_int super, group;
   sli_front front;
 } sli_job;
 
@@ -12773,7 +11785,6 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
   return sli_tiles(f->width + f->below);
 }
 
-/* Clears row tiles t0 .. t1-1 of a front. */
 static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
   const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
   const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
@@ -12784,8 +11795,6 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
   }
 }
 
-/* Adds the matrix's entries to the cleared panel and starts the magnitudes of its diagonal with
- * them. */
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                 sli_failure *failure) {
   const sl_status status = sli_panel_load(F, from, s, failure);
@@ -12799,8 +11808,6 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
   return status;
 }
 
-/* Extend-add: assembles the children's update matrices into row tiles t0 .. t1-1, the last child
- * first. */
 static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int t0,
                  sl_int t1) {
   const sl_symbolic *S = F->S;
@@ -12820,7 +11827,6 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
   }
 }
 
-/* Stores the magnitudes of the rows below next to the update matrix, for the parent. */
 static void sli_front_hand_over(const sli_front *f) {
   const sl_int tiles = sli_update_tiles(f->width, f->below);
   memcpy(f->update + sli_triangle_offset(tiles),
@@ -12828,7 +11834,6 @@ static void sli_front_hand_over(const sli_front *f) {
        SLI_TILE * (size_t)tiles * sizeof(double));
 }
 
-/* Refuses pivots that are not finite, and null pivots that were not replaced. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                  sli_failure *failure) {
   const sl_int first = F->S->steps[s].column;
@@ -12842,7 +11847,6 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
   return status;
 }
 
-/* Factors the panel of an assembled front: its columns of L and D. */
 static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
   const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
   sl_int c0;
@@ -12852,7 +11856,6 @@ static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, 
   }
 }
 
-/* Computes the update matrix of a front from the assembled front and its panel. */
 static void sli_front_update(const sli_kernels *kernels, const sli_front *f, double *scratch) {
   const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
   if (f->below > 0) {
@@ -12860,7 +11863,6 @@ static void sli_front_update(const sli_kernels *kernels, const sli_front *f, dou
   }
 }
 
-/* Factors the front of supernode s on one worker. */
 static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                   sli_failure *failure) {
   const sli_front f = sli_front_of(F, s, worker);
@@ -12879,8 +11881,6 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
   return sli_front_check(F, &f, s, failure);
 }
 
-/* Factors worker k's subtrees. A failure ends the subtree only: the failure to report is the first
- * one in the order of supernodes, and another subtree may hold it. */
 static void sli_run_tasks(void *data, sl_int k) {
   const sli_job *job = (const sli_job *)data;
   const sli_schedule *schedule = &job->F->schedule;
@@ -12935,7 +11935,6 @@ static void sli_shared_update(void *data, sl_int k) {
              F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
 }
 
-/* Factors a front on all workers. */
 static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
   sl_factor *F = job->F;
   const sl_threads *threads = &F->threads;
@@ -12959,7 +11958,6 @@ static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
   return sli_front_check(F, &job->front, job->super, failure);
 }
 
-/* Factors the whole matrix, which has the analyzed pattern. [DR83], [Liu92] */
 static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
   const sli_schedule *schedule = &F->schedule;
   sli_job job;
@@ -12979,7 +11977,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
     here.status = SL_OK;
     job.super = schedule->top[m];
     if (failure->status != SL_OK && failure->super < job.super) {
-      break; /* only an earlier front could still fail before this one */
+      break;
     }
     if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
       (void)sli_front_factor_shared(&job, &here);
@@ -12993,28 +11991,6 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
 
 /* src/impl/factor/nullspace.h: after a factorization: the null pivots, and constants for centered solves */
 
-/* A skipped null pivot k has the null vector z = P' L^-T e_k, which is 1 in the pivot's own row.
- * The forward sweep computes z' b = (L^-1 P b)(k), which shows by how much b is inconsistent.
- *
- * Rounding in pivots that are almost null, as where a weak spring joins two grids, changes this z
- * by O(1). Where the null vector z is known, z' b is therefore computed from it before the forward
- * sweep, a dot product over its columns, and replaces y(k) after the sweep.
- *
- * Centered solves. Take a component (a tree) with one null pivot, and weights m. Wanted is the x
- * with m' x = 0 that solves A x = b - c m, where c = z' b / z' m makes the right-hand side
- * consistent. With
- *
- *    w = L^-1 P m / z' m,  y = L^-1 P b,  c' = y(k),  t = - w' D^+ (y - c' w),
- *
- * the solution is P x = L^-T (D^+ (y - c' w) + t e_k). This takes one dot product over the columns
- * of the forward sweep and one vector update over those of the backward sweep. Stored are v = D^+ w
- * and, for each component, w' D^+ w. Columns that a local solve leaves out contribute exact zeros
- * to the dot product of the full solve, so both give the same bits.
- *
- * The null pivot k that the weights fix in this way is called the anchor of its component. */
-
-/* Copies the weights to pivot order. A component whose weights are all 0, such as a vertex without
- * a face, gets weight 1 in each row. */
 static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
   const sl_symbolic *S = F->S;
   sl_int k, first = 0, any = 0;
@@ -13025,7 +12001,7 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     }
     F->mass[k] = m;
     any |= m != 0.0;
-    if (S->parent[k] == -1) { /* in a postorder a tree ends at its root */
+    if (S->parent[k] == -1) {
       for (; first <= k; first++) {
         F->mass[first] = any ? F->mass[first] : 1.0;
       }
@@ -13035,7 +12011,6 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
   return SL_OK;
 }
 
-/* flags(k) := 1 if row k of L has a nonzero, else 0. */
 static void sli_rows_nonzero(const sl_factor *F, double *flags) {
   const sl_symbolic *S = F->S;
   sl_int s, r, j;
@@ -13053,9 +12028,6 @@ static void sli_rows_nonzero(const sl_factor *F, double *flags) {
   }
 }
 
-/* Finds the anchor of each tree. A row of zeros, such as that of a vertex whose faces are all
- * degenerate, is a component by itself: its row of L is empty and its x is 0. Apart from such rows
- * a tree may have one null pivot. */
 static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   double *used = F->divisors;
@@ -13089,9 +12061,6 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   return SL_OK;
 }
 
-/* Computes v on the columns first .. root of one tree, where F->center holds z' m w on entry. total
- * is the sum of |m| in the tree. m is the number of its anchor, or that of a later tree's if it has
- * none. Where z' m is 0 the weights do not fix the null vector, and the null pivot is refused. */
 static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
                  sli_failure *failure) {
   const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
@@ -13127,7 +12096,6 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   return SL_OK;
 }
 
-/* Computes v, the divisors and w' D^+ w of every tree, by one forward sweep. */
 static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
@@ -13150,14 +12118,11 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   return status;
 }
 
-/* Checks the null pivots that the tolerance has found: a random combination z of their null vectors
- * L^-T e_k has A z = 0 up to rounding if A is semidefinite. If it is indefinite, a pivot can be
- * null although its column is not, and A z is as large as |A| |z|. */
 static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  double *z = F->g; /* loaded again below */
+  double *z = F->g;
   uint64_t random = 1;
   sli_null_walk w;
   sl_status status = SL_OK;
@@ -13173,7 +12138,6 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
     k = F->nulls[m];
     if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
       random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-      /* divided by D(k), which is SLI_NULL_PIVOT, it is between 0.5 and 1 */
       z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
     }
   }
@@ -13189,8 +12153,6 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
   return status;
 }
 
-/* Finds the null pivots of a new factorization, counts the components without one, and prepares
- * solves. */
 static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
   sl_status status;
   sl_int k, m, regular = 0;
@@ -13201,7 +12163,7 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
       F->nulls[F->n_nulls++] = k;
     }
   }
-  for (m = 0; m < F->n_nulls; m++) { /* the rounding errors are read no more: they become marks */
+  for (m = 0; m < F->n_nulls; m++) {
     double *mark = &F->rounding[F->last[F->nulls[m]]];
     regular -= *mark >= 0.0;
     *mark = -1.0;
@@ -13215,23 +12177,8 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
 
 /* src/impl/factor/growth.h: after a factorization: its pivot growth, and the pivot that causes it */
 
-/* The computed factors satisfy L D L' = P A P' + E, |E| <= c n epsilon |L| |D| |L'| [Hi02] 11.1.
- * No entry of the semidefinite matrix |L| |D| |L'| exceeds its largest diagonal entry. Null pivots
- * are judged by that diagonal: pivot k is computed from magnitudes of sum
- * |a_kk| + sum_j |l_kj d_j l_kj|. So growth costs one comparison a pivot.
- *
- * If all pivots of a component have one sign, the sum is 2 |a_kk| - |d_k|: the growth is at most 2,
- * however A is scaled. In the other components it says how many digits of A the factor has lost.
- * Over 1e5 random systems of 24 families (tests/lib/random_systems.h) the backward error of a solve
- * stayed below 1.5 epsilon times the growth.
- *
- * The limit. Three refinements brought every quasi-definite system with a growth below 1e14 to a
- * backward error below 1e-10, 88 % of those from 1e14 to 1e15, and 60 % of those above; systems
- * that stayed above 1e-8 among these had a growth above 2e15. So the factorization refuses only
- * where L D L' may have no digit of A, and leaves the rest to refinement, which measures. */
 #define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
 
-/* The pivot j that contributes most to row k, max |l_kj d_j l_kj|; -1 if row k of L is empty. */
 static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
@@ -13261,14 +12208,10 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
   return cause;
 }
 
-/* The growth of the largest magnitude. The sum may overflow, but no term of a finite pivot does. */
 SLI_INLINE double sli_growth(double magnitude, double entry) {
   return magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
 }
 
-/* Refuses the tree of supernodes first .. last, whose growth exceeds the limit. entry: the largest
- * |a|. Row k of the first such magnitude is where the growth shows; it goes back to a pivot that is
- * small. */
 static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double entry,
                    sli_failure *failure) {
   const double bound = F->growth_limit * entry;
@@ -13284,7 +12227,6 @@ static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last
   return sli_fail(failure, SL_ERR_INACCURATE, F->S->super_of[k], k, -1, F->D[k]);
 }
 
-/* Measures the growth of every tree, and refuses the first one beyond the limit. */
 static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_factor_info *info = &F->stats.factor;
@@ -13293,7 +12235,7 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
   for (s = 0; s < S->n_supers; s++) {
     entry = fmax(entry, F->extents[s].entry);
     magnitude = fmax(magnitude, F->extents[s].magnitude);
-    if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
+    if (S->super_parent[s] == -1) {
       growth = sli_growth(magnitude, entry);
       info->growth = fmax(info->growth, growth);
       info->entry_max = fmax(info->entry_max, entry);
@@ -13309,8 +12251,6 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
 
 /* src/impl/factor/factor_setup.h: allocates a factor without numbers from the options, and releases it */
 
-/* What a factorization leaves and solves read, and the options that the next one needs. has_mass:
- * there are weights. A saved factor has these arrays in this order (save/format.h). */
 static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   const sl_symbolic *S = F->S;
   const size_t n = (size_t)S->n;
@@ -13343,7 +12283,6 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
 }
 
-/* The scratch of a factorization. */
 static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
@@ -13373,7 +12312,6 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   }
 }
 
-/* Plans a supernodal factorization: assigns fronts to workers and allocates the update stack. */
 static sl_status sli_factor_schedule(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sli_block b = {NULL, 0, 0};
@@ -13398,8 +12336,6 @@ static sl_status sli_factor_schedule(sl_factor *F) {
   return status;
 }
 
-/* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
- * with its first refactorization. */
 static sl_status sli_factor_prepare(sl_factor *F) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -13425,15 +12361,10 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   return status;
 }
 
-/* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of 1e2 to
- * 1e6 rows it stayed below 60 + n/16 units of rounding, while every pivot of a regular matrix
- * stayed above 1e9 units. */
 static double sli_null_tolerance(sl_int n) {
   return (64.0 + n / 8) * DBL_EPSILON;
 }
 
-/* Checks the enumerations and the tolerances. Null pivots are either skipped or regularized, so the
- * two options exclude each other. */
 static int sli_factor_choices_are_valid(const sl_options *opt) {
   return opt == NULL ||
        ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
@@ -13445,19 +12376,15 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
       (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE));
 }
 
-/* Checks all options that a factorization reads. */
 static int sli_factor_options_are_valid(const sl_options *opt) {
   return sli_options_are_valid(opt, SLI_READS_FACTOR | SLI_READS_ISA) &&
        sli_factor_choices_are_valid(opt);
 }
 
-/* A limit of the options: 0 is the default, and what is negative is no limit. */
 SLI_INLINE double sli_limit(double option, double limit) {
   return option == 0.0 ? limit : option < 0.0 ? (double)INFINITY : option;
 }
 
-/* Sets the rules for null pivots and the limits. The arrays among the options are copied later, by
- * sli_factor_rules_fill. */
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
@@ -13471,12 +12398,11 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
-/* Copies the arrays that the rules refer to, into pivot order. */
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
   sl_int i;
   if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
-    memset(F->rule.signs, 0, (size_t)S->n); /* any sign is right */
+    memset(F->rule.signs, 0, (size_t)S->n);
   } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
     F->rule.signs = NULL;
   } else if (F->rule.regularization != 0.0) {
@@ -13500,11 +12426,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
   return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
-/* Chooses the method. A front costs about 50 ns of overhead. Below 8 flops a supernode, as in
- * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
- * supernodal method is 1.1 to 6 times faster. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-  if (S->n_pairs > 0) { /* only fronts have 2x2 pivots */
+  if (S->n_pairs > 0) {
     return SL_METHOD_SUPERNODAL;
   }
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
@@ -13523,7 +12446,6 @@ SL_API void sl_factor_free(sl_factor *F) {
   }
 }
 
-/* Sets the kernels and the threads of a factor that has its analysis and its method. */
 static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   F->schedule.workers = 1;
   if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
@@ -13539,7 +12461,6 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   return SL_OK;
 }
 
-/* Creates a factor with its memory and its schedule, but without numbers. */
 static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
                 sl_stats *stats) {
   const double started = sli_seconds();
@@ -13582,7 +12503,6 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
 
 /* src/impl/factor/factor.h: creates a factor, and refactors it with new values of the same pattern */
 
-/* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */
 static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
   sli_hash pattern;
   if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
@@ -13598,18 +12518,15 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
                                          : SL_ERR_PATTERN;
 }
 
-/* Checks that F holds a factor and that A has the pattern that was analyzed. */
 static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
   return F->is_valid && sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A)
                                    : SL_ERR_STATE;
 }
 
-/* Reports what is not finite. An entry of A has its row and column in A, an entry of a sum its row
- * and column in the lower triangle, and a coefficient neither. */
 static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
   const sl_symbolic *S = F->S;
   sl_int row = -1, column = -1;
-  if (f->position < 0) { /* a coefficient: no row, no column */
+  if (f->position < 0) {
   } else if (A != NULL) {
     const sl_int p = S->scatter_from[f->position];
     row = A->i[p];
@@ -13623,9 +12540,8 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
   sli_fail_at(&F->stats, f->status, row, column, f->value);
 }
 
-/* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. */
 static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f) {
-  sl_int n_done = F->S->n; /* pivots before the failure */
+  sl_int n_done = F->S->n;
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = f->status == SL_ERR_INACCURATE ? n_done : f->pivot;
     sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
@@ -13648,7 +12564,6 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
   stats->error.value = F->stats.error.value;
 }
 
-/* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
 static void sli_pairs_done(sl_factor *F) {
   sl_int k;
   F->identity = sli_hash_reals(F->identity, F->E, F->S->n);
@@ -13657,8 +12572,6 @@ static void sli_pairs_done(sl_factor *F) {
   }
 }
 
-/* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
- * and for the caller. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                  double started, sl_stats *stats) {
   sli_stats_clear_error(&F->stats);
@@ -13672,7 +12585,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
   sli_factor_report(F, from->A, failure);
   F->stats.factor.seconds = sli_seconds() - started;
   F->is_valid = failure->status == SL_OK;
-  if (F->is_valid) { /* the pivots show every option that changes numbers by more than rounding */
+  if (F->is_valid) {
     F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
     if (F->E != NULL) {
       sli_pairs_done(F);
@@ -13691,7 +12604,6 @@ static sli_source sli_source_matrix(const sl_csc *A) {
   return from;
 }
 
-/* Replaces the identity of F by that of the values it is going to be computed from. */
 static void sli_factor_identify(sl_factor *F, const sli_source *from) {
   const sl_symbolic *S = F->S;
   sl_int t;
@@ -13706,8 +12618,6 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
   }
 }
 
-/* Invalidates F, and every region and selected inverse of its old numbers, before the numbers
- * change. */
 static void sli_factor_begin(sl_factor *F) {
   F->is_valid = 0;
   F->generation++;
@@ -13718,7 +12628,6 @@ static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from, sli_
                        : sli_uplooking(F, from, failure);
 }
 
-/* Computes L and D of a matrix that has the analyzed pattern. */
 static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
                   sl_stats *stats) {
   sli_failure failure;
@@ -13737,7 +12646,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   }
   if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
     sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
-    (void)sli_factor_eliminate(F, from, &failure); /* the check has overwritten L */
+    (void)sli_factor_eliminate(F, from, &failure);
   }
   return sli_factor_done(F, from, &failure, started, stats);
 }
@@ -13759,7 +12668,6 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
   return sli_factor_numbers(F, &from, started, stats);
 }
 
-/* Creates a factor of a matrix that has the analyzed pattern. *out is NULL on entry. */
 static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
                     const sli_source *from, const sl_options *opt,
                     sl_stats *stats) {
@@ -13795,11 +12703,8 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
 
 /* src/impl/factor/leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
 
-/* Scratch of a left-looking refactorization. */
 typedef struct sli_left_work {
-  /* n: the local row of each row of the current supernode; undefined for other rows */
   sl_int *local;
-  /* rows of the tallest front: the relative indices of a descendant in the current supernode */
   sl_int *relative;
 } sli_left_work;
 
@@ -13808,8 +12713,6 @@ static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbol
   p->relative = SLI_TAKE(b, sl_int, S->tallest);
 }
 
-/* Adds the update of descendant d to supernode s, whose front is f. Rows first, first+1, .. of d
- * are rows of s; those before `last` are columns of s. */
 static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_front *f, sl_int d,
               sl_int first, sl_int last) {
   const sl_symbolic *S = F->S;
@@ -13818,7 +12721,7 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
   const sl_int w = from.width, tiles = sli_front_tiles(&from);
   const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
   sl_int t, r, j;
-  from.update = F->stack; /* the update stack is empty: no other update matrix exists now */
+  from.update = F->stack;
   for (t = c0; t < tiles; t++) {
     memset(from.update + sli_triangle_offset(t - c0), 0,
          (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
@@ -13829,7 +12732,7 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
   }
   F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
              from.below - first);
-  for (r = first; r < last; r++) { /* add |l d l| to the magnitudes of the pivots */
+  for (r = first; r < last; r++) {
     const double *l = from.panel + sli_panel_at(w, w + r, 0);
     double *magnitude = f->magnitude + p->relative[r - first];
     for (j = 0; j < w; j++, l += SLI_TILE) {
@@ -13843,9 +12746,6 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
   }
 }
 
-/* Recomputes supernode s from A and its descendants. Descendants are visited parents first, and
- * whole subtrees are skipped: where a supernode has no row among the columns of s, none of its
- * descendants has one. */
 static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
                  sl_int s, sli_failure *failure) {
   const sl_symbolic *S = F->S;
@@ -13880,8 +12780,6 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
   return sli_front_check(F, &f, s, failure);
 }
 
-/* Recomputes every supernode on the paths from the seeds to the roots. Seeds are columns of L in
- * ascending order. */
 static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
                    const uint64_t *seeds, sl_int count, sli_failure *failure) {
   const sl_symbolic *S = F->S;
@@ -13897,8 +12795,6 @@ static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const
   return status;
 }
 
-/* Lists the columns of L that hold the entries of the given columns of A, ascending. Returns how
- * many; one may occur several times. */
 static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
                 sl_int count, uint64_t *seeds, uint64_t *scratch) {
   sl_int k, p, total = 0;
@@ -13907,7 +12803,7 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
     sl_int last = INT32_MAX;
     for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
       const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
-      if (seed != last) { /* most entries of a column share the seed of the one before */
+      if (seed != last) {
         seeds[total++] = sli_keyed(seed, 0);
         last = seed;
       }
@@ -14012,7 +12908,6 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
   return SL_OK;
 }
 
-/* Checks the arguments of a call that lists rows. */
 static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int most,
                 const sl_int *count) {
   if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
@@ -14051,8 +12946,6 @@ SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, do
   return SL_OK;
 }
 
-/* Counts the entries of L: the unit diagonal and the nonzeros of the panels. Writes them to M
- * unless M is NULL. */
 static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
   const sl_symbolic *S = F->S;
   sl_int s, j, r;
@@ -14118,7 +13011,6 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
 
 /* src/impl/factor/combination.h: factorization of a weighted sum of value arrays in the order of the scatter map */
 
-/* Describes a sum as the source of a factorization; checks its arguments. */
 static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
                    const double *const *values, sl_int terms, sli_source *from) {
   sl_int t;
@@ -14180,43 +13072,30 @@ SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coef
 /* solve: full and local solves */
 /* src/impl/solve/region_types.h: the region object, and the product with its cached inverse */
 
-/* Let T be a set of whole subtrees of the elimination tree, and let S, the boundary, contain the
- * rows of L below them. For b on T and S, a forward sweep inside T gives y = L_TT^-1 b_T and
- * u = b_S - L_ST y, and the backward sweep inside T starts from
- *
- *    x_S = Z_SS u,  Z = A^-1.
- *
- * Z_SS takes the place of everything above T. It is stored as N with Z_SS = N + N', where N is
- * lower triangular with half of the diagonal, in chunks of columns. Each chunk is a panel: -N is
- * below its diagonal block, and its own columns are 0. The forward step of such a panel is then a
- * product with N and its backward step one with N'. The panel is read twice, the second time from
- * the L1 cache. */
 struct sl_region {
   sl_allocator allocator;
-  const sl_symbolic *S; /* borrowed */
-  sli_hash analysis;    /* the identity of S */
-  sli_hash identity;    /* of the analysis and the extent: what plans in the region depend on */
-  sli_numbers numbers;  /* Z is a part of the inverse of these */
+  const sl_symbolic *S;
+  sli_hash analysis;
+  sli_hash identity;
+  sli_numbers numbers;
   sli_region_extent extent;
-  sl_int *roots, *rows; /* of the extent: roots of the subtrees, boundary */
-  sl_int *requested;    /* boundary rows: as rows of A */
-  sl_int inside;        /* rows of A in the subtrees */
-  sl_int *relative;     /* boundary rows: relative indices in the second vector of the product */
-  sl_off *begin;        /* chunks + 1: where each panel begins, in doubles */
+  sl_int *roots, *rows;
+  sl_int *requested;
+  sl_int inside;
+  sl_int *relative;
+  sl_off *begin;
   double *Z;
-  int is_copied; /* Z was copied from a selected inverse */
+  int is_copied;
   double seconds;
   size_t bytes;
 };
 
-/* Columns of a chunk: as many as the kernels keep in registers. */
 #define SLI_REGION_COLUMNS 8
 
 SLI_INLINE sl_int sli_region_chunks(sl_int rows) {
   return rows / SLI_REGION_COLUMNS + (rows % SLI_REGION_COLUMNS != 0);
 }
 
-/* The step of the chunk that begins at column `first` of the boundary. */
 SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
   sli_step step;
   step.panel = R->begin[first / SLI_REGION_COLUMNS];
@@ -14246,12 +13125,10 @@ static void sli_region_layout(sl_region *R, sli_block *b) {
   R->bytes = b->used;
 }
 
-/* Is Z the inverse of the numbers that F holds? */
 SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
   return sli_numbers_are_of(&R->numbers, F);
 }
 
-/* Doubles of a product's vectors: u, the result, and u again. */
 SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
   return 3 * (uint64_t)R->extent.n_rows * (uint64_t)lanes;
 }
@@ -14260,16 +13137,11 @@ SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
   return sli_sweep_scratch(SLI_REGION_COLUMNS + R->extent.n_rows, SLI_REGION_COLUMNS, lanes);
 }
 
-/* The chunks of the boundary that a query uses: 1 for each chunk with a row that its forward sweep
- * may change or its backward sweep reads. */
 typedef struct sli_boundary_use {
-  const unsigned char *b, *x; /* chunks each */
-  sl_off entries;             /* doubles of the inverse in the chunks that b or x uses */
+  const unsigned char *b, *x;
+  sl_off entries;
 } sli_boundary_use;
 
-/* x := Z_SS u, interleaved, in the chunks that are used; x may be u. In the forward step the
- * columns of a chunk are u and its rows the result. In the backward step, where the vector begins
- * one boundary later, the columns are the result and the rows u. */
 static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundary,
                const sli_kernels *kernels, int kind, const double *u, double *x,
                double *vectors, double *scratch) {
@@ -14300,11 +13172,10 @@ static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundar
 
 struct sl_work {
   sl_allocator allocator;
-  void *block; /* size bytes, 64-byte aligned; contents live for one call */
+  void *block;
   size_t size;
 };
 
-/* Grows W to at least `bytes`, SIZE_MAX if sizes overflowed. Growing discards the contents. */
 static sl_status sli_work_grow(sl_work *W, size_t bytes) {
   void *block;
   if (bytes <= W->size) {
@@ -14320,7 +13191,6 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
   return SL_OK;
 }
 
-/* An empty workspace for one call. The caller releases its block. */
 static sl_work sli_work_own(const sl_allocator *a) {
   sl_work own;
   own.allocator = *a;
@@ -14329,7 +13199,6 @@ static sl_work sli_work_own(const sl_allocator *a) {
   return own;
 }
 
-/* Grows W to what the layout in b has counted, and rewinds b to W's memory for the second run. */
 static sl_status sli_work_block(sl_work *W, sli_block *b) {
   const sl_status status = sli_work_grow(W, b->used);
   b->base = (unsigned char *)W->block;
@@ -14337,15 +13206,11 @@ static sl_status sli_work_block(sl_work *W, sli_block *b) {
   return status;
 }
 
-/* A stage of a call on a workspace: lays out its arrays, then fills them. What the earlier stages
- * left in q determines the sizes. */
 typedef struct sli_stage {
   void (*layout)(void *q, sli_block *b);
-  void (*fill)(void *q); /* or NULL */
+  void (*fill)(void *q);
 } sli_stage;
 
-/* Runs the stages in order. If W has to grow for one, its contents are lost and all stages start
- * over, so none may write to the caller's arrays. */
 static sl_status sli_work_stages(sl_work *W, const sli_stage *stages, int count, void *q) {
   sli_block b = {(unsigned char *)W->block, 0, 0};
   int k = 0;
@@ -14402,23 +13267,19 @@ SL_API size_t sl_work_bytes(const sl_work *W) {
 
 /* src/impl/solve/query.h: the query, a compiled solve, and moving right-hand sides in and out of it */
 
-/* A compiled solve: the reach of b, the reach of x, and the index of each of the caller's rows in
- * their vectors. */
 typedef struct sli_query {
   const sl_symbolic *S;
-  sli_hash analysis, extent; /* the identities of S and of the region */
+  sli_hash analysis, extent;
   sl_int nb, nx;
-  int is_shared; /* the reaches are equal: one vector serves both sweeps */
-  int b_repeats; /* the b-set repeats a row: its values add up */
+  int is_shared;
+  int b_repeats;
   sli_reach forward, backward;
-  const sl_int *b_index;     /* nb */
-  const sl_int *x_index;     /* nx */
-  sli_boundary_use boundary; /* the part of the region's boundary that is used */
-  /* the region in which both reaches end, its boundary at the end of their vectors; or NULL */
+  const sl_int *b_index;
+  const sl_int *x_index;
+  sli_boundary_use boundary;
   const sl_region *region;
 } sli_query;
 
-/* The query of a full solve: b is given, and x wanted, in all rows. */
 static sli_query sli_query_all(const sl_symbolic *S) {
   sli_query q;
   q.S = S;
@@ -14433,14 +13294,12 @@ static sli_query sli_query_all(const sl_symbolic *S) {
   return q;
 }
 
-/* Does F hold the numbers that the query needs? */
 SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
   return F->is_valid && sli_factor_is_over(F, q->S, q->analysis) &&
        (q->region == NULL || (sli_hash_equals(q->extent, q->region->identity) &&
                   sli_region_fits(q->region, F)));
 }
 
-/* The sweep kernel for the next block of nrhs right-hand sides. It takes 1 << kind of them. */
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
   return nrhs <= 1   ? SLI_NRHS_1
        : nrhs == 2 ? SLI_NRHS_2
@@ -14448,7 +13307,6 @@ SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
              : SLI_NRHS_8;
 }
 
-/* Vectors and scratch of one block, cut from a workspace. */
 typedef struct sli_vectors {
   double *y, *x, *product, *scratch;
 } sli_vectors;
@@ -14466,9 +13324,6 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
   v->scratch = SLI_TAKE(b, double, most > across ? most : across);
 }
 
-/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if that overflows. Kernels of one
- * and two right-hand sides keep partial sums that wider ones do not need, so both ends are
- * measured. */
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
   sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
   sli_vectors v;
@@ -14477,7 +13332,6 @@ static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
   return few.used > many.used ? few.used : many.used;
 }
 
-/* Cuts the vectors of a block from memory that is large enough. */
 static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory) {
   sli_block b = {NULL, 0, 0};
   sli_vectors v;
@@ -14486,11 +13340,10 @@ static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory)
   return v;
 }
 
-/* The layout of a dense block of the caller's, and its strides between rows and between columns. */
 typedef enum sli_layout { SLI_COLUMN_MAJOR, SLI_INTERLEAVED } sli_layout;
 
 typedef struct sli_dense {
-  size_t row, column; /* one of them is 1 */
+  size_t row, column;
 } sli_dense;
 
 SLI_INLINE sli_dense sli_dense_of(sli_layout layout, size_t ld) {
@@ -14500,26 +13353,17 @@ SLI_INLINE sli_dense sli_dense_of(sli_layout layout, size_t ld) {
   return at;
 }
 
-/* Checks the dense arguments of a solve. A leading dimension spans the rows of a column or,
- * interleaved, the columns of a row. */
 static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B,
                  size_t ldb, sl_int nb, sli_layout layout, sl_int nrhs) {
   const int by_rows = layout == SLI_INTERLEAVED;
   const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)(by_rows ? nrhs : nx));
   const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)(by_rows ? nrhs : nb));
-  /* in place, but with different leading dimensions */
   const int is_misaligned = X == B && ldx != ldb && nx > 0 && nb > 0;
   return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT : SL_OK;
 }
 
-/* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which
- * matters only where a row fills a cache line: with 8 right-hand sides prefetching made packing at
- * n = 1e6 2 times faster; with one it costs 3 percent of a solve. */
 #define SLI_ROWS_AHEAD 32
 
-/* Copies the rows of M to the interleaved rows index[k] of v. Called with a constant number of
- * columns and with one of the two strides 1: moving rows in and out is a fifth of a full solve, and
- * an inner loop of variable length would double that. */
 SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sl_int lanes, const sl_int *index, sl_int count,
                    const double *M, sli_dense at, sl_int columns) {
   sl_int k, r;
@@ -14534,8 +13378,6 @@ SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sl_int lanes, const sl_int *inde
   }
 }
 
-/* Adds the rows of M to the interleaved rows index[k] of v. Several rows may go to the same
- * index. */
 static void sli_pack_sums(double *v, sl_int lanes, const sl_int *index, sl_int count,
               const double *M, sli_dense at, sl_int columns) {
   sl_int k, r;
@@ -14546,7 +13388,6 @@ static void sli_pack_sums(double *v, sl_int lanes, const sl_int *index, sl_int c
   }
 }
 
-/* Copies the interleaved rows index[k] of v to the rows of M. */
 SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v, sl_int lanes,
                      const sl_int *index, sl_int count, sl_int columns) {
   sl_int k, r;
@@ -14561,8 +13402,6 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
   }
 }
 
-/* Moves b into the forward vector. Rows that are not given, and unused columns of the block, are
- * 0. */
 static void sli_pack(const sli_query *q, double *y, const double *B, sli_dense at, sl_int lanes,
            sl_int nrhs) {
   const sl_int *index = q->b_index, count = q->nb;
@@ -14584,7 +13423,6 @@ static void sli_pack(const sli_query *q, double *y, const double *B, sli_dense a
   }
 }
 
-/* Moves the wanted rows out of the backward vector. */
 static void sli_unpack(const sli_query *q, double *X, sli_dense at, const double *x, sl_int lanes,
              sl_int nrhs) {
   const sl_int *index = q->x_index, count = q->nx;
@@ -14603,9 +13441,6 @@ static void sli_unpack(const sli_query *q, double *X, sli_dense at, const double
 
 /* src/impl/solve/singular.h: solves with null pivots: the consistency check, and centering */
 
-/* Sums over the columns of a step, which begins at a whole tile. 8 independent chains of additions
- * hide the latency. Double f of a step goes to chain f % 8, in a local sweep as in a full one, so
- * the bits agree. Called with constant lanes. */
 SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int columns,
                      sl_int lanes) {
   const ptrdiff_t count = (ptrdiff_t)columns * lanes;
@@ -14629,7 +13464,7 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
   sl_int q;
   for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
     SLI_UNROLL
-    for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
+    for (q = 0; q < SLI_TILE; q++) {
       chains[q] += v[q / lanes] * row[f + q];
     }
   }
@@ -14638,7 +13473,6 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
   }
 }
 
-/* sums(r) := the sum of the chains of right-hand side r, in order. */
 static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
   sl_int q;
   for (q = 0; q < lanes; q++) {
@@ -14649,7 +13483,6 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
   }
 }
 
-/* Expands a call for each number of lanes, as a constant. */
 #define SLI_FOR_LANES(lanes, call) \
   if ((lanes) == 1) { \
     call(1); \
@@ -14661,7 +13494,6 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
     call(8); \
   }
 
-/* norms(r) := the sum of |b| in a packed block of right-hand sides. */
 static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
   double chains[SLI_TILE];
   sl_int s;
@@ -14676,7 +13508,6 @@ static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double 
   sli_chains_sum(chains, lanes, norms);
 }
 
-/* The columns of the whole tree whose root is a step of a reach. */
 typedef struct sli_tree_range {
   sl_int first, root;
 } sli_tree_range;
@@ -14689,13 +13520,11 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
   return tree;
 }
 
-/* z' b of a tree's null pivot whose null vector z is known, scaled to 1 there. */
 typedef struct sli_null_dot {
-  sl_int at; /* the index of the null pivot in the reach; -1: none */
+  sl_int at;
   double sums[SLI_TILE];
 } sli_null_dot;
 
-/* Before the forward sweep of the tree of steps first .. root. */
 static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
                  const double *b, sl_int lanes, sli_null_dot *dot) {
   const sli_tree_range tree = sli_tree_range_of(F->S, &R->steps[root]);
@@ -14708,7 +13537,7 @@ static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int 
   if (m == F->n_nulls || F->nulls[m] > tree.root) {
     return;
   }
-  null = F->nulls[m]; /* at most one in a tree */
+  null = F->nulls[m];
   dot->at = sli_reach_index_of(R, null);
   memset(chains, 0, sizeof chains);
   for (; first <= root && dot->at != -1; first++) {
@@ -14725,8 +13554,6 @@ static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int 
   }
 }
 
-/* After the forward sweep: is |z' b| small at every null pivot? NaN and overflow pass: they show in
- * x. */
 static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
                const double *norms) {
   sl_int s, m, r;
@@ -14749,13 +13576,10 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
   return 1;
 }
 
-/* For one tree and each right-hand side: c' and t of nullspace.h. */
 typedef struct sli_center_terms {
   double c[SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-/* Computes the terms of the tree that begins at step s. Returns the step after its root. m: the
- * number of its anchor, or -1. */
 static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int s,
                   const double *y, sl_int lanes, sl_int *m, sli_tree_range *tree,
                   sli_center_terms *terms) {
@@ -14790,7 +13614,6 @@ static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_i
   return s;
 }
 
-/* row := y - c w on the columns of one step of the backward sweep. Called with constant lanes. */
 SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
                       sl_int columns, const double *c, sl_int lanes) {
   sl_int k, r;
@@ -14803,8 +13626,6 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
   }
 }
 
-/* Centers between the sweeps. y holds the columns of the reach `from`; x, which may be y, those of
- * the reach `to`. Trees ascend in both. Trees without a row of b need nothing. */
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
              const sli_reach *to, double *x, sl_int lanes) {
   sl_int s = 0, at = 0, m;
@@ -14825,7 +13646,7 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
       }
     }
     index = m != -1 ? sli_reach_index_of(to, F->anchors[m]) : -1;
-    if (index != -1) { /* the backward sweep divides by 1 there */
+    if (index != -1) {
       memcpy(x + (ptrdiff_t)index * lanes, terms.t, (size_t)lanes * sizeof(double));
     }
   }
@@ -14835,8 +13656,6 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
 
 /* src/impl/solve/backward.h: the backward sweep of one block: 2x2 pivots first, then the kernel */
 
-/* x := D^-1 x in the columns of 2x2 pivots. A reach begins at a whole tile, and a pair is in one
- * tile, so both of its columns are there or none. */
 static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, sl_int lanes) {
   sl_int s, k, r;
   for (s = 0; s < R->count; s++) {
@@ -14856,7 +13675,6 @@ static void sli_pairs_apply(const sl_factor *F, const sli_reach *R, double *x, s
   }
 }
 
-/* x := L'^-1 D^-1 x over a reach. scratch: sli_sweep_scratch doubles. */
 static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, double *x,
              double *scratch) {
   if (F->E != NULL) {
@@ -14868,8 +13686,6 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
 
 /* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
 
-/* Copies y to the backward vector in the columns that are in both reaches; the rest of that vector
- * is 0. */
 static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, sl_int lanes) {
   sli_intersection m = sli_intersection_of(&q->forward, &q->backward);
   memset(x, 0, (size_t)q->backward.columns * (size_t)lanes * sizeof(double));
@@ -14879,7 +13695,6 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
-/* Applies the region's inverse: u is at the end of y, Z u goes to the end of x. */
 static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
                const sli_vectors *v) {
   const ptrdiff_t n = q->region->extent.n_rows;
@@ -14888,7 +13703,6 @@ static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
            v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
-/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. */
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                 sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
@@ -14915,8 +13729,6 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
   }
 }
 
-/* y := L^-1 P b for up to 8 right-hand sides. Returns 0 if F checks consistency and one is
- * inconsistent. */
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
               const double *B, sli_dense at, sl_int nrhs) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
@@ -14929,7 +13741,6 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
 }
 
-/* P x := L'^-1 D^-1 y in the backward vector. */
 static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                  sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
@@ -14946,7 +13757,6 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
-/* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
                  sli_dense b_at, sl_int nrhs, void *memory) {
   sl_int r;
@@ -14960,8 +13770,6 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const d
   return SL_OK;
 }
 
-/* Solves A x = b on the rows of a query, in blocks: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. F is
- * valid and memory is large enough. Stops at the first block that is inconsistent. */
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                   const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
   sl_int r;
@@ -14978,7 +13786,6 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double
   return SL_OK;
 }
 
-/* Like sli_sweep_blocks, but writes nothing to X unless all blocks are consistent. */
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
   sl_status status = SL_OK;
@@ -14988,7 +13795,6 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
   return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
-/* Solves a query in the caller's workspace, or in one of its own. */
 static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                  const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
   sl_work own;
@@ -15006,7 +13812,6 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
   return status;
 }
 
-/* Checks the arguments, then solves a query. */
 static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
                const double *B, size_t ldb, sli_layout layout, sl_int nrhs,
                sl_work *W) {
@@ -15041,7 +13846,6 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
   return sli_solve(F, &q, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
-/* Grows W to what solves of a query need. */
 static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
   return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0);
 }
@@ -15057,21 +13861,18 @@ SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int n
 
 /* src/impl/solve/compile.h: compiles a b-set and an x-set into a query: sorting, reaches, row indices */
 
-/* A set of rows under compilation. rows NULL: all rows. */
 typedef struct sli_set {
   const sl_int *rows;
   sl_int count;
-  int repeats; /* some row is given more than once */
-  /* seeds inside the subtrees, where the reach starts; the others are boundary rows */
+  int repeats;
   sl_int inside;
-  const sli_region_extent *extent; /* the region's subtrees and boundary; NULL: no region */
-  /* count: the rows' columns of L, ascending, each with its position in the caller's order */
+  const sli_region_extent *extent;
   uint64_t *seeds;
-  uint64_t *scratch; /* count */
-  sl_int *index;     /* count: where each of the caller's rows is in the vector */
+  uint64_t *scratch;
+  sl_int *index;
   sli_step *steps;
-  sl_int *row_index;       /* the indices of all steps' rows in the vector */
-  unsigned char *boundary; /* chunks of the boundary: 1 where the set uses one */
+  sl_int *row_index;
+  unsigned char *boundary;
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -15082,7 +13883,6 @@ static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count
   return set;
 }
 
-/* Lays out what sorting a set needs. */
 static void sli_set_layout_seeds(sli_set *set, sli_block *b) {
   const size_t count = set->rows == NULL ? 0 : (size_t)set->count;
   set->seeds = SLI_TAKE(b, uint64_t, count);
@@ -15099,7 +13899,6 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
   }
 }
 
-/* Sorts a set by column of L, and records whether a row repeats. Refuses rows out of range. */
 static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stats) {
   sl_int k;
   set->inside = set->count;
@@ -15122,7 +13921,6 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
   return SL_OK;
 }
 
-/* Is every row of a sorted set in the region? The set of all rows counts as outside. */
 static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
                const sli_region_extent *extent) {
   sl_int k;
@@ -15136,8 +13934,6 @@ static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
   return set->rows != NULL;
 }
 
-/* Assigns a set to the region that contains it: seeds in subtrees first, boundary rows after them,
- * both ascending. */
 static void sli_set_partition(const sl_symbolic *S, sli_set *set, const sli_region_extent *extent) {
   sl_int k, inside = 0, rest = 0;
   for (k = 0; k < set->count; k++) {
@@ -15154,7 +13950,6 @@ static void sli_set_partition(const sl_symbolic *S, sli_set *set, const sli_regi
   set->extent = extent;
 }
 
-/* Measures the reach of a sorted set. */
 static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach *R) {
   if (set->rows == NULL) {
     *R = sli_reach_all(S);
@@ -15163,8 +13958,6 @@ static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach 
   }
 }
 
-/* Marks the chunks of the boundary that a compiled set uses: those of its own rows, and those of
- * the rows below its subtrees, which are the rows below their roots. */
 static void sli_set_mark(sli_set *set, const sli_reach *R) {
   const sl_int n = set->extent->n_rows, base = R->columns - n;
   const sl_int *rows = R->rows;
@@ -15181,7 +13974,6 @@ static void sli_set_mark(sli_set *set, const sli_reach *R) {
   }
 }
 
-/* Doubles of the region's inverse in the chunks that either set uses. */
 static sl_off sli_boundary_entries(const sl_region *R, const sli_set *b, const sli_set *x) {
   sl_off sum = 0;
   sl_int k;
@@ -15191,7 +13983,6 @@ static sl_off sli_boundary_entries(const sl_region *R, const sli_set *b, const s
   return sum;
 }
 
-/* Compiles the reach of a set, and the index of each of the caller's rows in its vector. */
 static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **index) {
   sl_int k, at = 0;
   if (set->rows == NULL) {
@@ -15213,7 +14004,6 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
   *index = set->index;
 }
 
-/* Do two compiled reaches have the same columns? */
 static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
   sl_int k;
   if (a->count != b->count || a->columns != b->columns) {
@@ -15227,8 +14017,6 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
   return 1;
 }
 
-/* Compiles both sets, which are laid out and measured. Equal reaches share one vector, which saves
- * the transfer between the sweeps. */
 static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *region, sli_set *b,
                sli_set *x) {
   q->S = S;
@@ -15373,15 +14161,14 @@ SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs)
 
 /* src/impl/solve/local.h: sl_local_solve: one local solve without a plan, compiled in the workspace */
 
-/* A local solve in progress. */
 typedef struct sli_local {
   const sl_symbolic *S;
   sli_set b, x;
   sli_query query;
   sl_int nrhs;
   sl_stats *stats;
-  sl_status status;      /* of sorting the sets */
-  unsigned char *memory; /* vectors of the sweeps */
+  sl_status status;
+  unsigned char *memory;
 } sli_local;
 
 static void sli_local_layout_seeds(void *data, sli_block *b) {
@@ -15423,8 +14210,6 @@ static void sli_local_layout_vectors(void *data, sli_block *b) {
   l->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* The sizes of the reaches are known only once the sets are sorted. If the workspace has to grow
- * for them, the sets are sorted again. */
 static const sli_stage sli_local_stages[3] = {{sli_local_layout_seeds, sli_local_sort},
                         {sli_local_layout_reaches, sli_local_compile},
                         {sli_local_layout_vectors, NULL}};
@@ -15459,7 +14244,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
+  status = sli_work_grow(W, 1);
   status = status == SL_OK ? sli_work_stages(W, sli_local_stages, 3, &l) : status;
   status = status == SL_OK ? l.status : status;
   if (status == SL_OK && stats != NULL) {
@@ -15474,15 +14259,10 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   return status;
 }
 
-/* min(count most, all), without overflow. */
 static sl_off sli_times_at_most(sl_off most, sl_int count, sl_off all) {
   return count > 0 && most > all / count ? all : most * count;
 }
 
-/* An upper bound on the reach of any `count` rows: count times the longest path to a root, but at
- * most the whole tree. Supernodes in descending order are a preorder of the tree, so the path to
- * each one is the path to the one before it, cut back to its parent. O(supernodes) time, no
- * memory. */
 static sli_reach sli_reach_bound(const sl_symbolic *S, sl_int count) {
   sli_reach R = sli_reach_all(S);
   sl_off supers = 0, columns = 0, rows = 0, most_supers = 0, most_columns = 0, most_rows = 0;
@@ -15509,7 +14289,7 @@ static sli_reach sli_reach_bound(const sl_symbolic *S, sl_int count) {
 
 SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int nb, sl_int nx,
                      sl_int nrhs) {
-  static const sl_int some_rows = 0; /* never read; a set that is NULL would be all rows */
+  static const sl_int some_rows = 0;
   sli_block b = {NULL, 0, 0};
   sli_local l;
   if (W == NULL || S == NULL || nb < 0 || nx < 0 || nrhs < 0) {
@@ -15531,21 +14311,17 @@ SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int 
 
 /* src/impl/solve/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
 
-/* A call in progress. One vector over one reach serves all parts: q has it as both of its reaches.
- * The kernel of the backward sweep divides by D; it is given steps whose columns are those of their
- * supernode, and as many ones. */
 typedef struct sli_parts {
   const sl_factor *F;
   unsigned parts;
   int is_product;
   sli_query q;
-  unsigned char *memory; /* vectors of a block */
-  sli_step *steps;       /* those of the reach, for the backward kernel */
-  double *ones;          /* as many as the widest supernode has columns */
-  sl_int *identity;      /* 0, 1, ..., for a side in the order of the reach */
+  unsigned char *memory;
+  sli_step *steps;
+  double *ones;
+  sl_int *identity;
 } sli_parts;
 
-/* The query of a call: a side without its permutation has all rows of the reach. */
 static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int takes_bset,
                  int gives_xset) {
   sli_query q = *from;
@@ -15583,12 +14359,10 @@ static void sli_parts_fill(sli_parts *p) {
   p->q.x_index = p->q.x_index == NULL ? p->identity : p->q.x_index;
 }
 
-/* The pivot k or its root, whichever D stands for. */
 static double sli_parts_pivot(const sli_parts *p, sl_int k) {
   return p->parts & SL_PART_SQRT_D ? sqrt(p->F->D[k]) : p->F->D[k];
 }
 
-/* x := D x or D^-1 x in the columns of one step; solves have applied 2x2 pivots already. */
 static void sli_parts_scale_step(const sli_parts *p, const sli_step *step, double *row,
                  sl_int lanes) {
   const sl_factor *F = p->F;
@@ -15624,7 +14398,6 @@ static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
   }
 }
 
-/* Column j of a panel in a product: x(i) += l(i,j) x(j) for its rows i, or x(j) += l(i,j) x(i). */
 static void sli_column_multiply(const double *panel, const sli_step *step, const sl_int *rows,
                 sl_int j, int is_transposed, double *x, sl_int lanes) {
   double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
@@ -15643,8 +14416,6 @@ static void sli_column_multiply(const double *panel, const sli_step *step, const
   }
 }
 
-/* x := L x or L' x in place: a column is read before it is written if L takes the last one first,
- * and L' the first one. */
 static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x, sl_int lanes) {
   const sl_symbolic *S = F->S;
   sl_int at, s, k, j;
@@ -15658,7 +14429,6 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
   }
 }
 
-/* Applies the parts to one packed block. */
 static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) {
   const sl_factor *F = p->F;
   const sli_reach *R = &p->q.backward;
@@ -15681,7 +14451,6 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
   }
 }
 
-/* Checks what does not depend on sizes. */
 static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   const unsigned both = SL_PART_D | SL_PART_SQRT_D;
   if (parts >= 2u * SL_PART_PT || (parts & both) == both) {
@@ -15696,7 +14465,6 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   return parts & SL_PART_SQRT_D && F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
-/* Runs a call whose query is set. */
 static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double *B, size_t ldb,
                  sl_int nrhs, sl_work *W) {
   const sli_dense x_at = sli_dense_of(SLI_COLUMN_MAJOR, ldx);
@@ -15799,7 +14567,6 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
   return SL_OK;
 }
 
-/* Grows W to what calls on one of two reaches need. */
 static sl_status sli_parts_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
   const sli_reach *const reaches[2] = {&q->forward, &q->backward};
   sl_status status = SL_OK;
@@ -15831,17 +14598,16 @@ SL_API sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P, sl_int 
 
 /* src/impl/solve/refine.h: sl_factor_refine: refinement by the componentwise backward error */
 
-/* A block of up to 8 right-hand sides in progress. */
 typedef struct sli_refinement {
   const sl_factor *F;
   const sl_csc *A;
   sl_triangle triangle;
-  double *R, *T;         /* n x columns: residuals, then corrections; trial solutions */
-  double *size;          /* n: |A| |x| + |b| */
-  unsigned char *memory; /* vectors of the sweeps */
+  double *R, *T;
+  double *size;
+  unsigned char *memory;
   double error[SLI_TILE];
   int is_done[SLI_TILE];
-  sl_int steps; /* the most that a column has taken */
+  sl_int steps;
 } sli_refinement;
 
 static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
@@ -15854,8 +14620,6 @@ static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int column
   f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* r := b - A x. Returns the componentwise backward error of x: the least relative change of the
- * entries of A and b that makes x an exact solution. */
 static double sli_row_error(const sli_refinement *f, double *r, const double *x, const double *b) {
   const sl_csc *A = f->A;
   double *size = f->size, worst = 0.0;
@@ -15884,7 +14648,6 @@ static double sli_row_error(const sli_refinement *f, double *r, const double *x,
   return worst;
 }
 
-/* R := A^-1 R by the factor, whether consistent or not. */
 static void sli_correct(const sli_refinement *f, sl_int columns) {
   const sli_query q = sli_query_all(f->F->S);
   const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
@@ -15896,8 +14659,6 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
   sli_unpack(&q, f->R, at, v.x, lanes, columns);
 }
 
-/* Applies the correction of column c, already in R. The column is done once a correction does not
- * halve its error. Returns whether the correction was kept. */
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
   const size_t n = (size_t)f->F->S->n;
   double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
@@ -15940,12 +14701,10 @@ static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const dou
   }
 }
 
-/* The larger of two errors; NaN if either is. */
 SLI_INLINE double sli_max_error(double a, double b) {
   return a != a || a > b ? a : b;
 }
 
-/* Ends a refinement of at most `most` steps. Without any it was asked to measure only. */
 static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int most, sl_int steps,
                  double error) {
   if (stats != NULL) {
@@ -15998,7 +14757,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   W = W == NULL ? &own : W;
   sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
   status = nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
-  if (status == SL_OK && nrhs > 0 && F->S->n > 0) { /* without rows all arrays are NULL */
+  if (status == SL_OK && nrhs > 0 && F->S->n > 0) {
     sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
     for (r = 0; r < nrhs; r += 8) {
       sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
@@ -16014,20 +14773,17 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
 
 /* src/impl/solve/refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
 
-/* A block of up to 8 right-hand sides in progress, and the regularized rows in the components of b.
- * The factor is that of A + E. A solution x of (A + E) x = b has the residual E x, which is nonzero
- * only in these rows. */
 typedef struct sli_local_refinement {
   const sl_factor *F;
   const sli_query *q;
   sl_int count, room;
-  sl_int *row;           /* room: pivots, ascending */
-  sl_int *in_y;          /* room: their indices in the forward vector */
-  sl_int *in_x;          /* room: their indices in the backward vector */
-  double *previous;      /* room x 8: x of the previous step in these rows, 0 at first */
-  double *current;       /* nx x 8, column-major: x of the current step */
-  double *best;          /* nx x 8, column-major: the best x so far */
-  unsigned char *memory; /* vectors of the sweeps */
+  sl_int *row;
+  sl_int *in_y;
+  sl_int *in_x;
+  double *previous;
+  double *current;
+  double *best;
+  unsigned char *memory;
   double error[SLI_TILE];
   int is_done[SLI_TILE];
   sl_int steps;
@@ -16045,8 +14801,6 @@ static void sli_local_refinement_layout(sli_local_refinement *f, sli_block *b, s
   f->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
-/* Finds the regularized rows of every tree that b has a row in. Returns -1, or the pivot of one
- * that is not in both reaches. */
 static sl_int sli_local_refinement_find(sli_local_refinement *f) {
   const sl_factor *F = f->F;
   const sli_reach *R = &f->q->forward;
@@ -16075,8 +14829,6 @@ static sl_int sli_local_refinement_find(sli_local_refinement *f) {
   return -1;
 }
 
-/* Solves (A + E) x = b + E x_previous, and keeps x where its residual E (x - x_previous) is the
- * least so far. */
 static void sli_local_refinement_step(sli_local_refinement *f, const double *B, sli_dense at,
                     sl_int columns, const double *norms, sl_int step) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
@@ -16114,8 +14866,6 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
   }
 }
 
-/* norms(c) := the largest |b| of right-hand side c. Where the b-set repeats rows it is the largest
- * sum, which only the packed forward vector holds. */
 static void sli_local_refinement_norms(const sli_local_refinement *f, const double *B, size_t ldb,
                      sl_int columns, double *norms) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
@@ -16157,7 +14907,6 @@ static void sli_local_refinement_block(sli_local_refinement *f, double *X, size_
   }
 }
 
-/* Refines the right-hand sides in blocks, in a workspace. */
 static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx, const double *B,
                   size_t ldb, sl_int nrhs, sl_int steps, sl_work *W,
                   sl_stats *stats) {
@@ -16223,7 +14972,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   if (!sli_query_fits(&P->query, F)) {
     return SL_ERR_STATE;
   }
-  if (P->query.region != NULL) { /* E may be nonzero outside of the region */
+  if (P->query.region != NULL) {
     return SL_ERR_UNSUPPORTED;
   }
   memset(&f, 0, sizeof f);
@@ -16239,16 +14988,12 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
 
 /* src/impl/solve/rcond.h: sl_factor_rcond: reciprocal condition number by the Hager-Higham estimator */
 
-/* Backward errors up to this are due to rounding alone. Where L has grown they are larger, and L D
- * L' is not A: epsilon / rcond then has to bound the effect of that error, too. */
 #define SLI_ROUNDING_ERROR (64.0 * DBL_EPSILON)
 
-/* A vector v in pivot order, solved for in place, its signs, and the largest backward error of the
- * solves so far. */
 typedef struct sli_norm_estimate {
   const sl_factor *F;
   const sl_csc *A;
-  double norm; /* of A */
+  double norm;
   double error;
   sli_reach all;
   double *v, *signs, *residual, *scratch;
@@ -16261,7 +15006,6 @@ static void sli_norm_estimate_layout(sli_norm_estimate *p, sli_block *b) {
   p->scratch = SLI_TAKE(b, double, sli_sweep_scratch(p->all.tallest, p->all.widest, 1));
 }
 
-/* residual := residual - P (A + E) P' v, where E is what regularization added. */
 static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
   const sl_csc *A = p->A;
   const sl_int *iperm = p->F->S->iperm;
@@ -16280,7 +15024,6 @@ static void sli_norm_estimate_residual(const sli_norm_estimate *p) {
   }
 }
 
-/* v := (P A P')^-1 v. Returns the 1-norm of v. */
 static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   const sl_factor *F = p->F;
   const sl_int n = p->all.columns;
@@ -16300,7 +15043,6 @@ static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   return sum;
 }
 
-/* Takes the signs of v. Returns whether they are unchanged. */
 static int sli_norm_estimate_signs(const sli_norm_estimate *p) {
   int same = 1;
   sl_int k;
@@ -16312,7 +15054,6 @@ static int sli_norm_estimate_signs(const sli_norm_estimate *p) {
   return same;
 }
 
-/* Returns the index of the largest magnitude in v. */
 static sl_int sli_norm_estimate_largest(const sli_norm_estimate *p) {
   sl_int k, best = 0;
   for (k = 1; k < p->all.columns; k++) {
@@ -16321,10 +15062,6 @@ static sl_int sli_norm_estimate_largest(const sli_norm_estimate *p) {
   return best;
 }
 
-/* A lower bound of ||A^-1||_1. The convex function ||A^-1 x||_1 is maximized over the vertices e_j
- * of the unit ball; its gradient A^-1 sign(A^-1 x) selects the next vertex. A last vector with
- * alternating signs guards against matrices that fool this search. A is symmetric, so one kind of
- * solve serves for A^-1 and its transpose. n > 0. [Hi88] */
 static double sli_inverse_norm(sli_norm_estimate *p) {
   const sl_int n = p->all.columns;
   double best, sum;
@@ -16397,7 +15134,6 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     sli_norm_estimate_layout(&p, &b);
     p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
     inverse = sli_inverse_norm(&p);
-    /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
     *rcond = p.norm > 0.0 && inverse > 0.0
            ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
            : 0.0;
@@ -16409,7 +15145,6 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 
 /* src/impl/solve/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
 
-/* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides. */
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
             const double *B, size_t ldb, sl_int nrhs, void *memory) {
   sl_int c, r, m;
@@ -16427,7 +15162,6 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
 }
 
 SL_API sl_status sl_work_reserve_defects(sl_work *W, const sl_factor *F, sl_int nrhs) {
-  /* a forward sweep needs the vectors of a full solve */
   return sl_work_reserve_factor(W, F, nrhs);
 }
 
@@ -16465,37 +15199,24 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
 /* inverse: entries of the inverse, regions */
 /* src/impl/inverse/traversal.h: plan of a top-down traversal: its fronts, the tasks of workers, memory */
 
-/* A top-down traversal computes fronts of the inverse from the roots of the elimination tree to its
- * leaves. The front of a supernode starts with entries of its parent's front, so the parent's front
- * is kept until its last child, the one with the lowest number, has copied its entries.
- * Tasks are subtrees, each traversed by one worker. The fronts above the tasks come first and are
- * shared by all workers. With one worker, everything is one task.
- * Inside a task, and again above the tasks, there are two stacks, one for the fronts of even depth
- * and one for those of odd depth. They grow towards each other: when a front is allocated, its
- * parent's front is on top of the other stack. The fronts of task roots copy from their parent as
- * soon as it is complete, so each of them has memory of its own. */
 typedef struct sli_traversal {
   const sl_symbolic *S;
-  sli_forest forest; /* the supernodes of the list */
-  sl_int *supers;    /* count: ascending */
-  /* count: the forest's arrays; a list of all supernodes uses those of the analysis instead */
+  sli_forest forest;
+  sl_int *supers;
   sl_int *parent, *low;
-  int is_partial; /* 1: column groups before the first column that is needed are left out */
-  sl_int *first;  /* count: the first column that is needed, within its supernode; NULL: 0 */
-  sli_schedule schedule;           /* tasks and the offsets of the fronts */
-  sl_off scratch;                  /* doubles of kernel scratch per worker */
-  sli_schedule_work schedule_work; /* with more than one worker */
+  int is_partial;
+  sl_int *first;
+  sli_schedule schedule;
+  sl_off scratch;
+  sli_schedule_work schedule_work;
 } sli_traversal;
 
-/* Doubles of the front of the k-th supernode: its row tiles with all columns, and one tile more,
- * because kernels read whole tiles of columns, also beyond the last column. */
 SLI_INLINE sl_off sli_traversal_front_size(const sli_traversal *t, sl_int k) {
   const sli_step *step = &t->S->steps[t->supers[k]];
   const sl_int h = step->width + step->below;
   return (sl_off)sli_square_offset(h, sli_tiles(h)) + SLI_TILE * SLI_TILE;
 }
 
-/* A traversal of count supernodes of S by at most the given number of workers. */
 static sli_traversal sli_traversal_of(const sl_symbolic *S, sl_int count, sl_int workers) {
   sli_traversal t;
   memset(&t, 0, sizeof t);
@@ -16514,7 +15235,6 @@ static void sli_traversal_layout(sli_traversal *t, sli_block *b) {
   sli_schedule_layout(&t->schedule, b, count);
 }
 
-/* Arrays that are needed only while several workers are scheduled. */
 static void sli_traversal_layout_work(sli_traversal *t, sli_block *b) {
   const sl_int workers = t->schedule.workers;
   if (workers > 1) {
@@ -16522,7 +15242,6 @@ static void sli_traversal_layout_work(sli_traversal *t, sli_block *b) {
   }
 }
 
-/* Lists the supernodes of the reach of seeds (columns of L, ascending). */
 static void sli_traversal_list_reach(sli_traversal *t, const uint64_t *seeds, sl_int n_seeds) {
   const sl_symbolic *S = t->S;
   sl_int k = 0, at = 0, s, next;
@@ -16541,8 +15260,6 @@ static void sli_traversal_list_reach(sli_traversal *t, const uint64_t *seeds, sl
   SLI_ASSERT(at == t->forest.count);
 }
 
-/* The first column of a supernode that is needed: of those in the set and those that a child has
- * among its rows. */
 static void sli_traversal_find_first(sli_traversal *t) {
   const sl_symbolic *S = t->S;
   sl_int k;
@@ -16555,9 +15272,6 @@ static void sli_traversal_find_first(sli_traversal *t) {
   }
 }
 
-/* Parents and first descendants as positions in the list. The list is in postorder and contains
- * every ancestor of its supernodes, so a supernode's parent is found by walking up the chain of
- * ancestors of the next supernode in the list. */
 static void sli_traversal_link(sli_traversal *t) {
   const sl_symbolic *S = t->S;
   const sl_int count = t->forest.count;
@@ -16585,10 +15299,6 @@ static void sli_traversal_link(sli_traversal *t) {
   t->forest.low = t->low;
 }
 
-/* Allocates the front of k on the stack that does not hold its parent's, or on the first stack for
- * a root. Offsets in the second stack count down from its end and are negative until the size of
- * both stacks is known. is_last: the parent's front is not needed after this one; is_leaf: no child
- * needs this one. */
 static void sli_traversal_push(sli_traversal *t, sli_stacks *stacks, sl_int k, int is_root,
                  int is_last, int is_leaf) {
   const sl_int parent = t->forest.parent[k];
@@ -16606,15 +15316,12 @@ static void sli_traversal_push(sli_traversal *t, sli_stacks *stacks, sl_int k, i
   }
 }
 
-/* The final offset of front k, once the size of both stacks is known; they begin at offset from. */
 SLI_INLINE void sli_traversal_settle(sli_traversal *t, const sli_stacks *stacks, sl_int k,
                    sl_off from) {
   sl_off *begin = &t->schedule.stack_begin[k];
   *begin += from + (*begin < 0 ? stacks->most : 0);
 }
 
-/* Offsets of the fronts first .. last of a task, beginning at `from`; returns the doubles that they
- * take. A parent outside of first .. last is the root of the task or does not exist. */
 static sl_off sli_traversal_stack_task(sli_traversal *t, sl_int first, sl_int last, sl_off from) {
   const sl_int *parent = t->forest.parent, *low = t->forest.low;
   sli_stacks stacks;
@@ -16631,11 +15338,10 @@ static sl_off sli_traversal_stack_task(sli_traversal *t, sl_int first, sl_int la
   return stacks.most;
 }
 
-/* Offsets of the fronts above all tasks. */
 static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
   const sli_schedule *p = &t->schedule;
   const sl_int *parent = t->forest.parent;
-  sl_int *child = t->schedule_work.side; /* the lowest child that is above all tasks, or -1 */
+  sl_int *child = t->schedule_work.side;
   sli_stacks stacks;
   sl_int m;
   memset(&stacks, 0, sizeof stacks);
@@ -16657,10 +15363,9 @@ static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
   return stacks.most;
 }
 
-/* Offsets of all fronts. */
 static void sli_traversal_stack_all(sli_traversal *t) {
   sli_schedule *p = &t->schedule;
-  const sl_int own_roots = p->workers > 1; /* the root of a task has memory of its own */
+  const sl_int own_roots = p->workers > 1;
   sl_int k, m;
   p->stack = p->n_tops > 0 ? sli_traversal_stack_tops(t, 0) : 0;
   for (m = 0; m < p->n_tasks && own_roots; m++) {
@@ -16680,7 +15385,6 @@ static void sli_traversal_stack_all(sli_traversal *t) {
   }
 }
 
-/* Kernel scratch that suffices for every front of the list. */
 static sl_off sli_traversal_scratch(const sli_traversal *t) {
   sl_int k, tallest = 0, widest = 0;
   for (k = 0; k < t->forest.count; k++) {
@@ -16691,8 +15395,6 @@ static sl_off sli_traversal_scratch(const sli_traversal *t) {
   return sli_inverse_scratch(tallest, widest);
 }
 
-/* Plans the traversal of the reach of seeds, or of all supernodes if seeds is NULL. The arrays are
- * allocated. */
 static void sli_traversal_plan(sli_traversal *t, const uint64_t *seeds, sl_int n_seeds) {
   sli_schedule *p = &t->schedule;
   sl_int k;
@@ -16714,8 +15416,6 @@ static void sli_traversal_plan(sli_traversal *t, const uint64_t *seeds, sl_int n
   sli_traversal_stack_all(t);
 }
 
-/* The local row of pivot `row` in the front of supernode s, which begins at or before it; -1 if s
- * does not have it. */
 static sl_int sli_front_row(const sl_symbolic *S, sl_int s, sl_int row) {
   const sl_int *rows = S->rows + S->rows_begin[s];
   const sl_int width = S->steps[s].width, below = S->steps[s].below, r = row - S->super_first[s];
@@ -16727,12 +15427,10 @@ static sl_int sli_front_row(const sl_symbolic *S, sl_int s, sl_int row) {
   return i < below && rows[i] == row ? width + i : -1;
 }
 
-/* Doubles for the fronts of a planned traversal. */
 SLI_INLINE sl_off sli_traversal_fronts_size(const sli_traversal *t) {
   return t->schedule.stack;
 }
 
-/* The columns of the supernodes of a list. */
 static sl_int sli_traversal_count_columns(const sli_traversal *t) {
   sl_int k, columns = 0;
   for (k = 0; k < t->forest.count; k++) {
@@ -16743,12 +15441,9 @@ static sl_int sli_traversal_count_columns(const sli_traversal *t) {
 
 /* src/impl/inverse/traversal_run.h: runs a top-down traversal: computes front after front, calls a visitor */
 
-/* Called with each completed front, that of the k-th supernode of the list, to read its row tiles
- * t0 .. t1-1. Calls for other tiles or other fronts may run at the same time. */
 typedef void (*sli_visitor)(void *context, sl_int k, const sli_inverse_front *f, sl_int t0,
               sl_int t1);
 
-/* A traversal that is running. sli_traversal_layout_run allocates its memory. */
 typedef struct sli_traversal_run {
   const sl_factor *F;
   const sli_traversal *traversal;
@@ -16756,10 +15451,9 @@ typedef struct sli_traversal_run {
   sli_visitor visit;
   void *context;
   double *fronts, *scratch;
-  /* the front that all workers share now */
   sl_int at;
   sli_inverse_front front;
-  sl_int group; /* first column of the column group */
+  sl_int group;
   sli_inverse_phase phase;
 } sli_traversal_run;
 
@@ -16770,7 +15464,6 @@ static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal
     SLI_TAKE(b, double, (uint64_t)traversal->schedule.workers *(uint64_t)traversal->scratch);
 }
 
-/* The k-th front of the list, as the kernels take it. */
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
   const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
   sli_inverse_front f;
@@ -16783,7 +15476,6 @@ static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int
   return f;
 }
 
-/* Row tiles t0 .. t1-1 of the rows below, copied from the parent's front. */
 static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sli_inverse_front *f,
                 sl_int t0, sl_int t1) {
   const sli_traversal *traversal = run->traversal;
@@ -16796,9 +15488,6 @@ static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sl
   }
 }
 
-/* Most doubles of a panel that are prefetched. Panels are read from the last to the first, which no
- * hardware prefetcher follows: without this, waiting for L took a fifth of the time on 2D meshes.
- * The relative indices are prefetched for the same reason. */
 #define SLI_PANEL_AHEAD ((sl_off)1024)
 
 static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
@@ -16814,7 +15503,6 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
   }
 }
 
-/* Completes a front whose rows below have been gathered, and visits it. */
 static void sli_traverse_complete(const sli_traversal_run *run, sl_int k,
                   const sli_inverse_front *f, sl_int worker) {
   if (k > 0) {
@@ -16824,7 +15512,6 @@ static void sli_traverse_complete(const sli_traversal_run *run, sl_int k,
   run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
-/* Worker k's tasks. The rows below of their roots have been gathered before. */
 static void sli_traverse_tasks(void *data, sl_int k) {
   const sli_traversal_run *run = (const sli_traversal_run *)data;
   const sli_schedule *schedule = &run->traversal->schedule;
@@ -16840,15 +15527,12 @@ static void sli_traverse_tasks(void *data, sl_int k) {
   }
 }
 
-/* Gathers the rows below for children of the current front that are roots of tasks: every
- * `workers`-th of them, from the k-th on. */
 static void sli_traverse_gather_task_roots(const sli_traversal_run *run, sl_int k, sl_int workers) {
   const sli_schedule *schedule = &run->traversal->schedule;
   const sl_int *low = run->traversal->forest.low;
   sl_int c, top, count = 0;
   for (c = run->at - 1; c >= low[run->at]; c = low[c] - 1) {
     top = sli_lower_bound(schedule->top, schedule->n_tops, c);
-    /* top < n_tops, because run->at is a top above c */
     if (schedule->top[top] != c && count++ % workers == k) {
       const sli_inverse_front f = sli_traverse_front(run, c);
       sli_traverse_gather(run, c, &f, 0, sli_tiles(f.width + f.below));
@@ -16856,7 +15540,6 @@ static void sli_traverse_gather_task_roots(const sli_traversal_run *run, sl_int 
   }
 }
 
-/* Worker k's range of row tiles of the shared front: gathers, computes a phase, visits. */
 static void sli_traverse_gather_range(void *data, sl_int k) {
   const sli_traversal_run *run = (const sli_traversal_run *)data;
   const sl_int workers = run->traversal->schedule.workers, first = run->front.width / SLI_TILE;
@@ -16886,8 +15569,6 @@ static void sli_traverse_visit_range(void *data, sl_int k) {
   sli_traverse_gather_task_roots(run, k, workers);
 }
 
-/* One front by all workers. Each row tile is computed by the same operations as with one worker, so
- * that the bits are the same. */
 static void sli_traverse_shared(sli_traversal_run *run) {
   const sl_int workers = run->traversal->schedule.workers;
   sl_int phase;
@@ -16903,7 +15584,6 @@ static void sli_traverse_shared(sli_traversal_run *run) {
   sli_parallel(run->threads, workers, sli_traverse_visit_range, run);
 }
 
-/* Computes all fronts, parents before children. */
 static void sli_traverse(sli_traversal_run *run) {
   const sli_schedule *schedule = &run->traversal->schedule;
   sl_int m;
@@ -16924,8 +15604,6 @@ static void sli_traverse(sli_traversal_run *run) {
 
 /* src/impl/inverse/row_sets.h: sets of rows of A: checks their range, sorts them by column of L */
 
-/* Refuses a row out of range. stats name it as a row or, if is_column, as a column. NULL is the
- * set of all rows. */
 static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
                 int is_column, sl_stats *stats) {
   sl_int k;
@@ -16938,8 +15616,6 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
   return SL_OK;
 }
 
-/* seeds := the rows as columns of L, ascending, with repetitions; refuses a row out of range.
- * scratch: count elements. */
 static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
                  uint64_t *seeds, uint64_t *scratch, sl_stats *stats) {
   const sl_status status = sli_check_rows(S, rows, count, 0, stats);
@@ -16956,30 +15632,23 @@ static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int 
 /* src/impl/inverse/unit_vectors.h: forward sweeps of unit vectors, in blocks of up to 8 of similar reach */
 
 #define SLI_LANES_MAX 8
-/* per block: 8 columns make 36 pairs; more requests must be repetitions */
 #define SLI_BLOCK_REQUESTS_MAX 64
 
-/* Time of a sweep of 1, 2, 4, 8 lanes over a given number of entries of L, the compilation of the
- * reach included, relative to one lane. Measured on grids of 1e4 to 1e6 vertices (Zen 4); NEON was
- * not measured and uses the AVX2 row. */
-static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},  /* others */
-                             {1.0, 1.2, 3.8, 8.6},  /* plain C */
-                             {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
-                             {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
+static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},
+                             {1.0, 1.2, 3.8, 8.6},
+                             {1.0, 1.3, 1.9, 3.3},
+                             {1.0, 1.2, 1.9, 2.1}};
 
-/* The row of an instruction set in the tables of costs. */
 SLI_INLINE int sli_isa_row(sl_isa isa) {
   return isa == SL_ISA_SCALAR ? 1 : isa == SL_ISA_AVX2 ? 2 : isa == SL_ISA_AVX512 ? 3 : 0;
 }
 
-/* A block of right-hand sides: unit vectors that share one forward sweep, one per lane. */
 typedef struct sli_rhs_block {
   sl_int count;
-  uint64_t seeds[SLI_LANES_MAX]; /* their columns of L, ascending; lane k has the k-th */
-  sli_reach size;                /* of the joint reach, as sli_reach_add counts; not compiled */
+  uint64_t seeds[SLI_LANES_MAX];
+  sli_reach size;
 } sli_rhs_block;
 
-/* The lane of a column, or the lane that it would get. */
 SLI_INLINE sl_int sli_rhs_block_lane(const sli_rhs_block *block, sl_int column) {
   sl_int at = 0;
   while (at < block->count && sli_key(block->seeds[at]) < column) {
@@ -16988,7 +15657,6 @@ SLI_INLINE sl_int sli_rhs_block_lane(const sli_rhs_block *block, sl_int column) 
   return at;
 }
 
-/* Adds a column; returns 0 if no lane is left. S NULL: the size of the reach is not updated. */
 static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbolic *S) {
   const sl_int at = sli_rhs_block_lane(block, column);
   sl_int k;
@@ -17009,20 +15677,16 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
   return 1;
 }
 
-/* Requested entries of the inverse, and their partition into blocks of nearby ones. */
 typedef struct sli_requests {
   const sl_symbolic *S;
   const double *lanes_cost;
-  /* count each, NULL: 0, 1, 2, ...; one array twice: columns or the diagonal of the inverse */
   const sl_int *rows, *columns;
   sl_int count;
   sl_int n_blocks;
-  uint64_t *order; /* count: sort key, and index of the request in the caller's arrays */
-  /* count: scratch of the sort, then the number of requests in each block */
+  uint64_t *order;
   uint64_t *block_size;
 } sli_requests;
 
-/* The requests of a call on F; their order and blocks are not there yet. */
 static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, const sl_int *columns,
                   sl_int count) {
   sli_requests r;
@@ -17035,12 +15699,10 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
   return r;
 }
 
-/* The row of the k-th request, as a column of L. */
 SLI_INLINE sl_int sli_request_row(const sli_requests *r, sl_int k) {
   return r->S->iperm[r->rows == NULL ? k : r->rows[k]];
 }
 
-/* The column of the k-th request, as a column of L. */
 SLI_INLINE sl_int sli_request_column(const sli_requests *r, sl_int k) {
   return r->S->iperm[r->columns == NULL ? k : r->columns[k]];
 }
@@ -17050,7 +15712,6 @@ static void sli_requests_layout(sli_requests *r, sli_block *b) {
   r->block_size = SLI_TAKE(b, uint64_t, r->count);
 }
 
-/* Spreads the lower 15 bits: each gets a 0 bit before it. */
 SLI_INLINE uint32_t sli_widen_bits(uint32_t a) {
   a = (a | a << 8) & 0x00ff00ffu;
   a = (a | a << 4) & 0x0f0f0f0fu;
@@ -17058,9 +15719,6 @@ SLI_INLINE uint32_t sli_widen_bits(uint32_t a) {
   return (a | a << 1) & 0x55555555u;
 }
 
-/* Sorts requests so that nearby ones follow each other: single columns by their number, which is a
- * postorder; pairs along a Z-order curve through (larger, smaller), so that neighbors are close in
- * both. */
 static void sli_requests_sort(sli_requests *r) {
   sl_int k;
   int shift = 0;
@@ -17078,7 +15736,6 @@ static void sli_requests_sort(sli_requests *r) {
   sli_sort(r->order, r->count, r->block_size);
 }
 
-/* Adds both columns of the k-th of the sorted requests to a block; returns 0 if no lane is left. */
 SLI_INLINE int sli_rhs_block_add_request(sli_rhs_block *block, const sli_requests *r, sl_int k,
                      const sl_symbolic *S) {
   const sl_int at = sli_value(r->order[k]);
@@ -17086,8 +15743,6 @@ SLI_INLINE int sli_rhs_block_add_request(sli_rhs_block *block, const sli_request
        sli_rhs_block_add(block, sli_request_column(r, at), S);
 }
 
-/* Forms the block that starts at the k-th of the sorted requests and returns its number of
- * requests: the one that minimizes the time per request. */
 static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_block *best) {
   const sl_int from = k;
   double least = 0.0;
@@ -17109,8 +15764,6 @@ static sl_int sli_rhs_block_choose(const sli_requests *r, sl_int k, sli_rhs_bloc
   return block_size;
 }
 
-/* Forms the block again that starts at the k-th of the sorted requests and has block_size requests.
- */
 static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_size,
                   sli_rhs_block *block) {
   memset(block, 0, sizeof *block);
@@ -17119,12 +15772,10 @@ static void sli_rhs_block_rebuild(const sli_requests *r, sl_int k, sl_int block_
   }
 }
 
-/* Array lengths that suffice for each of several sweeps. */
 typedef struct sli_capacity {
   uint64_t steps, rows, values, scratch;
 } sli_capacity;
 
-/* Raises the lengths to those of one sweep. */
 static void sli_capacity_add(sli_capacity *capacity, const sli_reach *R, sl_int lanes) {
   const uint64_t steps = (uint64_t)R->count, rows = (uint64_t)R->n_rows;
   const uint64_t values = (uint64_t)R->columns * (uint64_t)lanes;
@@ -17135,9 +15786,6 @@ static void sli_capacity_add(sli_capacity *capacity, const sli_reach *R, sl_int 
   capacity->scratch = scratch > capacity->scratch ? scratch : capacity->scratch;
 }
 
-/* Sorts requests, partitions them into blocks, and finds the capacity that their sweeps need.
- * Returns the time of the sweeps in units of sli_lanes_cost; stops early when it reaches the limit.
- */
 static double sli_requests_partition_within(sli_requests *r, sli_capacity *capacity, double limit) {
   double time = 0.0;
   sl_int k = 0;
@@ -17158,14 +15806,12 @@ static void sli_requests_partition(sli_requests *r, sli_capacity *capacity) {
   (void)sli_requests_partition_within(r, capacity, HUGE_VAL);
 }
 
-/* A forward sweep. reach, steps and y are its result; rows and scratch are used only while it runs.
- */
 typedef struct sli_forward {
   sli_reach reach;
   int kind;
   sl_int lanes;
   sli_step *steps;
-  double *y; /* reach.columns x lanes, interleaved */
+  double *y;
   sl_int *rows;
   double *scratch;
 } sli_forward;
@@ -17180,14 +15826,12 @@ static void sli_forward_layout_run(sli_forward *f, sli_block *b, const sli_capac
   f->scratch = SLI_TAKE(b, double, capacity->scratch);
 }
 
-/* Sets the number of lanes for some vectors and clears y over a compiled reach. */
 static void sli_forward_clear(sli_forward *f, sl_int vectors) {
   f->kind = sli_lanes_kind(vectors);
   f->lanes = (sl_int)1 << f->kind;
   memset(f->y, 0, (size_t)f->reach.columns * (size_t)f->lanes * sizeof(double));
 }
 
-/* y := L^-1 y; adds the sweep to stats. */
 static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats) {
   F->kernels->forward[f->kind](f->reach.count, f->reach.steps, f->reach.rows, F->L, f->y,
                  f->scratch);
@@ -17199,7 +15843,6 @@ static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats)
   }
 }
 
-/* y := L^-1 times the unit vectors of a block. */
 static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const sli_rhs_block *block,
                    sl_stats *stats) {
   sl_int k, at = 0;
@@ -17214,8 +15857,6 @@ static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const s
 
 /* src/impl/inverse/bilinear.h: bilinear forms c' A^-1 b: a forward sweep, then a sum over columns weighted by 1/D */
 
-/* z = y / d in every lane, by one division and products with the quotient. If 1/d overflows or is
- * denormal, each lane is divided by d. */
 SLI_ALWAYS_INLINE void sli_divide_lanes(double *z, const double *y, double d, sl_int lanes) {
   const double inverse = 1.0 / d, size = fabs(inverse);
   sl_int k;
@@ -17230,8 +15871,6 @@ SLI_ALWAYS_INLINE void sli_divide_lanes(double *z, const double *y, double d, sl
   }
 }
 
-/* sums[m] = y_i' D^-1 y_j over the columns of a sweep, with lanes i = first[m] and j = second[m].
- */
 static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count,
               const sl_int *first, const sl_int *second, double *sums) {
   sl_int s, k, m;
@@ -17244,33 +15883,29 @@ static void sli_pair_sums(const sl_factor *F, const sli_forward *f, sl_int count
     for (k = 0; k < sli_step_columns(step); k++, y += f->lanes) {
       double z[SLI_LANES_MAX];
       sli_divide_lanes(z, y, d[k], f->lanes);
-      for (m = 0; m < count; m++) { /* sum(m) += y(k, i) / d(k) y(k, j) */
+      for (m = 0; m < count; m++) {
         sums[m] += z[first[m]] * y[second[m]];
       }
     }
   }
 }
 
-/* Clears the inverse group: nothing requested yet. */
 static void sli_inverse_clear_stats(sl_stats *stats) {
   if (stats != NULL) {
     memset(&stats->inverse, 0, sizeof stats->inverse);
   }
 }
 
-/* One call: c and b are two lanes of one sweep over the joint reach of both sets, or one lane if
- * they are the same vector. */
 typedef struct sli_bilinear {
   const sl_factor *F;
-  const sl_int *set[2]; /* of c, of b; NULL: all rows */
+  const sl_int *set[2];
   const double *values[2];
   sl_int count[2];
-  sl_int vectors;            /* 1 or 2 */
-  uint64_t *seeds, *scratch; /* count[0] + count[1] each; 0 if a set is NULL */
+  sl_int vectors;
+  uint64_t *seeds, *scratch;
   sli_forward forward;
 } sli_bilinear;
 
-/* Does the sweep read all of L? */
 SLI_INLINE int sli_bilinear_is_dense(const sli_bilinear *q) {
   return q->set[0] == NULL || q->set[1] == NULL;
 }
@@ -17283,8 +15918,6 @@ static void sli_bilinear_layout_seeds(void *form, sli_block *b) {
   q->scratch = SLI_TAKE(b, uint64_t, count);
 }
 
-/* Sorts the columns of both sets, each with its index in the concatenated sets, and measures their
- * reach. */
 static void sli_bilinear_measure(void *form) {
   sli_bilinear *q = (sli_bilinear *)form;
   const sl_symbolic *S = q->F->S;
@@ -17305,14 +15938,13 @@ static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
   sli_bilinear *q = (sli_bilinear *)form;
   sli_capacity capacity = {0, 0, 0, 0};
   sli_capacity_add(&capacity, &q->forward.reach, q->vectors);
-  if (sli_bilinear_is_dense(q)) { /* those of the analysis are used */
+  if (sli_bilinear_is_dense(q)) {
     capacity.steps = capacity.rows = 0;
   }
   sli_forward_layout(&q->forward, b, &capacity);
   sli_forward_layout_run(&q->forward, b, &capacity);
 }
 
-/* Compiles the reach and scatters both vectors into the lanes. */
 static void sli_bilinear_pack(sli_bilinear *q) {
   const sl_symbolic *S = q->F->S;
   sli_forward *f = &q->forward;
@@ -17402,51 +16034,38 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
 
 /* src/impl/inverse/entries.h: entries of A^-1: by forward sweeps or a top-down traversal, whichever is faster */
 
-/* One call for entries. A traversal is possible if every entry is in the pattern of L: the front of
- * the entry's first column then has it. */
 typedef struct sli_entries {
   const sl_factor *F;
-  const sl_threads *threads; /* for a traversal */
+  const sl_threads *threads;
   double *out;
   sli_requests requests;
   sl_inverse_method method;
-  /* SL_INVERSE_FORWARD */
   sli_capacity capacity;
   sli_forward forward;
-  /* SL_INVERSE_SELECTED */
   sli_traversal traversal;
   sli_traversal_run run;
-  sl_int *first_request; /* supernodes + 1: the sorted requests that each front has */
+  sl_int *first_request;
 } sli_entries;
 
-/* Time of a front of the inverse of h rows, in the unit of sli_lanes_cost, which is a forward sweep
- * of one lane over one entry of L: per front, per entry of the h^2 that are moved, and per flop of
- * the factorization's front (the inverse needs twice as many). Measured on grids of 1e4 to 1e6
- * vertices and of 25^3 (Zen 5); NEON was not measured and uses the AVX2 row. */
-static const double sli_traversal_cost[][3] = {{2000.0, 4.0, 0.35}, /* others */
-                         {2000.0, 4.0, 2.2},  /* plain C */
-                         {2000.0, 4.0, 0.35}, /* AVX2 */
-                         {2000.0, 4.0, 0.2}}; /* AVX-512 */
+static const double sli_traversal_cost[][3] = {{2000.0, 4.0, 0.35},
+                         {2000.0, 4.0, 2.2},
+                         {2000.0, 4.0, 0.35},
+                         {2000.0, 4.0, 0.2}};
 
-/* The whole diagonal: there is no list of requests. */
 SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
   return q->requests.rows == NULL;
 }
 
-/* The first column of the k-th request; the front of its supernode has the entry. */
 SLI_INLINE sl_int sli_entries_column(const sli_entries *q, sl_int k) {
   return sli_min(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
 }
 
-/* The local row of the k-th request in supernode s, that of its first column; -1 if the entry is
- * not in the pattern of L. */
 SLI_INLINE sl_int sli_entries_row(const sli_entries *q, sl_int s, sl_int k) {
   const sl_int row =
     sli_max(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
   return sli_front_row(q->F->S, s, row);
 }
 
-/* Sorts requests by their first column. */
 static void sli_entries_sort(sli_entries *q) {
   sli_requests *r = &q->requests;
   sl_int k;
@@ -17465,7 +16084,6 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
   return is_in;
 }
 
-/* The time of a traversal of the reach of sorted requests; *supers: its supernodes. */
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
   const sl_symbolic *S = q->F->S;
   const sli_requests *r = &q->requests;
@@ -17485,8 +16103,6 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
   return time;
 }
 
-/* Sorts requests and chooses the faster method. Counting the forward sweeps stops once they take
- * longer than the traversal. */
 static void sli_entries_choose(void *call) {
   sli_entries *q = (sli_entries *)call;
   double limit = HUGE_VAL;
@@ -17529,7 +16145,6 @@ static void sli_entries_layout_method(void *call, sli_block *b) {
   }
 }
 
-/* Plans the traversal and lists the requests of each of its fronts. */
 static void sli_entries_plan(void *call) {
   sli_entries *q = (sli_entries *)call;
   const sli_requests *r = &q->requests;
@@ -17561,7 +16176,6 @@ static void sli_entries_layout_run(void *call, sli_block *b) {
   }
 }
 
-/* Writes the requested entries that row tiles t0 .. t1-1 of a front have. */
 static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front *f, sl_int t0,
                 sl_int t1) {
   const sli_entries *q = (const sli_entries *)call;
@@ -17587,7 +16201,6 @@ static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front 
   }
 }
 
-/* Writes the entries of the sorted requests k .. k+block_size-1, which are one block. */
 static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, sl_int k,
                 sl_int block_size) {
   sl_int first[SLI_BLOCK_REQUESTS_MAX], second[SLI_BLOCK_REQUESTS_MAX], m;
@@ -17603,7 +16216,6 @@ static void sli_entries_write(const sli_entries *q, const sli_rhs_block *block, 
   }
 }
 
-/* Sweeps and sums block after block. */
 static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
   sl_int k = 0, m;
   for (m = 0; m < q->requests.n_blocks; m++) {
@@ -17616,7 +16228,6 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
   }
 }
 
-/* A call for count entries; rows NULL: the whole diagonal. */
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
                   const sl_int *columns, sl_int count) {
   sli_entries q;
@@ -17632,7 +16243,6 @@ static const sli_stage sli_entries_stages[3] = {{sli_entries_layout_requests, sl
                         {sli_entries_layout_method, sli_entries_plan},
                         {sli_entries_layout_run, NULL}};
 
-/* Chooses the method and lays out all arrays. Only W is written; it may grow. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
   return sli_work_stages(W, sli_entries_stages, 3, q);
 }
@@ -17705,11 +16315,8 @@ SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int 
 
 /* src/impl/inverse/block.h: dense blocks of A^-1: forward sweeps of all rows and columns, sums between sweeps */
 
-/* Sweeps of one side that are kept while those of the other side are computed one by one: 128
- * vectors. Each further pass over the other side costs about a tenth of the sums of a pass. */
 #define SLI_BLOCK_KEPT 16
 
-/* z = D^-1 y over the reach of a sweep; used for all sums with this sweep. */
 static void sli_forward_divide(const sl_factor *F, const sli_forward *f, double *z) {
   sl_int s, k;
   for (s = 0; s < f->reach.count; s++) {
@@ -17722,9 +16329,6 @@ static void sli_forward_divide(const sl_factor *F, const sli_forward *f, double 
   }
 }
 
-/* sums[8 i + j] = y_i' z_j over the columns that two sweeps share, for lane i of f and lane j of g;
- * z are the vectors of g divided by D. In plain C a block of 128 x 128 nearby vertices took 2.8
- * times as long as with the kernel. */
 static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_forward *g,
                const double *z, double *sums) {
   sli_intersection m = sli_intersection_of(&f->reach, &g->reach);
@@ -17750,26 +16354,22 @@ static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_f
   }
 }
 
-/* A block of right-hand sides with its sweep, and the sorted requests that it answers. */
 typedef struct sli_swept_block {
   sli_rhs_block block;
   sli_forward forward;
   sl_int first, block_size;
 } sli_swept_block;
 
-/* One call: a dense block of the inverse, or all pairs of a set. `kept` is the side with fewer
- * requests. */
 typedef struct sli_inverse_block {
   const sl_factor *F;
   double *Z;
-  size_t kept_stride, streamed_stride; /* in Z, from one request of a side to the next */
-  /* receives the entries instead of Z; NULL: Z */
+  size_t kept_stride, streamed_stride;
   void (*write)(void *context, sl_int row, sl_int column, double z);
   void *context;
-  int is_symmetric; /* both sides are the same: kept is used for both */
+  int is_symmetric;
   sli_requests kept, streamed;
   sli_swept_block sweeps[SLI_BLOCK_KEPT], stream;
-  double *divided; /* vectors of the streamed sweep, divided by D */
+  double *divided;
   sli_capacity kept_capacity, streamed_capacity;
 } sli_inverse_block;
 
@@ -17812,7 +16412,6 @@ static void sli_inverse_block_layout_sweeps(void *block, sli_block *b) {
   }
 }
 
-/* Sweeps the block of block_size requests that starts at the k-th. */
 static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F, const sli_requests *r,
                  sl_int k, sl_int block_size, sl_stats *stats) {
   s->first = k;
@@ -17821,7 +16420,6 @@ static void sli_swept_block_make(sli_swept_block *s, const sl_factor *F, const s
   sli_forward_unit_vectors(&s->forward, F, &s->block, stats);
 }
 
-/* Writes every entry between two sweeps; the vectors of b are divided by D. */
 static void sli_inverse_block_write(const sli_inverse_block *q, const sli_swept_block *a,
                   const sli_swept_block *b) {
   const sli_requests *streamed = q->is_symmetric ? &q->kept : &q->streamed;
@@ -17849,8 +16447,6 @@ static void sli_inverse_block_write(const sli_inverse_block *q, const sli_swept_
   }
 }
 
-/* Keeps the sweeps of one side in chunks, and streams the other side past each chunk. Of a
- * symmetric block only the sweeps at or after the chunk are streamed. */
 static void sli_inverse_block_fill(sli_inverse_block *q, sl_stats *stats) {
   const sli_requests *streamed = q->is_symmetric ? &q->kept : &q->streamed;
   sl_int chunk, first = 0, k, m;
@@ -17893,7 +16489,6 @@ static sl_status sli_inverse_block_run(sli_inverse_block *q, sl_work *W, sl_stat
   return status;
 }
 
-/* A call for every entry between some rows in range. */
 static sli_inverse_block sli_inverse_all_pairs_of(const sl_factor *F, const sl_int *rows,
                           sl_int count) {
   sli_inverse_block q;
@@ -17904,8 +16499,6 @@ static sli_inverse_block sli_inverse_all_pairs_of(const sl_factor *F, const sl_i
   return q;
 }
 
-/* Passes every entry between some rows, in range, to `write` with the indices of the two rows in
- * the set. An entry between two different sweeps is passed once, in either order. */
 static sl_status sli_inverse_all_pairs(const sl_factor *F, const sl_int *rows, sl_int count,
                      void (*write)(void *context, sl_int row, sl_int column,
                            double z),
@@ -17916,7 +16509,6 @@ static sl_status sli_inverse_all_pairs(const sl_factor *F, const sl_int *rows, s
   return count == 0 ? SL_OK : sli_inverse_block_run(&q, W, NULL);
 }
 
-/* Grows W to what that call needs. */
 static sl_status sli_inverse_all_pairs_prepare(const sl_factor *F, const sl_int *rows, sl_int count,
                          sl_work *W) {
   sli_inverse_block q = sli_inverse_all_pairs_of(F, rows, count);
@@ -17963,20 +16555,17 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
 
 /* src/impl/inverse/reserve.h: bounds on the workspace of the inverse calls, for any rows */
 
-/* Sizes of the analysis that bound every reach and every traversal. A reach is a union of paths to
- * the roots: it has at most the sum of their sizes, and at most all of L. */
 typedef struct sli_reserve {
   const sl_symbolic *S;
   sl_int workers;
-  uint64_t steps, columns, rows; /* of the longest path to a root, each maximized separately */
-  sl_off stack;   /* doubles for the fronts of a traversal of everything by one worker */
-  sl_off roots;   /* the most doubles of fronts that are pairwise not ancestors of each other */
-  sl_off front;   /* doubles of the largest front */
-  sl_off scratch; /* doubles of kernel scratch per worker */
-  /* arrays in the workspace, gone once it grows: n_supers each */
+  uint64_t steps, columns, rows;
+  sl_off stack;
+  sl_off roots;
+  sl_off front;
+  sl_off scratch;
   sli_traversal all;
-  uint64_t *path_steps, *path_columns, *path_rows; /* from each supernode to its root */
-  sl_off *below; /* roots of the subtree, first without its own front */
+  uint64_t *path_steps, *path_columns, *path_rows;
+  sl_off *below;
 } sli_reserve;
 
 static void sli_reserve_layout(void *bounds, sli_block *b) {
@@ -17989,7 +16578,6 @@ static void sli_reserve_layout(void *bounds, sli_block *b) {
   r->below = SLI_TAKE(b, sl_off, count);
 }
 
-/* Paths, from the roots down. */
 static void sli_reserve_measure_paths(sli_reserve *r) {
   const sl_symbolic *S = r->S;
   sl_int s;
@@ -18004,8 +16592,6 @@ static void sli_reserve_measure_paths(sli_reserve *r) {
   }
 }
 
-/* From the leaves up: in the subtree of a supernode, a set of fronts that are pairwise not
- * ancestors of each other has either its front or only fronts in the subtrees of its children. */
 static void sli_reserve_measure_fronts(sli_reserve *r) {
   const sl_symbolic *S = r->S;
   sl_int s;
@@ -18031,7 +16617,6 @@ static void sli_reserve_measure(void *bounds) {
   sli_reserve_measure_fronts(r);
 }
 
-/* Bounds for calls on F. They are computed in W. */
 static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) {
   static const sli_stage stage = {sli_reserve_layout, sli_reserve_measure};
   memset(r, 0, sizeof *r);
@@ -18041,18 +16626,16 @@ static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) 
   return sli_work_stages(W, &stage, 1, r);
 }
 
-/* min(count each, total) without overflow. */
 SLI_INLINE uint64_t sli_reserve_product(uint64_t each, sl_int count, uint64_t total) {
   return each != 0 && (uint64_t)count > total / each ? total : each * (uint64_t)count;
 }
 
-/* A sweep of up to `lanes` vectors whose reach is that of up to `count` columns. */
 static sli_capacity sli_reserve_sweep(const sli_reserve *r, sl_int count, sl_int lanes) {
   const sli_reach all = sli_reach_all(r->S);
   sli_capacity capacity = {0, 0, 0, 0};
   sl_int k;
   lanes = (sl_int)1 << sli_lanes_kind(lanes);
-  for (k = 1; k <= lanes; k *= 2) { /* fewer lanes may need more scratch */
+  for (k = 1; k <= lanes; k *= 2) {
     sli_capacity_add(&capacity, &all, k);
   }
   capacity.steps = sli_reserve_product(r->steps, count, capacity.steps);
@@ -18061,17 +16644,12 @@ static sli_capacity sli_reserve_sweep(const sli_reserve *r, sl_int count, sl_int
   return capacity;
 }
 
-/* Doubles for the fronts of any traversal that answers up to count requests. Its stacks are no
- * larger than those of everything: while a front is computed, fewer of its ancestors have children
- * to come. With several workers there are the stack above the tasks, the roots of tasks, each of
- * which has a request in its subtree, and a stack for each worker. */
 static uint64_t sli_reserve_fronts(const sli_reserve *r, sl_int count) {
   const uint64_t roots = sli_reserve_product((uint64_t)r->front, count, (uint64_t)r->roots);
   return r->workers == 1 ? (uint64_t)r->stack
                : roots + (uint64_t)r->stack * ((uint64_t)r->workers + 1);
 }
 
-/* sl_inverse_diagonal and sl_inverse_pairs by sweeps. */
 static size_t sli_reserve_forward_bytes(const sli_reserve *r, sl_int count) {
   const sl_int vectors = count > SLI_LANES_MAX / 2 ? SLI_LANES_MAX : 2 * count;
   const sli_capacity capacity = sli_reserve_sweep(r, vectors, vectors);
@@ -18085,7 +16663,6 @@ static size_t sli_reserve_forward_bytes(const sli_reserve *r, sl_int count) {
   return b.used;
 }
 
-/* The same by a traversal. */
 static size_t sli_reserve_traversal_bytes(const sli_reserve *r, sl_int count) {
   const sl_symbolic *S = r->S;
   sli_traversal t = sli_traversal_of(S, S->n_supers, r->workers);
@@ -18095,16 +16672,15 @@ static size_t sli_reserve_traversal_bytes(const sli_reserve *r, sl_int count) {
   t.is_partial = 1;
   sli_requests_layout(&requests, &b);
   sli_traversal_layout(&t, &b);
-  (void)SLI_TAKE(&b, sl_int, S->n_supers); /* the forest's arrays of a shorter list */
+  (void)SLI_TAKE(&b, sl_int, S->n_supers);
   (void)SLI_TAKE(&b, sl_int, S->n_supers);
   sli_traversal_layout_work(&t, &b);
-  (void)SLI_TAKE(&b, sl_int, (uint64_t)S->n_supers + 1); /* the first request of each front */
+  (void)SLI_TAKE(&b, sl_int, (uint64_t)S->n_supers + 1);
   (void)SLI_TAKE(&b, double, sli_reserve_fronts(r, count));
   (void)SLI_TAKE(&b, double, (uint64_t)r->workers *(uint64_t)r->scratch);
   return b.used;
 }
 
-/* sl_inverse_bilinear with up to count rows in both sets. */
 static size_t sli_reserve_bilinear_bytes(const sli_reserve *r, sl_int count) {
   const sli_capacity capacity = sli_reserve_sweep(r, count, 2);
   sli_block b = {NULL, 0, 0};
@@ -18116,7 +16692,6 @@ static size_t sli_reserve_bilinear_bytes(const sli_reserve *r, sl_int count) {
   return b.used;
 }
 
-/* sl_inverse_block. */
 static size_t sli_reserve_block_bytes(const sli_reserve *r, sl_int n_rows, sl_int n_columns) {
   sli_block b = {NULL, 0, 0};
   sli_inverse_block q;
@@ -18173,12 +16748,12 @@ SL_API sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_
 struct sl_selected {
   sl_allocator allocator;
   sl_threads threads;
-  sli_hash analysis;       /* the identity of the traversal's analysis */
-  sli_numbers numbers;     /* Z is the inverse of these */
-  sli_traversal traversal; /* of the supernodes that are kept */
-  sl_off *begin;           /* count + 1: offsets of the panels, in doubles */
+  sli_hash analysis;
+  sli_numbers numbers;
+  sli_traversal traversal;
+  sl_off *begin;
   double *Z;
-  double seconds; /* of the last computation, and of sl_selected_create its whole */
+  double seconds;
   size_t bytes;
 };
 
@@ -18189,8 +16764,6 @@ static void sli_selected_layout(sl_selected *Z, sli_block *b) {
   Z->bytes = b->used;
 }
 
-/* Allocates the object with its index arrays and plans the traversal of the reach of seeds; seeds
- * NULL: of all supernodes. */
 static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const uint64_t *seeds,
                    sl_int n_seeds) {
   const sl_symbolic *S = draft->traversal.S;
@@ -18222,7 +16795,6 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
   return status;
 }
 
-/* Makes the object for a set of rows, without its numbers. */
 static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const sl_int *set,
                   sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
@@ -18257,7 +16829,6 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
   return status;
 }
 
-/* Copies row tiles of a front into the panel. */
 static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front *f, sl_int t0,
                  sl_int t1) {
   const sl_selected *Z = (const sl_selected *)context;
@@ -18268,7 +16839,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
     double *tile = panel + sli_tile_offset(w, t);
     const sl_int columns = sli_min(w, SLI_TILE * (t + 1)), rows = h - SLI_TILE * t;
     memcpy(tile, f->front + sli_square_offset(h, t), SLI_TILE * (size_t)columns * sizeof *tile);
-    for (j = 0; j < columns && rows < SLI_TILE; j++) { /* the rows of padding */
+    for (j = 0; j < columns && rows < SLI_TILE; j++) {
       memset(tile + SLI_TILE * (ptrdiff_t)j + rows, 0,
            (size_t)(SLI_TILE - rows) * sizeof *tile);
     }
@@ -18282,8 +16853,6 @@ static void sli_selected_layout_run(void *context, sli_block *b) {
 
 static const sli_stage sli_selected_stage = {sli_selected_layout_run, NULL};
 
-/* Computes the numbers with the caller's workspace or one for this call. F is valid and of the same
- * analysis. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
   const double started = sli_seconds();
   sl_work own = sli_work_own(&Z->allocator);
@@ -18305,7 +16874,6 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   return status;
 }
 
-/* Allocates the numbers. */
 static sl_status sli_selected_alloc_values(sl_selected *Z) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -18381,7 +16949,6 @@ SL_API void sl_selected_free(sl_selected *Z) {
 
 /* src/impl/inverse/selected_query.h: reads a selected inverse: its diagonal, entries, statistics, arrays */
 
-/* The position of supernode s in the list, or -1. */
 SLI_INLINE sl_int sli_selected_find(const sl_selected *Z, sl_int s) {
   sl_int at = s;
   if (Z->traversal.forest.count < Z->traversal.S->n_supers) {
@@ -18390,7 +16957,6 @@ SLI_INLINE sl_int sli_selected_find(const sl_selected *Z, sl_int s) {
   return at < Z->traversal.forest.count && Z->traversal.supers[at] == s ? at : -1;
 }
 
-/* The position in Z of the entry of pivots k and l, or -1. */
 static sl_off sli_selected_position(const sl_selected *Z, sl_int k, sl_int l) {
   const sl_symbolic *S = Z->traversal.S;
   const sl_int column = sli_min(k, l), s = S->super_of[column], at = sli_selected_find(Z, s);
@@ -18399,8 +16965,6 @@ static sl_off sli_selected_position(const sl_selected *Z, sl_int k, sl_int l) {
            : Z->begin[at] + sli_panel_at(S->steps[s].width, r, column - S->super_first[s]);
 }
 
-/* Copies the requested entries. All of them are looked up before the first is written, so that out
- * is unchanged on error. */
 static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_int *rows,
                    const sl_int *columns, sl_int count, sl_stats *stats) {
   const sl_symbolic *S = Z->traversal.S;
@@ -18425,8 +16989,6 @@ static sl_status sli_selected_read(const sl_selected *Z, double *out, const sl_i
   return SL_OK;
 }
 
-/* The whole diagonal, read panel by panel. Looking it up row by row took a twelfth of the time of
- * the whole inverse. */
 static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
   const sl_symbolic *S = Z->traversal.S;
   sl_int s, j;
@@ -18489,32 +17051,24 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
 
 /* src/impl/inverse/region_choose.h: chooses the subtrees and the boundary of a region for the cheapest solves */
 
-/* The state of the choice: which supernodes of the compiled reach of the set are inside the region.
- * A row is in the boundary if it is not inside and either belongs to the set or is below a
- * supernode inside. */
 typedef struct sli_choice {
   const sl_symbolic *S;
-  uint64_t *seeds, *scratch; /* count: columns of the set, ascending */
+  uint64_t *seeds, *scratch;
   sl_int count;
-  size_t bytes_max; /* of a region that has a boundary; 0: no limit */
+  size_t bytes_max;
   sli_reach reach;
-  sli_step *steps;          /* of the reach */
-  sl_int *rows;             /* reach.n_rows */
-  sl_off *rows_begin;       /* reach.count + 1 */
-  uint64_t *order, *sorted; /* reach.count: steps by the size of their subtrees; scratch */
-  sl_int *n_children;       /* reach.count: children of each step in the reach */
-  sl_int *n_inside;         /* reach.count: children of each step that are inside */
-  unsigned char *is_inside; /* reach.count: is the step inside? */
-  /* reach.columns: supernodes inside that have the row below them, plus 1 if the set has it */
+  sli_step *steps;
+  sl_int *rows;
+  sl_off *rows_begin;
+  uint64_t *order, *sorted;
+  sl_int *n_children;
+  sl_int *n_inside;
+  unsigned char *is_inside;
   sl_int *needed;
-  sl_int n_roots, boundary; /* subtrees and rows of the boundary of the current choice */
-  double cost;              /* of L inside */
+  sl_int n_roots, boundary;
+  double cost;
 } sli_choice;
 
-/* The cost of a solve, in doubles read of L: supernodes inside count twice, the boundary counts its
- * square. Only half of the square is stored, and it is read from memory once; counting that instead
- * would make solves of patches of 2000 vertices 4 % faster, but their regions a fifth larger. A
- * constant per supernode changes the choice by less than can be measured. */
 SLI_INLINE double sli_choice_step_cost(const sli_step *s) {
   return 2.0 * (double)sli_entries_from(s->width, s->below, s->first_tile);
 }
@@ -18527,7 +17081,6 @@ SLI_INLINE double sli_choice_cost(const sli_choice *c) {
   return c->cost + sli_choice_boundary_cost(c->boundary);
 }
 
-/* Is a region with this boundary and number of subtrees within the limit of bytes? */
 static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_max) {
   sli_block b = {NULL, 0, 0};
   sl_region R;
@@ -18535,7 +17088,7 @@ static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_ma
     return 1;
   }
   if ((double)boundary * (double)boundary * (0.5 * sizeof(double)) > (double)bytes_max) {
-    return 0; /* decided without the slow sum over the chunks of the layout */
+    return 0;
   }
   R.extent.n_rows = boundary;
   R.extent.n_roots = n_roots;
@@ -18547,7 +17100,6 @@ SLI_INLINE int sli_choice_fits(const sli_choice *c) {
   return sli_region_bytes_fit(c->boundary, c->n_roots, c->bytes_max);
 }
 
-/* Adds a step to the inside; all of its children in the reach are inside. */
 static void sli_choice_add(sli_choice *c, sl_int k) {
   const sli_step *step = &c->steps[k];
   const sl_int *rows = c->rows + c->rows_begin[k];
@@ -18566,7 +17118,6 @@ static void sli_choice_add(sli_choice *c, sl_int k) {
   }
 }
 
-/* Removes a step from the inside; its parent is outside. */
 static void sli_choice_remove(sli_choice *c, sl_int k) {
   const sli_step *step = &c->steps[k];
   const sl_int *rows = c->rows + c->rows_begin[k];
@@ -18585,8 +17136,6 @@ static void sli_choice_remove(sli_choice *c, sl_int k) {
   }
 }
 
-/* Adds all supernodes, those with small subtrees first, then goes back to the choice with the least
- * cost. */
 static void sli_choice_sweep(sli_choice *c) {
   const sl_int count = c->reach.count;
   sl_int k, best = 0;
@@ -18608,10 +17157,8 @@ static void sli_choice_sweep(sli_choice *c) {
   }
 }
 
-/* Bound on the passes over the supernodes. */
 #define SLI_REGION_PASSES 8
 
-/* Adds or removes single supernodes at the border of the subtrees while that lowers the cost. */
 static void sli_choice_improve(sli_choice *c) {
   sl_int pass, k;
   int is_better = 1;
@@ -18639,20 +17186,13 @@ static void sli_choice_improve(sli_choice *c) {
   }
 }
 
-/* How many times as much a solve may cost if the entries can then be copied from a selected
- * inverse. On grids of 1e5 and 1e6 vertices, 37 and 21 of 100 patches of 2000 vertices choose that;
- * they are solved in 1.3 times the time, and their regions made in a third and a thirtieth (bench
- * region). */
 #define SLI_REGION_DETOUR 2.0
 
-/* Chooses the subtree of one supernode that holds the whole set, if it costs at most
- * SLI_REGION_DETOUR times the choice so far. The rows below one supernode are pairwise in the
- * pattern of L, so a selected inverse has all entries between them. */
 static void sli_choice_single_subtree(sli_choice *c) {
   const sl_symbolic *S = c->S;
   double inside = 0.0, least = SLI_REGION_DETOUR * sli_choice_cost(c);
   sl_int k, first, last, best = -1;
-  SLI_ASSERT(c->count > 0); /* there is a boundary */
+  SLI_ASSERT(c->count > 0);
   first = S->super_of[sli_key(c->seeds[0])];
   last = S->super_of[sli_key(c->seeds[c->count - 1])];
   for (k = 0; k < c->reach.count; k++) {
@@ -18689,7 +17229,6 @@ static void sli_choice_layout_reach(sli_choice *c, sli_block *b) {
   c->needed = SLI_TAKE(b, sl_int, c->reach.columns);
 }
 
-/* Starts with no supernode inside: the boundary is the set. */
 static void sli_choice_init(sli_choice *c) {
   const sl_symbolic *S = c->S;
   sl_int k, at = 0;
@@ -18716,7 +17255,6 @@ static void sli_choice_init(sli_choice *c) {
   }
 }
 
-/* Sorts the rows of A by column of L, without repetitions. NULL: all rows. */
 static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *stats) {
   const sl_symbolic *S = c->S;
   sl_int k, unique = 0;
@@ -18739,7 +17277,6 @@ static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *sta
 
 /* src/impl/inverse/region.h: regions: creation, and their part of the inverse by sweeps or a selected inverse */
 
-/* Fills the allocated object from the choice, all but its numbers. */
 static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
   const sl_symbolic *S = c->S;
   const sl_int n = R->extent.n_rows;
@@ -18780,7 +17317,6 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
   memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n)] * sizeof *R->Z);
 }
 
-/* Chooses and makes the object, without its numbers. may_copy: there is a selected inverse. */
 static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_int *set,
                 sl_int count, int may_copy, const sl_options *opt,
                 const sl_allocator *a, sl_stats *stats) {
@@ -18833,7 +17369,6 @@ static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_
   return status;
 }
 
-/* Stores the entry of two rows of the boundary, given by their indices, in the lower triangle. */
 static void sli_region_write(void *context, sl_int row, sl_int column, double z) {
   sl_region *R = (sl_region *)context;
   const sl_int low = sli_min(row, column), high = sli_max(row, column);
@@ -18843,8 +17378,6 @@ static void sli_region_write(void *context, sl_int row, sl_int column, double z)
      sli_panel_at(width, width + high - first, low - first)] = low == high ? -0.5 * z : -z;
 }
 
-/* Copies all entries from a selected inverse; returns 0 and changes nothing if one is missing
- * there. */
 static int sli_region_copy(sl_region *R, const sl_selected *Z) {
   const sl_int *rows = R->extent.rows;
   sl_int i, j;
@@ -18865,14 +17398,13 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
   return 1;
 }
 
-/* Computes the numbers. F and Z are valid and belong to R. */
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
                  sl_work *W) {
   const double started = sli_seconds();
   sl_work own = sli_work_own(&R->allocator);
   sl_status status = SL_OK;
   const int is_copied = Z != NULL && sli_region_copy(R, Z);
-  if (!is_copied) { /* an error comes before anything is written */
+  if (!is_copied) {
     status = sli_inverse_all_pairs(F, R->requested, R->extent.n_rows, sli_region_write, R,
                      W == NULL ? &own : W);
     sli_free(&own.allocator, own.block);
@@ -18885,8 +17417,6 @@ static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_sele
   return status;
 }
 
-/* Refuses a failed factor, a Z that is not of its present numbers, and centered solves: what
- * centering adds to b is not 0 outside of the region. */
 static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *Z) {
   if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
     return SL_ERR_STATE;
@@ -18986,41 +17516,31 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R) {
 /* change: a factor that follows changes of its matrix */
 /* src/impl/change/update.h: one pass of a rank-k change: the columns on the paths of up to 8 vectors */
 
-/* L D L' + W M W' = K N K' for W of n x k, column by column [DH01]. With the row y of W and the
- * column l of L that belong to pivot d:
- *
- *     e = d + y' M y,  W := W - l y',  l := l + W b  with b = M y / e,  M := M - M y y' M / e.
- *
- * e is the new pivot. W loses row and column, and is nonzero on the paths of its columns only. M is
- * kept as U diag(alpha) U' with a unit upper triangular U, and updated in this form [Bie76]: so its
- * signs stay those of the changes, and rounding is that of k changes one after the other. */
-
-/* The state of a change. Vectors in a compact vector of their reach, interleaved. */
 typedef struct sli_update {
   sl_factor *F;
-  const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
+  const sl_csc *V;
   const double *sigma;
-  double sign;         /* of all pivots, 1 or -1; 0: they have both signs */
-  int keeps_signs;     /* a pivot that changes its sign is refused */
-  int is_trial;        /* pivots are checked, and not changed */
-  int is_tried;        /* the trial of this pass has succeeded */
-  sl_int ranks, lanes; /* vectors of the pass, and the lanes that hold them */
+  double sign;
+  int keeps_signs;
+  int is_trial;
+  int is_tried;
+  sl_int ranks, lanes;
   int kind;
   double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
-  double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
-  double entry;  /* the largest |a| that is known of the columns of the pass */
-  double growth; /* the largest growth of rows in them */
+  double most;
+  double entry;
+  double growth;
   sli_reach R;
-  sl_int pivot; /* the pivot that was refused, and its value */
+  sl_int pivot;
   double value;
 
-  sli_step *steps; /* of the reach */
+  sli_step *steps;
   sl_int *rows;
-  double *x;               /* lanes for each column of the reach */
-  double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
-  double *local;           /* [tile][lane][8]: the rows of the current step */
-  double *c;               /* 2 lanes for each column of the current step: y and -b */
-  double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
+  double *x;
+  double *gain;
+  double *local;
+  double *c;
+  double *trial, *scratch;
 } sli_update;
 
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
@@ -19037,8 +17557,6 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
     SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
 }
 
-/* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
- * O(descendants). */
 static double sli_update_magnitude(const sl_factor *F, sl_int k) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
@@ -19049,7 +17567,7 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
     const sl_int *rows = S->rows + S->rows_begin[d];
     const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
     const sl_int r = d == own ? k - step->column : step->width + at;
-    if (d != own && at == step->below) { /* no descendant has a row there */
+    if (d != own && at == step->below) {
       d = S->first_descendant[d] - 1;
       continue;
     }
@@ -19062,7 +17580,6 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
   return 2.0 * sum + fabs(F->D[k]);
 }
 
-/* Is pivot k, now d, null? magnitude: of its change alone. */
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
   const double tolerance = F->rule.null_tolerance;
   const double known = F->extents[F->S->super_of[k]].magnitude;
@@ -19073,7 +17590,6 @@ static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double mag
        sli_is_null(d, magnitude + sli_update_magnitude(F, k), tolerance);
 }
 
-/* Counts a pivot that changed from d to e. */
 SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
   const double size = fabs(e);
   info->positive += (e > 0.0) - (d > 0.0);
@@ -19082,7 +17598,6 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
   info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
-/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
   sl_factor *F = u->F;
   const double d = F->D[k];
@@ -19103,7 +17618,6 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
   return SL_OK;
 }
 
-/* Changes pivot k. y: its row of W, entries `stride` apart. Writes y and -b to c. */
 static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_int stride,
                   double *c) {
   const double d = u->F->D[k];
@@ -19127,7 +17641,7 @@ static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_i
     b[r] = u->alpha[r] * f;
     e += b[r] * f;
     magnitude += fabs(b[r] * f);
-    if (!(fabs(e) > 0.0)) { /* 0 or NaN */
+    if (!(fabs(e) > 0.0)) {
       return sli_update_take(u, k, e, magnitude);
     }
     p = -f * inverse;
@@ -19146,7 +17660,6 @@ static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_i
   return status;
 }
 
-/* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
   double *l = u->F->L + step->panel + sli_panel_at(step->width, first, first);
@@ -19166,14 +17679,13 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
       continue;
     }
     u->F->kernels->change[u->kind](l, 1, at, w);
-    for (i = 0; i <= j; i++) { /* the kernel has changed the part above the diagonal, too */
+    for (i = 0; i <= j; i++) {
       l[i] = 0.0;
     }
   }
   return SL_OK;
 }
 
-/* Applies columns from .. to-1 to row tiles t0 .. t1-1, at most 4 of them. */
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0, sl_int t1,
               sl_int from, sl_int to) {
   const sl_int entered = step->first_tile;
@@ -19192,8 +17704,6 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0
   }
 }
 
-/* Moves the rows of a step between the compact vector and the tiles: into the tiles, or the rows
- * below back. */
 static void sli_update_gather(const sli_update *u, const sli_step *step, const sl_int *rows) {
   const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
   sl_int i, r;
@@ -19218,7 +17728,6 @@ static void sli_update_scatter(const sli_update *u, const sli_step *step, const 
   }
 }
 
-/* Adds sign |L| |D| |L'| of the columns of a step to the gains of their rows. */
 static void sli_update_gains(const sli_update *u, const sli_step *step, const sl_int *rows,
                double sign) {
   const sl_factor *F = u->F;
@@ -19236,8 +17745,6 @@ static void sli_update_gains(const sli_update *u, const sli_step *step, const sl
   }
 }
 
-/* Adds what the pass has added to the magnitudes of the rows of a step. If all pivots have one
- * sign, the sum of row k is at most 2 |a_kk|, and its gain twice the change of a_kk. */
 static void sli_update_extent(sli_update *u, const sli_step *step) {
   sli_extent *extent = &u->F->extents[u->F->S->super_of[step->column]];
   sl_int k, at = -1;
@@ -19257,7 +17764,6 @@ static void sli_update_extent(sli_update *u, const sli_step *step) {
   u->growth = fmax(u->growth, extent->magnitude);
 }
 
-/* Changes the columns of one step. On failure some of them are changed. */
 static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
   const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
   const sl_int tiles = sli_tiles(step->width + step->below);
@@ -19292,7 +17798,6 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
   return SL_OK;
 }
 
-/* The first pivot of column v of V, n if the column is 0. */
 static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) {
   sl_int p, first = S->n;
   for (p = V->p[v]; p < V->p[v + 1]; p++) {
@@ -19301,7 +17806,6 @@ static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) 
   return first;
 }
 
-/* Loads the vectors of a pass, whose reach is compiled. group: their numbers. */
 static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
@@ -19328,8 +17832,6 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   }
 }
 
-/* Checks the pivots of a pass that is loaded, with F as it is: they depend on L^-1 W alone. A
- * forward sweep takes less time than a copy of the columns, which would undo a failure. */
 static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
   const sli_reach *R = &u->R;
   sl_status status = SL_OK;
@@ -19346,11 +17848,10 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
   }
   u->is_trial = 0;
   u->is_tried = status == SL_OK;
-  sli_update_load(u, group, count); /* U and alpha as they were */
+  sli_update_load(u, group, count);
   return status;
 }
 
-/* Changes the columns on the paths of the vectors that are loaded. */
 static sl_status sli_update_run(sli_update *u) {
   const sl_int *rows = u->R.rows;
   sl_status status = SL_OK;
@@ -19364,36 +17865,33 @@ static sl_status sli_update_run(sli_update *u) {
 
 /* src/impl/change/rank.h: rank-k changes of a factor: the vectors, their passes, and the log that undoes them */
 
-/* A rank-k change in progress. */
 typedef struct sli_rank {
-  sli_update u;                             /* first: its passes */
-  const sl_int *entry_rows, *entry_columns; /* a change given by entries */
+  sli_update u;
+  const sl_int *entry_rows, *entry_columns;
   const double *deltas;
   sl_int n_entries;
   sl_stats *stats;
   sl_status status;
-  sl_int count;    /* vectors that change something */
-  sl_int updates;  /* those of the sign of the pivots: they come first */
-  int has_trial;   /* its only pass may fail: it is tried first */
-  int has_log;     /* a later pass may fail, or growth may become too large */
-  sl_int logged;   /* steps in the log */
-  int is_changed;  /* a pass has begun to change F */
-  double flops;    /* entries of L that the passes change, times their vectors' cost */
-  sl_off entries;  /* entries of L that the passes change */
-  sli_reach whole; /* of all vectors */
-  uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
+  sl_int count;
+  sl_int updates;
+  int has_trial;
+  int has_log;
+  sl_int logged;
+  int is_changed;
+  double flops;
+  sl_off entries;
+  sli_reach whole;
+  uint64_t *seeds, *scratch, *whole_seeds;
   double *log, *log_D;
   sli_extent *log_extents;
   sli_step *log_steps;
 
-  /* a change given by entries, as vectors */
   sl_csc V;
   sl_int *p, *i;
   double *x, *sigma, *diagonal;
   uint64_t *order, *order_scratch;
 } sli_rank;
 
-/* May F be changed in place? */
 static sl_status sli_rank_check(const sl_factor *F) {
   if (!F->is_valid || !sli_factor_may_change(F)) {
     return SL_ERR_STATE;
@@ -19401,7 +17899,6 @@ static sl_status sli_rank_check(const sl_factor *F) {
   return F->E != NULL || F->n_nulls > 0 ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
-/* Checks vector v: its entries are finite, and its rows are below each other in L. */
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
   const sl_symbolic *S = q->u.F->S;
   const sl_csc *V = q->u.V;
@@ -19435,12 +17932,10 @@ static void sli_rank_layout_seeds(void *data, sli_block *b) {
   q->whole_seeds = SLI_TAKE(b, uint64_t, q->u.V->n_cols);
 }
 
-/* The end of the pass that begins with vector k. */
 SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
   return sli_min(k + SLI_TILE, q->count);
 }
 
-/* Lists the vectors of a pass, updates first, and its seeds. */
 static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
                uint64_t *seeds) {
   uint64_t unused[SLI_TILE];
@@ -19452,8 +17947,6 @@ static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int 
   sli_sort(seeds, last - first, unused);
 }
 
-/* Measures the passes. A pass of k vectors reads and writes its entries once, with 4 k flops each.
- */
 static void sli_rank_measure(sli_rank *q) {
   sl_int k, last, group[SLI_TILE];
   uint64_t seeds[SLI_TILE];
@@ -19469,7 +17962,6 @@ static void sli_rank_measure(sli_rank *q) {
   }
 }
 
-/* Checks and sorts the vectors, those of the sign of the pivots first, and measures their reach. */
 static void sli_rank_sort(void *data) {
   sli_rank *q = (sli_rank *)data;
   const sl_symbolic *S = q->u.F->S;
@@ -19509,7 +18001,6 @@ static void sli_rank_sort(void *data) {
   sli_rank_measure(q);
 }
 
-/* Doubles of the panels of all supernodes in the reach. */
 static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_int count) {
   uint64_t size = 0;
   sl_int k = 0, s, next;
@@ -19536,7 +18027,6 @@ static void sli_rank_layout(void *data, sli_block *b) {
   }
 }
 
-/* Saves or restores the panels, pivots and extents of the first `count` steps of the log. */
 static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
   sl_factor *F = q->u.F;
   double *log = q->log, *log_D = q->log_D;
@@ -19558,7 +18048,6 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
   }
 }
 
-/* Mixes the change into the identity of F. */
 static void sli_rank_identify(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_csc *V = q->u.V;
@@ -19571,7 +18060,6 @@ static void sli_rank_identify(sli_rank *q) {
   F->generation++;
 }
 
-/* Runs all passes. */
 static sl_status sli_rank_passes(sli_rank *q) {
   sl_factor *F = q->u.F;
   sl_factor_info *info = &F->stats.factor;
@@ -19602,7 +18090,6 @@ static sl_status sli_rank_passes(sli_rank *q) {
   return status;
 }
 
-/* Changes F by the vectors. On failure F is as before. */
 static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_stats before = F->stats;
@@ -19627,7 +18114,7 @@ static sl_status sli_rank_run(sli_rank *q) {
     sli_rank_log(q, q->logged, 1);
     F->stats = before;
     F->drift = drift;
-  } else if (q->is_changed) { /* an overflow */
+  } else if (q->is_changed) {
     F->is_valid = 0;
     F->status = status;
     F->generation++;
@@ -19635,7 +18122,6 @@ static sl_status sli_rank_run(sli_rank *q) {
   return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
 }
 
-/* Starts a change of F. */
 static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   const sl_factor_info *info = &F->stats.factor;
   memset(q, 0, sizeof *q);
@@ -19645,7 +18131,6 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
 }
 
-/* Reports a change. */
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
   if (stats != NULL) {
     const sl_factor *F = q->u.F;
@@ -19664,12 +18149,11 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
 static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
                        {sli_rank_layout, NULL}};
 
-/* Prepares the stages of a change, in the caller's workspace or in `own`, and runs it. */
 static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
   sl_work own = sli_work_own(&q->u.F->allocator);
   sl_status status;
   W = W == NULL ? &own : W;
-  status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
+  status = sli_work_grow(W, 1);
   status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
   status = status == SL_OK ? q->status : status;
   status = status == SL_OK ? sli_rank_run(q) : status;
@@ -19706,9 +18190,6 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
 
 /* src/impl/change/edges.h: changes given by entries of A, as rank-one changes */
 
-/* A symmetric change by d at (i, j) and (j, i) is -d (e_i - e_j)(e_i - e_j)' with d added to both
- * diagonal entries. Where the edges of a graph change, that cancels the changes of the diagonal. */
-
 static void sli_edges_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   const uint64_t count = (uint64_t)q->n_entries;
@@ -19721,7 +18202,6 @@ static void sli_edges_layout(void *data, sli_block *b) {
   q->diagonal = SLI_TAKE(b, double, 2 * count);
 }
 
-/* Appends sigma v v' with v = e_i - e_j, or v = e_i if j = -1. */
 static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
   sl_int *end = &q->p[q->V.n_cols + 1];
   *end = q->p[q->V.n_cols];
@@ -19734,7 +18214,6 @@ static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
   q->sigma[q->V.n_cols++] = sigma;
 }
 
-/* Sorts the entries by their two pivots, the earlier one first. */
 static void sli_edges_sort(sli_rank *q) {
   const sl_int *iperm = q->u.F->S->iperm;
   sl_int k, pass;
@@ -19748,7 +18227,6 @@ static void sli_edges_sort(sli_rank *q) {
   }
 }
 
-/* Appends the edges; returns how many changes of the diagonal they leave in q->diagonal. */
 static sl_int sli_edges_add_all(sli_rank *q) {
   const sl_int *iperm = q->u.F->S->iperm;
   uint64_t *rows = q->order_scratch;
@@ -19779,7 +18257,6 @@ static sl_int sli_edges_add_all(sli_rank *q) {
   return terms;
 }
 
-/* Appends what remains on the diagonal. */
 static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
   uint64_t *rows = q->order_scratch;
   sl_int k;
@@ -19791,7 +18268,7 @@ static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
       sum += q->diagonal[sli_value(rows[k])];
       size += fabs(q->diagonal[sli_value(rows[k])]);
     }
-    if (fabs(sum) > 8.0 * DBL_EPSILON * size) { /* the caller has rounded, too */
+    if (fabs(sum) > 8.0 * DBL_EPSILON * size) {
       sli_edges_add(q, q->u.F->S->perm[row], -1, sum);
     }
   }
@@ -19815,7 +18292,6 @@ static const sli_stage sli_edges_stages[3] = {{sli_edges_layout, sli_edges_fill}
                         {sli_rank_layout_seeds, sli_rank_sort},
                         {sli_rank_layout, NULL}};
 
-/* Checks a list of entries. */
 static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const sl_int *columns,
                  const double *deltas, sl_int count, sl_stats *stats) {
   sl_int k;
@@ -19837,7 +18313,6 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
   return SL_OK;
 }
 
-/* Starts a change of F by entries. */
 static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
               const double *deltas, sl_int count, sl_stats *stats) {
   sli_rank_begin(q, F, stats);
@@ -19869,32 +18344,26 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
-/* Seconds of the three ways, from their counts. Rank-one changes are bound by memory: reading and
- * writing an entry of L takes as long as the flops of 4 vectors. Fronts have a fixed cost, too. */
 #define SLI_CHANGE_ENTRY 0.9e-9
 #define SLI_CHANGE_FLOP 0.04e-9
 #define SLI_CHANGE_FRONT_FLOP 0.1e-9
 #define SLI_CHANGE_FRONT 400e-9
-/* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
 #define SLI_CHANGE_DRIFT 1e-11
 
-/* A choice between the three ways. */
 typedef struct sli_way {
-  sl_int *columns; /* count: the columns of A that store changed entries */
+  sl_int *columns;
   uint64_t *seeds, *scratch;
   sl_int n_seeds;
   double flops_update, flops_changed, flops_refactor;
-  double update, changed, refactor; /* seconds */
+  double update, changed, refactor;
   sl_change_reason reason;
 } sli_way;
 
-/* Flops of the elimination of supernode s alone. */
 static double sli_way_front(const sl_symbolic *S, sl_int s) {
   const double w = S->steps[s].width, h = w + S->steps[s].below;
-  return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
+  return w * (h * h - h * w + w * w / 3.0);
 }
 
-/* Flops of the updates that supernode s gathers from its descendants, as sli_left_factor does. */
 static double sli_way_gather(const sl_symbolic *S, sl_int s) {
   const sl_int start = S->super_first[s], end = S->super_first[s + 1];
   double flops = 0.0;
@@ -19913,7 +18382,6 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s) {
   return flops;
 }
 
-/* Counts the reach of the change: of the fronts alone, or with what they gather. */
 static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
   sl_int k = 0, s, next, fronts = 0;
   double flops = 0.0;
@@ -19929,7 +18397,6 @@ static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
   c->changed = SLI_CHANGE_FRONT_FLOP * flops + SLI_CHANGE_FRONT * fronts;
 }
 
-/* Chooses. can_update: rank-one changes are possible. */
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
   const sl_symbolic *S = F->S;
   const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL;
@@ -19944,7 +18411,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     return SL_CHANGE_REFACTOR;
   }
   if (can_reach) {
-    sli_way_measure(c, S, 0); /* a lower bound: to count the descendants takes time */
+    sli_way_measure(c, S, 0);
     if (!can_update || c->update > c->changed) {
       sli_way_measure(c, S, 1);
     }
@@ -19955,7 +18422,6 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
 }
 
-/* The columns of A that store the changed entries. */
 static void sli_way_columns(sli_way *c, const sli_rank *q) {
   const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
   sl_int k;
@@ -19965,7 +18431,6 @@ static void sli_way_columns(sli_way *c, const sli_rank *q) {
   }
 }
 
-/* Sorts the vectors of q, for their number and their cost. */
 static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
   sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
   status = status == SL_OK ? q->status : status;
@@ -19989,7 +18454,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     q->status = SL_OK;
     status = sli_rank_apply(q, sli_edges_stages, 3, W);
     if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
-      c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
+      c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
     }
   }
@@ -20066,49 +18531,34 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
 
 /* src/impl/change/pins.h: rows held at given values, and other equalities, without a change of the factor */
 
-/* Minimize x' A x / 2 - b' x with c_p' x = g_p for the columns c_p of a matrix C:
- *
- *     A x = b + C f,  K f = g - C' A^-1 b,  K = C' A^-1 C.
- *
- * With Y = L^-1 P C, kept in the reaches of its columns, K = Y' D^-1 Y, and C' A^-1 b = Y' D^-1 y
- * after the forward sweep y = L^-1 P b: a solve takes one forward and one backward sweep.
- *
- * In a singular component with null vector z, whose null pivot is N, let D(N) = delta. L is that of
- * a regular A + delta e e', e the unit vector of N. The solution of A is then that of this matrix
- * plus v z, where z' (b + C f) = 0, and v is the unknown that belongs to this equation. */
-
-/* One equality. */
 typedef struct sli_pin {
-  sl_int null; /* the null pivot of its component; -1: none */
-  double z;    /* z' c of the null vector, scaled to 1 at the null pivot; 0: none */
+  sl_int null;
+  double z;
   sl_int count;
-  sl_int *rows; /* count: the rows of c, and its entries */
+  sl_int *rows;
   double *values;
-  sli_reach R; /* of c */
-  double *y;   /* R.columns: L^-1 P c */
+  sli_reach R;
+  double *y;
 } sli_pin;
 
 struct sl_pins {
   sl_allocator allocator;
-  const sl_factor *F; /* borrowed */
+  const sl_factor *F;
   sli_numbers numbers;
-  double sign;      /* of all pivots */
-  double delta;     /* takes the place of null pivots */
-  double *divisors; /* n: D, with 1 at null pivots; NULL: there are none */
+  double sign;
+  double delta;
+  double *divisors;
   sl_int count, capacity;
-  sli_pin **pins;  /* capacity */
-  double *K;       /* capacity x capacity, row-major: the factor L D L' of K, D on the diagonal */
-  double *scratch; /* 2 capacity */
+  sli_pin **pins;
+  double *K;
+  double *scratch;
 };
 
-/* D^-1 of a column where null pivots are delta. */
 SLI_INLINE double sli_pins_inverse(const sl_pins *P, sl_int column) {
   const double d = P->F->D[column];
   return 1.0 / (P->divisors != NULL && d == SLI_NULL_PIVOT ? P->delta : d);
 }
 
-/* The null pivot of the tree of a reach, which is not empty. Null pivots without a known null
- * vector, or several in one tree, are not supported. */
 static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *null) {
   const sl_int last = R->count - 1;
   sl_int s, first, count;
@@ -20117,7 +18567,7 @@ static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *nu
     return SL_OK;
   }
   for (s = 0; s < last; s++) {
-    if (R->steps[s].up == -1) { /* an equality over several trees */
+    if (R->steps[s].up == -1) {
       return SL_ERR_UNSUPPORTED;
     }
   }
@@ -20131,7 +18581,6 @@ static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *nu
   return count > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
-/* y := L^-1 P c, and z' c. */
 static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
   const sl_factor *F = P->F;
   const sl_symbolic *S = F->S;
@@ -20154,7 +18603,6 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) 
   return status;
 }
 
-/* Makes an equality. */
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
                 const double *values, sl_int count, sl_stats *stats) {
   const sl_symbolic *S = P->F->S;
@@ -20209,7 +18657,6 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
   return status;
 }
 
-/* sums(r) += sum over the shared columns of a(k) D(k)^-1 x(k, r). x: the vector of a reach. */
 static void sli_pin_dot(const sl_pins *P, const sli_pin *pin, const sli_reach *R, const double *x,
             sl_int lanes, double *sums) {
   sli_intersection m = sli_intersection_of(&pin->R, R);
@@ -20225,7 +18672,6 @@ static void sli_pin_dot(const sl_pins *P, const sli_pin *pin, const sli_reach *R
   }
 }
 
-/* x += y f' in the shared columns. */
 static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_int lanes,
             const double *f) {
   sli_intersection m = sli_intersection_of(&pin->R, R);
@@ -20240,8 +18686,6 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
   }
 }
 
-/* Appends the last of P->count + 1 equalities to the factor of K. A pin that depends on the others
- * leaves a pivot of rounding errors. */
 static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
   const sl_int k = P->count;
   const size_t ld = (size_t)P->capacity;
@@ -20252,7 +18696,7 @@ static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
   for (i = 0; i < k; i++) {
     row[i] = 0.0;
     sli_pin_dot(P, P->pins[i], &pin->R, pin->y, 1, &row[i]);
-    for (j = 0; j < i; j++) { /* row(i) = l(i) d(i) */
+    for (j = 0; j < i; j++) {
       row[i] -= P->K[(size_t)i * ld + (size_t)j] * row[j];
     }
   }
@@ -20268,8 +18712,6 @@ static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
   return d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
 }
 
-/* Removes equality p: the rows below it take over what its column contributed, a rank-one update of
- * their factor. */
 static void sli_pins_remove(sl_pins *P, sl_int p) {
   const size_t ld = (size_t)P->capacity;
   double *w = P->scratch, alpha = P->K[(size_t)p * ld + (size_t)p];
@@ -20298,7 +18740,6 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
   P->count--;
 }
 
-/* Makes room for one more equality. */
 static sl_status sli_pins_grow(sl_pins *P) {
   const sl_int capacity = P->capacity < 4 ? 8 : 2 * P->capacity;
   sli_block b = {NULL, 0, 0};
@@ -20327,7 +18768,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
     memcpy(K + (size_t)i * (size_t)capacity, P->K + (size_t)i * (size_t)P->capacity,
          ((size_t)i + 1) * sizeof *K);
   }
-  sli_free(&P->allocator, P->pins); /* the first array of its block */
+  sli_free(&P->allocator, P->pins);
   P->pins = pins;
   P->K = K;
   P->scratch = scratch;
@@ -20335,7 +18776,6 @@ static sl_status sli_pins_grow(sl_pins *P) {
   return SL_OK;
 }
 
-/* Takes the numbers of F. */
 static sl_status sli_pins_take(sl_pins *P) {
   const sl_factor *F = P->F;
   const sl_factor_info *info = &F->stats.factor;
@@ -20463,7 +18903,7 @@ SL_API sl_status sl_pins_refactor(sl_pins *P) {
     return SL_ERR_ARGUMENT;
   }
   status = sli_pins_take(P);
-  P->numbers.generation = 0; /* until all of them are there */
+  P->numbers.generation = 0;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
     status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
@@ -20481,14 +18921,11 @@ SL_API sl_status sl_pins_refactor(sl_pins *P) {
   return status;
 }
 
-/* ---- solves ---- */
-
-/* Arrays of a solve. */
 typedef struct sli_pins_work {
-  unsigned char *memory; /* of the sweeps */
-  double *f;             /* count x lanes: g - C' A^-1 b, then f */
-  double *v;             /* count x lanes: v, in the first row of each singular component */
-  double *h, *z;         /* count: K^-1 z of a component, z */
+  unsigned char *memory;
+  double *f;
+  double *v;
+  double *h, *z;
 } sli_pins_work;
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
@@ -20500,7 +18937,6 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
   w->z = SLI_TAKE(b, double, P->count);
 }
 
-/* f := K^-1 f, lanes numbers in each row. */
 static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   const size_t ld = (size_t)P->capacity;
   sl_int i, j, r;
@@ -20523,8 +18959,6 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   }
 }
 
-/* Makes z' (b + C f) 0 in the component of pin p, the first one there: f -= K^-1 z v. y: after the
- * forward sweep; at the null pivot it is z' b. */
 static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w, sl_int p,
                const double *y, sl_int lanes) {
   const sl_int null = P->pins[p]->null, at = sli_reach_index_of(&q->forward, null);
@@ -20554,7 +18988,6 @@ static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pin
   }
 }
 
-/* Is pin p the first one of a singular component? */
 static int sli_pins_is_first(const sl_pins *P, sl_int p) {
   sl_int k = 0;
   while (P->pins[k]->null != P->pins[p]->null) {
@@ -20563,7 +18996,6 @@ static int sli_pins_is_first(const sl_pins *P, sl_int p) {
   return k == p && P->pins[p]->null != -1;
 }
 
-/* Sets x at the null pivots: v in a component with pins, 0 in the others. */
 static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
                sl_int lanes) {
   sl_int m, p, at;
@@ -20583,7 +19015,6 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
   }
 }
 
-/* Solves one block of up to 8 right-hand sides. */
 static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
                sli_dense x_at, const double *B, sli_dense b_at, const double *G,
                size_t ldg, sl_int nrhs) {
@@ -20672,40 +19103,35 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
 /* save: factors in files */
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
-/* src/FORMAT.md specifies the format. A change of it changes SLI_READ_VERSION if older libraries
- * must not read the new files, and SLI_WRITE_VERSION in any case. */
 #define SLI_READ_VERSION 1
 #define SLI_WRITE_VERSION 1
 #define SLI_ORDER_MARK 0x01020304u
 #define SLI_ORDER_MARK_SWAPPED 0x04030201u
-#define SLI_SECTIONS_MAX 64 /* of a file of a later version */
+#define SLI_SECTIONS_MAX 64
 
 typedef struct sli_saved_header {
   unsigned char magic[8];
   uint32_t order_mark, read_version, write_version, sections;
-  uint64_t bytes;    /* of the file */
-  uint64_t checksum; /* of header and table, where this field counts as 0 */
+  uint64_t bytes;
+  uint64_t checksum;
   uint64_t reserved[3];
 } sli_saved_header;
 
-/* An entry of the table. Sections follow each other in the order of the table, each from the next
- * multiple of 64 bytes on, filled up with zeros. */
 typedef struct sli_section {
   uint32_t id;
-  uint32_t word; /* bytes of a word: 1, 4 or 8; 24: an sli_extent; 32: an sli_step */
+  uint32_t word;
   uint64_t offset, bytes;
-  uint64_t checksum; /* of the section and the zeros after it */
+  uint64_t checksum;
 } sli_section;
 
 enum {
-  SLI_SECTION_ANALYSIS = 1, /* the numbers of sli_saved_analysis */
+  SLI_SECTION_ANALYSIS = 1,
   SLI_SECTION_FACTOR = 2,
-  SLI_SECTION_PERM = 16, /* arrays of an analysis, in the order of sli_symbolic_layout */
-  SLI_SECTION_D = 64,    /* arrays of a factor, in the order of sli_factor_layout */
+  SLI_SECTION_PERM = 16,
+  SLI_SECTION_D = 64,
   SLI_FACTOR_SECTIONS = 17
 };
 
-/* Words of 8 bytes only, so that any reader can change their byte order. */
 typedef struct sli_saved_analysis {
   int64_t n, supers, nodes, nnz_input, rows, entries, panels;
   int64_t tallest, widest, triangle, nnz_l, fundamental, tree_height, components;
@@ -20724,17 +19150,15 @@ typedef struct sli_saved_factor {
   uint64_t reserved[7];
 } sli_saved_factor;
 
-/* A file in progress: the header, the table, and where the contents of each section are. */
 typedef struct sli_saved {
   sli_saved_header header;
   sli_section table[SLI_SECTIONS_MAX];
   sli_saved_analysis analysis;
   sli_saved_factor factor;
-  /* the first `used` bytes of each section, the others are 0; NULL while only sizes are known */
   const void *data[SLI_SECTIONS_MAX];
   uint64_t used[SLI_SECTIONS_MAX];
-  sl_int first_array;  /* the section with the first array of the analysis */
-  sl_int first_number; /* the section with the first array of the factor */
+  sl_int first_array;
+  sl_int first_number;
 } sli_saved;
 
 static const unsigned char sli_saved_magic[8] = {0x89, 'S', 'L', 'F', 13, 10, 26, 10};
@@ -20743,12 +19167,10 @@ SLI_INLINE uint64_t sli_round_up(uint64_t bytes) {
   return (bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
 }
 
-/* Bytes of the header and the table. */
 SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
   return sli_round_up(sizeof f->header + f->header.sections * sizeof(sli_section));
 }
 
-/* Appends a section of `count` words, of which `used` have contents. */
 static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
               uint64_t count, uint64_t used) {
   const uint32_t k = f->header.sections++;
@@ -20789,7 +19211,6 @@ static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
 #undef SLI_ADD
 }
 
-/* Arrays that the factor does not have take no bytes, but have their entry in the table. */
 static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_factor) {
   const sli_saved_factor *g = &f->factor;
   const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
@@ -20825,8 +19246,6 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
 #undef SLI_ADD
 }
 
-/* Fills the table from the numbers of both objects and, where they are known, their arrays.
- * Returns 0 if the sizes overflow. */
 static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *F, int has_factor) {
   const uint64_t limit = UINT64_C(1) << 62;
   uint64_t at;
@@ -20850,8 +19269,6 @@ static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *
   return 1;
 }
 
-/* A checksum in progress: that of a sequence of bytes, in which zeros fill up each piece to a
- * multiple of 64 bytes. */
 typedef struct sli_checksum {
   uint64_t chain[4];
   uint64_t bytes;
@@ -20875,7 +19292,6 @@ static uint64_t sli_checksum_end(const sli_checksum *c) {
   return h.a ^ h.b;
 }
 
-/* The checksum of the header and the table, whose bytes are given. */
 static uint64_t sli_prefix_checksum(const unsigned char *prefix, size_t bytes) {
   sli_checksum c = sli_checksum_begin();
   sli_saved_header header;
@@ -20897,13 +19313,12 @@ SLI_INLINE void sli_swap(unsigned char *at, int bytes) {
   }
 }
 
-/* Reverses the byte order of an array of words. */
 static void sli_swap_words(void *data, uint32_t word, uint64_t bytes) {
   unsigned char *at = (unsigned char *)data, *end = at + bytes;
   for (; word > 1 && at < end; at += word) {
-    uint32_t k = word == 4 ? 0 : 8; /* where the words of 4 bytes begin */
+    uint32_t k = word == 4 ? 0 : 8;
     sli_swap(at, word == 4 ? 4 : 8);
-    if (word == 24) { /* an sli_extent: two reals and two numbers; an sli_step: one and six */
+    if (word == 24) {
       sli_swap(at + k, 8);
       k += 8;
     }
@@ -20913,8 +19328,6 @@ static void sli_swap_words(void *data, uint32_t word, uint64_t bytes) {
   }
 }
 
-/* Reads the header: is it that of a file that this library can read? *swapped: it has the other
- * byte order. */
 static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
   if (memcmp(h->magic, sli_saved_magic, sizeof sli_saved_magic) != 0 ||
     (h->order_mark != SLI_ORDER_MARK && h->order_mark != SLI_ORDER_MARK_SWAPPED)) {
@@ -20931,15 +19344,12 @@ static sl_status sli_decode_header(sli_saved_header *h, int *swapped) {
   return h->sections <= SLI_SECTIONS_MAX ? SL_OK : SL_ERR_IO;
 }
 
-/* Is a count in 0..most? */
 SLI_INLINE int sli_count_is_valid(int64_t count, int64_t most) {
   return count >= 0 && count <= most;
 }
 
-/* Numbers of an analysis that no analysis has are refused here, so that sizes can be computed from
- * them. */
 static int sli_decode_analysis(const sli_saved_analysis *a, sl_symbolic *S) {
-  const int64_t many = INT64_C(1) << 58; /* 8 bytes each fit a positive int64_t */
+  const int64_t many = INT64_C(1) << 58;
   sl_symbolic_info *info = &S->stats.symbolic;
   if (!sli_count_is_valid(a->n, SLI_ROWS_MAX) || !sli_count_is_valid(a->supers, a->n) ||
     (a->n > 0) != (a->supers > 0) || !sli_count_is_valid(a->nodes, a->n + 1) ||
@@ -21036,12 +19446,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
 
 /* src/impl/save/check.h: is a loaded analysis or factor one that this library could have made? */
 
-/* Everything that the other parts take for granted is checked here, in one pass over each array
- * and without memory: the bytes may come from anybody. The numbers of L, D and the weights may be
- * anything. */
-
-/* Is perm a permutation and iperm its inverse? If iperm[perm[k]] = k for all k, no two perm[k] are
- * equal. */
 static int sli_check_perm(const sl_symbolic *S) {
   sl_int k;
   for (k = 0; k < S->n; k++) {
@@ -21053,9 +19457,6 @@ static int sli_check_perm(const sl_symbolic *S) {
   return 1;
 }
 
-/* Do the supernodes divide the columns, and are their trees numbered in postorder? In a postorder
- * the children of s are s - 1, then the supernode before the first descendant of s - 1, and so on.
- * Each supernode is visited from its parent once. */
 static int sli_check_supers(const sl_symbolic *S) {
   sl_int s, c, k = 0, children = 0, visited = 0;
   if (S->super_first[0] != 0 || S->super_first[S->n_supers] != S->n) {
@@ -21086,8 +19487,6 @@ static int sli_check_supers(const sl_symbolic *S) {
   return visited == children;
 }
 
-/* Is `up` the parent of column k? It is in the supernode of k, but that of the last column is the
- * first row below, or -1. The tree is that without 2x2 pivots: these only add rows to columns. */
 static int sli_check_parent(const sl_symbolic *S, sl_int k, sl_int up) {
   const sl_int s = S->super_of[k], end = S->super_first[s + 1];
   if (S->n_pairs > 0) {
@@ -21099,7 +19498,6 @@ static int sli_check_parent(const sl_symbolic *S, sl_int k, sl_int up) {
   return up == (S->steps[s].below > 0 ? S->rows[S->rows_begin[s]] : -1);
 }
 
-/* Is the elimination tree that of the supernodes, and do the counts fit into them? */
 static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
   sl_off nnz_l = 0;
   sl_int k, roots = 0;
@@ -21115,8 +19513,6 @@ static int sli_check_tree(const sl_symbolic *S, const sli_saved_analysis *a) {
   return roots == a->components && nnz_l == a->nnz_l;
 }
 
-/* Are these rows below a supernode in the front of its parent at the local rows that are listed?
- * Both ascend, so that the columns of the parent come before the rows below it. */
 static int sli_check_relative(const sl_symbolic *S, sl_int up, const sl_int *rows,
                 const sl_int *local, sl_int count) {
   const sl_int first = S->super_first[up], width = S->super_first[up + 1] - first;
@@ -21137,9 +19533,6 @@ static int sli_check_relative(const sl_symbolic *S, sl_int up, const sl_int *row
   return 1;
 }
 
-/* Do the row lists, the panels and the steps agree, and is every front contained in its parent's?
- * Reads the rows of a parent, which may come later, only where their number is known to be right:
- * rows_begin is checked before. */
 static int sli_check_front(const sl_symbolic *S, sl_int s) {
   const sl_int first = S->super_first[s], end = S->super_first[s + 1], up = S->super_parent[s];
   const sl_int *rows = S->rows + S->rows_begin[s];
@@ -21185,12 +19578,10 @@ static int sli_check_structure(const sl_symbolic *S) {
   return tallest == S->tallest && widest == S->widest;
 }
 
-/* Do the entries of A that belong to a panel of this width and height go to entries of L, with
- * ascending rows? */
 static int sli_check_scatter_panel(const sl_symbolic *S, sl_int s, sl_int width, sl_int height) {
   const uint64_t size = (uint64_t)(S->panel_begin[s + 1] - S->panel_begin[s]);
   const uint32_t n_from = (uint32_t)S->nnz_input;
-  uint64_t begin = 0, end = (uint64_t)sli_tile_offset(width, 1); /* of the tile */
+  uint64_t begin = 0, end = (uint64_t)sli_tile_offset(width, 1);
   uint32_t tile = 0, last = 0;
   int wrong = 0;
   sl_off m;
@@ -21214,8 +19605,6 @@ static int sli_check_scatter_panel(const sl_symbolic *S, sl_int s, sl_int width,
   return !wrong;
 }
 
-/* Does the scatter map go from entries of A to entries of L, with the rows of each supernode
- * ascending? */
 static int sli_check_scatter(const sl_symbolic *S) {
   sl_int s;
   if (S->scatter_begin[0] != 0) {
@@ -21251,7 +19640,6 @@ static int sli_check_nodes(const sl_symbolic *S) {
   return 1;
 }
 
-/* Are the 2x2 pivots two columns of one supernode and of one tile? */
 static int sli_check_pairs(const sl_symbolic *S) {
   sl_int k, count = 0;
   for (k = 0; k < S->n && S->n_pairs > 0; k++) {
@@ -21281,7 +19669,6 @@ static int sli_check_analysis(const sl_symbolic *S, const sli_saved_analysis *a)
   return sli_hash_equals(same.identity, S->identity);
 }
 
-/* Are these ascending columns? */
 static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
   sl_off k;
   for (k = 0; k < count; k++) {
@@ -21292,7 +19679,6 @@ static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
   return 1;
 }
 
-/* Are the anchors null pivots, at most one in a tree? */
 static int sli_check_anchors(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int k, m = 0, root = -1;
@@ -21318,7 +19704,6 @@ static int sli_check_anchors(const sl_factor *F) {
   return 1;
 }
 
-/* Is what each supernode contributes to pivot growth that of one of its pivots? */
 static int sli_check_extents(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int s;
@@ -21334,7 +19719,6 @@ static int sli_check_extents(const sl_factor *F) {
   return 1;
 }
 
-/* Are the blocks of 2x2 pivots finite, and 0 elsewhere? */
 static int sli_check_blocks(const sl_factor *F) {
   sl_int k;
   for (k = 0; k < F->S->n && F->E != NULL; k++) {
@@ -21345,8 +19729,6 @@ static int sli_check_blocks(const sl_factor *F) {
   return 1;
 }
 
-/* Do the pivots have the counted signs, and is each null or regularized one listed? 2x2 pivots have
- * any signs: those of their eigenvalues depend on rounding if one is almost 0. */
 static int sli_check_factor(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   const sl_int n = F->S->n;
@@ -21457,7 +19839,6 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   return g;
 }
 
-/* Where bytes go: memory or a file. */
 typedef struct sli_sink {
   unsigned char *memory;
   FILE *file;
@@ -21476,8 +19857,6 @@ static void sli_put(sli_sink *to, const void *data, size_t bytes) {
   }
 }
 
-/* Writes `bytes` bytes, of which `used` are data and the others 0. If to is NULL, adds them to a
- * checksum instead. */
 static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, uint64_t used,
                uint64_t bytes) {
   static const unsigned char zeros[1024] = {0};
@@ -21499,7 +19878,6 @@ static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, ui
   }
 }
 
-/* Checks the arguments of a save and fills in everything but the checksums. */
 static sl_status sli_save_prepare(sli_saved *f, const sl_symbolic *S, const sl_factor *F) {
   sl_factor none;
   memset(f, 0, sizeof *f);
@@ -21523,7 +19901,6 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_symbolic *S, const sl_f
          : SL_ERR_TOO_LARGE;
 }
 
-/* Computes the checksums, then writes everything. */
 static void sli_save_write(sli_saved *f, sli_sink *to) {
   unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
   const size_t size = (size_t)sli_saved_prefix(f);
@@ -21602,23 +19979,21 @@ SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_f
 
 /* src/impl/save/load.h: creates an analysis and a factor from saved bytes, as copies or in place */
 
-/* Saved objects that are being read, from the first byte to the last. */
 typedef struct sli_reading {
-  const unsigned char *memory; /* all bytes; NULL: they are read from the file */
+  const unsigned char *memory;
   FILE *file;
-  uint64_t size, at; /* bytes in all, and read so far */
-  int is_mapped;     /* the objects use the memory itself */
-  int swapped;       /* the bytes have the other order */
+  uint64_t size, at;
+  int is_mapped;
+  int swapped;
   sl_load_checks checks;
   const sl_options *opt;
   sl_allocator allocator;
-  sli_saved saved; /* with the table that was read */
-  sl_symbolic S;   /* drafts of the objects */
+  sli_saved saved;
+  sl_symbolic S;
   sl_factor F;
   int has_factor;
 } sli_reading;
 
-/* Copies the next bytes. */
 static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
   if (bytes > r->size - r->at) {
     return SL_ERR_IO;
@@ -21632,7 +20007,6 @@ static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
   return SL_OK;
 }
 
-/* Reads and verifies the header and the table. */
 static sl_status sli_read_table(sli_reading *r) {
   unsigned char prefix[sizeof(sli_saved_header) + SLI_SECTIONS_MAX * sizeof(sli_section)];
   sli_saved_header *h = &r->saved.header;
@@ -21660,8 +20034,6 @@ static sl_status sli_read_table(sli_reading *r) {
   return SL_OK;
 }
 
-/* Is the table the one that objects of these sizes have? All sections follow each other. Those of
- * a later version come last. */
 static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) {
   const uint32_t known = expected->header.sections;
   uint64_t at = sli_saved_prefix(f);
@@ -21684,8 +20056,6 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) 
   return at == f->header.bytes;
 }
 
-/* Checks the checksum of section k if `always` or if all are requested, and gives its words the
- * byte order of this processor. */
 static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
   const sli_section *section = &r->saved.table[k];
   if (always || r->checks == SL_LOAD_VERIFIED) {
@@ -21701,7 +20071,6 @@ static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int al
   return 1;
 }
 
-/* Reads the numbers of an object, section k. They are few, and always verified. */
 static sl_status sli_read_numbers(sli_reading *r, sl_int k, void *numbers, size_t bytes) {
   const sli_section *section = &r->saved.table[k];
   sl_status status = SL_ERR_IO;
@@ -21711,8 +20080,6 @@ static sl_status sli_read_numbers(sli_reading *r, sl_int k, void *numbers, size_
   return status == SL_OK && !sli_section_accept(r, k, numbers, 1) ? SL_ERR_IO : status;
 }
 
-/* Reads everything before the arrays: afterwards all sizes are known, and each array is inside the
- * file. */
 static sl_status sli_read_front(sli_reading *r) {
   sli_saved expected, *f = &r->saved;
   sl_status status = sli_read_table(r);
@@ -21742,15 +20109,13 @@ static sl_status sli_read_front(sli_reading *r) {
   return SL_OK;
 }
 
-/* The arrays of one object: sections first .. last-1, contiguous in the file and in memory. */
 typedef struct sli_image {
   sl_int first, last;
-  size_t head, bytes;   /* of the object's struct, and of the arrays */
-  unsigned char *block; /* the struct, and the arrays unless they are mapped */
+  size_t head, bytes;
+  unsigned char *block;
   unsigned char *arrays;
 } sli_image;
 
-/* Allocates an object and reads its arrays, or finds them in the mapped memory. */
 static sl_status sli_read_image(sli_reading *r, sli_image *m) {
   sl_status status = SL_OK;
   sl_int k;
@@ -21777,7 +20142,6 @@ static sl_status sli_read_image(sli_reading *r, sli_image *m) {
   return status;
 }
 
-/* Creates the analysis. */
 static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   const sli_saved_analysis *a = &r->saved.analysis;
   sl_symbolic *S = &r->S;
@@ -21813,7 +20177,6 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   return SL_OK;
 }
 
-/* Creates the factor over an analysis. */
 static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor **out) {
   const sli_saved_factor *g = &r->saved.factor;
   sl_factor *F = &r->F;
@@ -21850,7 +20213,6 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   return SL_OK;
 }
 
-/* Reads both objects. */
 static sl_status sli_read(sli_reading *r, sl_symbolic **S, sl_factor **F) {
   sl_symbolic *found = NULL;
   sl_status status = sli_read_front(r);
@@ -21869,7 +20231,6 @@ static sl_status sli_read(sli_reading *r, sl_symbolic **S, sl_factor **F) {
   return status;
 }
 
-/* Checks the arguments that all calls have, and begins. */
 static sl_status sli_read_begin(sli_reading *r, sl_symbolic **S, sl_factor **F,
                 sl_load_checks checks, const sl_options *opt) {
   memset(r, 0, sizeof *r);
@@ -21958,19 +20319,18 @@ SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
 /* batch: many solves, factors and diagonals by one call */
 /* src/impl/batch/batch_solve.h: many independent solves, shared among workers by the entries of L they read */
 
-/* One call. */
 typedef struct sli_solve_batch {
-  const sl_factor *F; /* of requests without a factor */
+  const sl_factor *F;
   const sl_request *requests;
   sl_int count, workers;
-  sli_layout layout;     /* of every X and B */
-  sl_off blocks;         /* of up to 8 right-hand sides */
-  double total;          /* entries of L that all blocks read */
-  sl_work *const *works; /* one per worker; NULL: memory is used */
-  unsigned char *memory; /* `bytes` per worker */
+  sli_layout layout;
+  sl_off blocks;
+  double total;
+  sl_work *const *works;
+  unsigned char *memory;
   size_t bytes;
-  int checks;      /* 1: some factor requires consistent right-hand sides */
-  int only_checks; /* 1: this pass checks the right-hand sides and writes no X */
+  int checks;
+  int only_checks;
 } sli_solve_batch;
 
 SLI_INLINE const sl_factor *sli_request_factor(const sli_solve_batch *b, const sl_request *r) {
@@ -21981,25 +20341,20 @@ static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
   return r->plan == NULL ? sli_query_all(F->S) : r->plan->query;
 }
 
-/* The weight of a block of 8 right-hand sides: the entries that it reads, and 1 for the call. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
   return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
        (double)q->boundary.entries;
 }
 
-/* Right-hand sides of a request that begin before a point of the batch, given by weight; `before`
- * is the weight of the requests before this one. Only whole blocks of 8 are counted. */
 static sl_int sli_blocks_before(double point, double before, double weight, sl_int nrhs) {
   const double blocks = ceil((point - before) / weight);
   return blocks <= 0.0 ? 0 : blocks * 8.0 >= nrhs ? nrhs : (sl_int)blocks * 8;
 }
 
-/* The scratch of worker k. */
 static void *sli_solve_batch_memory(const sli_solve_batch *b, sl_int k) {
   return b->works != NULL ? b->works[k]->block : b->memory + (size_t)k * b->bytes;
 }
 
-/* Solves for the right-hand sides first .. last-1 of a request, or only checks them. */
 static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_request *r,
                      const sli_query *q, sl_int first, sl_int last,
                      void *memory) {
@@ -22013,8 +20368,6 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
               memory);
 }
 
-/* Worker k solves an equal share of the weight. When checking, it leaves the first request that
- * failed, or -1, in its scratch. */
 static void sli_solve_batch_worker(void *data, sl_int k) {
   const sli_solve_batch *b = (const sli_solve_batch *)data;
   const double from = b->total * k / b->workers, to = b->total * (k + 1) / b->workers;
@@ -22040,23 +20393,19 @@ static void sli_solve_batch_worker(void *data, sl_int k) {
   }
 }
 
-/* Checks that every right-hand side is consistent; *at: the first request with one that is not, or
- * -1. */
 static sl_status sli_solve_batch_consistent(sli_solve_batch *b, const sl_threads *threads,
                       sl_int *at) {
   sl_int k, failed;
   b->only_checks = 1;
   sli_parallel(threads, b->workers, sli_solve_batch_worker, b);
   b->only_checks = 0;
-  for (k = 0; k < b->workers && *at == -1; k++) { /* later workers have later requests */
+  for (k = 0; k < b->workers && *at == -1; k++) {
     memcpy(&failed, sli_solve_batch_memory(b, k), sizeof failed);
     *at = failed;
   }
   return *at == -1 ? SL_OK : SL_ERR_INCONSISTENT;
 }
 
-/* Checks every request, sums the weights, and finds the size of the scratch; *at: the request at
- * fault, or -1. */
 static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
   for (*at = 0; *at < b->count; ++*at) {
     const sl_request *r = &b->requests[*at];
@@ -22086,7 +20435,6 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
   return SL_OK;
 }
 
-/* Refuses missing workspaces and one that is given twice. */
 static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
   sl_int k, other;
   for (k = 0; k < workers; k++) {
@@ -22102,8 +20450,6 @@ static sl_status sli_check_works(sl_work *const *works, sl_int workers) {
   return SL_OK;
 }
 
-/* Reserves scratch for every worker: in the caller's workspaces, or in one block from `a` that the
- * caller of this function frees. */
 static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *works,
                      const sl_allocator *a) {
   sli_block block = {NULL, 0, 0};
@@ -22182,19 +20528,16 @@ SL_API sl_status sl_batch_solve_interleaved(const sl_factor *F, const sl_request
 
 /* src/impl/batch/batch_factor.h: factors several matrices of one analysis; a worker takes whole factors */
 
-/* One call. Factor k has the coefficients from k * source.terms on. */
 typedef struct sli_factor_batch {
-  sl_factor *const *factors; /* count; NULL: could not be created */
+  sl_factor *const *factors;
   sl_int count, workers;
-  sli_source source; /* of the first factor */
+  sli_source source;
 } sli_factor_batch;
 
-/* Is factor k one that uses no threads inside? */
 SLI_INLINE int sli_factor_batch_is_serial(const sli_factor_batch *f, sl_int k) {
   return f->factors[k] != NULL && f->factors[k]->schedule.workers == 1;
 }
 
-/* Computes the numbers of factor k. */
 static void sli_factor_batch_compute(const sli_factor_batch *f, sl_int k) {
   sli_source source = f->source;
   if (source.terms > 0) {
@@ -22204,7 +20547,6 @@ static void sli_factor_batch_compute(const sli_factor_batch *f, sl_int k) {
   (void)sli_factor_numbers(f->factors[k], &source, sli_seconds(), NULL);
 }
 
-/* Worker w computes every workers-th of the serial factors. All factors cost the same. */
 static void sli_factor_batch_worker(void *data, sl_int w) {
   const sli_factor_batch *f = (const sli_factor_batch *)data;
   sl_int k, turn = 0;
@@ -22215,8 +20557,6 @@ static void sli_factor_batch_worker(void *data, sl_int w) {
   }
 }
 
-/* Computes all numbers: first the serial factors, many at a time, then those with threads one by
- * one. Returns the index of the first that failed, or count. */
 static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *threads) {
   sl_int k, n_serial = 0;
   for (k = 0; k < f->count; k++) {
@@ -22234,8 +20574,6 @@ static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *thread
   return k;
 }
 
-/* Fills the factor group from the first factor that failed, or from the last one. Times and bytes
- * are sums over all factors. */
 static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double started,
                    sl_stats *stats) {
   const sl_factor *F = f->count == 0 ? NULL : f->factors[sli_min(at, f->count - 1)];
@@ -22255,9 +20593,6 @@ static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double 
   }
 }
 
-/* Creates the factors, on the calling thread. The factors of whole rounds of `workers` are serial;
- * the remaining ones have the threads of the options. Returns the index of the first that failed,
- * or count. */
 static sl_int sli_factor_batch_create(sl_factor **out, sl_int count, const sl_symbolic *S,
                     const sl_options *opt, sl_status *status, sl_stats *stats) {
   const sl_threads no_threads = {0, NULL, NULL};
@@ -22324,7 +20659,6 @@ SL_API sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symboli
   return status;
 }
 
-/* Can the factors be refactored together? *at: the one at fault; -1 for none or all. */
 static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count, sl_int *at) {
   sl_int k, other;
   for (k = 0; k < count; k++) {
@@ -22346,7 +20680,6 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
   return SL_OK;
 }
 
-/* Gives loaded factors their scratch. *at: the one at fault; -1 for none. */
 static sl_status sli_factor_batch_prepare(sl_factor *const *factors, sl_int count, sl_int *at) {
   sl_status status = SL_OK;
   sl_int k;
@@ -22396,19 +20729,17 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
 
 /* src/impl/batch/batch_diagonal.h: diagonals of the inverses of several factors; a worker takes whole factors */
 
-/* One call. */
 typedef struct sli_diagonal_batch {
   const sl_factor *const *factors;
   sl_int count, workers;
-  double *out; /* n_rows x count */
+  double *out;
   size_t ldo;
-  const sl_int *rows; /* NULL: all n_rows */
+  const sl_int *rows;
   sl_int n_rows;
   sl_threads serial;
-  sl_work *const *works; /* one per worker, with room for every factor */
+  sl_work *const *works;
 } sli_diagonal_batch;
 
-/* The request for factor k. With several workers, none of them uses threads inside. */
 static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_int k) {
   sli_entries q =
     sli_entries_of(d->factors[k], d->out + (size_t)k * d->ldo, d->rows, d->rows, d->n_rows);
@@ -22416,20 +20747,17 @@ static sli_entries sli_diagonal_batch_entries(const sli_diagonal_batch *d, sl_in
   return q;
 }
 
-/* Worker w computes every workers-th diagonal. */
 static void sli_diagonal_batch_worker(void *data, sl_int w) {
   const sli_diagonal_batch *d = (const sli_diagonal_batch *)data;
   sl_int k;
   for (k = w; k < d->count; k += d->workers) {
     sli_entries q = sli_diagonal_batch_entries(d, k);
     const sl_status status = sli_entries_run(&q, d->works[w], NULL);
-    /* everything that can fail has been tried by sli_diagonal_batch_reserve */
     SLI_ASSERT(status == SL_OK);
     (void)status;
   }
 }
 
-/* Checks every factor and the rows; *at: the factor at fault, or -1. */
 static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *at,
                       sl_stats *stats) {
   for (*at = 0; *at < d->count; ++*at) {
@@ -22448,14 +20776,12 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
   return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
 }
 
-/* Grows every workspace to what any of the factors needs: that depends on the rows and on the
- * instruction set. */
 static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
   sl_status status = SL_OK;
   sl_int k;
   for (k = 0; k < d->count && status == SL_OK; k++) {
     if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels ||
-      d->workers == 1) { /* one worker: a factor's own threads count */
+      d->workers == 1) {
       sli_entries q = sli_diagonal_batch_entries(d, k);
       status = sli_entries_prepare(&q, d->works[0]);
     }
@@ -22466,7 +20792,6 @@ static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
   return status;
 }
 
-/* Reserves and runs, with workspaces for this call if the caller has passed none. */
 static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads *threads) {
   const sl_allocator *a = &d->factors[0]->allocator;
   sl_work *own = NULL, **works = NULL;
@@ -22682,10 +21007,6 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #endif
 /* src/impl/kernels/multi_rhs.inl.h: sweeps for 2, 4 or 8 right-hand sides, vectorized over right-hand sides */
 
-/* SLW_EACH(op, k) is op(0, k) op(1, k) .. over the SLW_ROWS rows that are kept in registers,
- * SLW_HIGH and SLW_LOW are its halves in descending order. a0, a1, .. are the accumulators of these
- * rows, b and c are one more row each. A macro does not expand inside itself; SLW_EACH_AGAIN is a
- * copy of SLW_EACH for that. */
 #if SLW_ROWS == 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
@@ -22701,10 +21022,9 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_NRHS)
 #define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_NRHS, a##r)
-#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* Inside the diagonal block: column k updates the rows below it, row k the columns before it. */
 #define SLI_DOWN(r, k) \
   if ((r) > (k)) { \
     SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k) \
@@ -22720,9 +21040,6 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
 #if SLW_ROWS == 8
-/* A supernode of 1 to 8 columns. The width is a compile-time constant, as in small_supernode.inl.h.
- * The rows of its columns stay in registers; the rows below are read one after another. The
- * distance between rows of x is `stride`. */
 #define SLI_LOAD_OWN(k, p) \
   if ((k) < w) { \
     SLW_LOAD(a##k, (p) + (k)*stride) \
@@ -22757,7 +21074,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
   SLW_EACH(SLI_LOAD_OWN, xs)
   SLW_EACH(SLI_COLUMN_OWN, 0)
   SLW_EACH(SLI_STORE_OWN, xs)
-  for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+  for (i = 0; i < below; lane++, i++) {
     double *to = x + (ptrdiff_t)rows[i] * stride;
     if (lane == SLI_TILE) {
       lane = 0;
@@ -22786,7 +21103,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
     SLW_ADD(a##k, b) \
   }
 
-/* l: the last tile of the panel */
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_int stride,
                                sl_int below, const sl_int *rows,
                                const double *l, const double *d,
@@ -22797,7 +21113,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
   SLW_EACH(SLI_ZERO_OWN, 0)
   SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
   SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
-  for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+  for (; i >= 0; lane--, i--) {
     if (lane < 0) {
       lane = SLI_TILE - 1;
       l -= SLI_TILE * w;
@@ -22846,7 +21162,6 @@ SLV_FUNCTION static void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_in
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 #elif defined(SLW_HALF)
-/* 8 rows do not fit in the registers: first one half of the right-hand sides, then the other. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_small)(sl_int w, sl_int stride, sl_int below,
                            const sl_int *rows, const double *l,
                            double *xs, double *x) {
@@ -22865,8 +21180,6 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_small)(sl_int w, sl_int stride, s
 }
 #endif
 
-/* Copies SLW_ROWS rows to buf where not all of them are columns of the supernode: `inner` rows of
- * its columns, then `below` rows below, then zeros. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
                          const sl_int *rows, const double *own,
                          const double *x) {
@@ -22883,7 +21196,6 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int
   }
 }
 
-/* Copies the rows back from buf. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
                         const sl_int *rows, double *own, double *x) {
   sl_int r;
@@ -22896,8 +21208,6 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   }
 }
 
-/* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
- * the triangle of the diagonal tile. Rows below are updated in x in place. */
 SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                        const double *L, double *x, double *buf) {
   for (; count > 0; rows += s->below, count--, s++) {
@@ -22943,8 +21253,6 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
   }
 }
 
-/* Row tiles from the last to the first, SLW_ROWS rows at a time. Once the rows are final,
- * x(j) -= L(rows, j)' x(rows) for the columns j before them. */
 SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
                       const double *L, const double *D, double *x,
                       double *buf) {
@@ -23009,7 +21317,6 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
 }
 
 #if SLW_NRHS == 8
-/* Computes SLW_ROWS rows of sums at a time; see sli_products_kernel. */
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                       double *sums) {
   sl_int row, k;
@@ -23056,18 +21363,11 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #endif
 /* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except multi_rhs.inl.h, and their table */
 
-/* The last template of an instruction set: it undefines the SIMD vocabulary. */
-
 /* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
 
-/* In scalars: 28 FMAs; the longest chain of dependent ones has 7. */
+#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);
+#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j);
 
-#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);  /* r(k) -= L(k, j) r(j) */
-#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j); /* r(j) -= L(k, j) r(k) */
-
-/* clang-format off */
-
-/* r := L^-1 r. l: diagonal part of the tile, 8 x 8, column-major. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
   double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
   SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
@@ -23080,7 +21380,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
   r[1] = r1, r[2] = r2, r[3] = r3, r[4] = r4, r[5] = r5, r[6] = r6, r[7] = r7;
 }
 
-/* r := L'^-1 r */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
   double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
   SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
@@ -23093,16 +21392,12 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
   r[0] = r0, r[1] = r1, r[2] = r2, r[3] = r3, r[4] = r4, r[5] = r5, r[6] = r6;
 }
 
-/* clang-format on */
-
 #undef SLI_X
 #undef SLI_XT
 /* end of unit_triangle.inl.h */
-#if defined(SLV_PAIR) /* else multi_rhs.inl.h has the kernels for two right-hand sides */
+#if defined(SLV_PAIR)
 /* src/impl/kernels/two_rhs.inl.h: sweeps for two right-hand sides, vectorized over the 8 rows of a tile */
 
-/* y(rows) -= L(rows, j) y(j) for 8 rows of two values each. Vector e0 has the first 4 rows, e1 the
- * last 4. Each entry of L is loaded once and duplicated. */
 #define SLI_PAIR_AXPY(e, l, p) \
   SLV_DUP_LOW(t0, l) \
   SLV_DUP_HIGH(t1, l) \
@@ -23110,8 +21405,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
   SLV_FNMA(e##0, t0, b) \
   SLV_FNMA(e##1, t1, b)
 
-/* Solves with the full diagonal tile at l, for each right-hand side separately, by the function for
- * one right-hand side. */
 #define SLI_PAIR_TILE(solve, l, p) \
   { \
     double r[2][SLI_TILE]; \
@@ -23154,7 +21447,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
       SLV_ZERO(f0)
       SLV_ZERO(f1)
       for (j = first; j + 2 <= final;
-         j += 2, l += 2 * SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+         j += 2, l += 2 * SLI_TILE) {
         SLI_PAIR_AXPY(e, l, buf + 2 * (ptrdiff_t)j)
         SLI_PAIR_AXPY(f, l + SLI_TILE, buf + 2 * (ptrdiff_t)j + 2)
       }
@@ -23169,7 +21462,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
       if (inner == SLI_TILE) {
         SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
       } else {
-        for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile */
+        for (k = 0; k < inner; k++, l += SLI_TILE) {
           SLI_PAIR_AXPY(e, l, p + 2 * k)
           SLV_STORE(p, e0)
           SLV_STORE(p + SLI_TILE, e1)
@@ -23187,8 +21480,6 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
   }
 }
 
-/* a -= L(rows, j)' x(rows) over the 8 rows of a tile. Vector a has 4 partial sums for each of the
- * two right-hand sides. */
 #define SLI_PAIR_DOT(a, l) \
   SLV_DUP_LOW(t0, l) \
   SLV_DUP_HIGH(t1, l) \
@@ -23226,7 +21517,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
       const double *l;
       tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
       l = tile + SLI_TILE * (ptrdiff_t)row;
-      SLV_LOAD(v0, p) /* 0 on the columns: only the rows below count here */
+      SLV_LOAD(v0, p)
       SLV_LOAD(v1, p + SLI_TILE)
       for (k = 0; k < inner; k++) {
         double part[SLI_TILE];
@@ -23243,7 +21534,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
       if (inner == SLI_TILE) {
         SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
       } else {
-        for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+        for (k = inner - 1; k > 0; k--) {
           for (j = 0; j < k; j++) {
             const double lkj = l[SLI_TILE * j + k];
             p[2 * j] = SLV_FNMA1(lkj, p[2 * k], p[2 * j]);
@@ -23254,7 +21545,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
       SLV_LOAD(v0, p)
       SLV_LOAD(v1, p + SLI_TILE)
       l = tile + SLI_TILE * (ptrdiff_t)sli_min(row, w);
-      for (j = sli_min(row, w) - 1; j >= first; j--) { /* x(j) -= L(rows, j)' x(rows) */
+      for (j = sli_min(row, w) - 1; j >= first; j--) {
         l -= SLI_TILE;
         SLV_LOAD(a, sums + SLI_TILE * (ptrdiff_t)j)
         SLI_PAIR_DOT(a, l)
@@ -23273,8 +21564,6 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
 #endif
 /* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
-/* A block of C in registers has SLV_COLUMNS columns of SLV_TILES row tiles. Columns after the last
- * of C are computed and discarded, as B always has the 8 rows of a tile. */
 #define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
 #define SLI_LOAD(k, t) \
   if ((k) < columns) { \
@@ -23286,15 +21575,13 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
   if ((k) < columns) { \
     SLV_STORE(C##t + SLI_TILE * (k), c##t##k) \
   }
-#define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
+#define SLI_UPDATE(k, unused)  \
   SLV_BROADCAST(b, B + (k)) \
   SLV_FNMA(c0##k, a0, b)
 #define SLI_UPDATE2(k, unused) \
   SLI_UPDATE(k, unused) \
   SLV_FNMA(c1##k, a1, b)
 
-/* One row tile. A: [length][8]; B: [length][8], from the first column of the block on;
- * C: [columns][8]. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
                         double *C0, sl_int columns) {
   sl_int j;
@@ -23310,7 +21597,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, 
 }
 
 #if SLV_TILES == 2
-/* Two row tiles. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
                         sl_int length, double *C0, double *C1,
                         sl_int columns) {
@@ -23338,7 +21624,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1,
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 
-/* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
                       double *B) {
   sl_int j;
@@ -23352,12 +21637,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
   }
 }
 
-/* Subtracts L D L' over columns j0 .. j1-1 of the panel from the tiles (t, c) of the lower
- * triangle, t0 <= t < t1, c0 <= c < c1, t0 >= c0. Tile (t, c) of the target is at
- * sli_tile_offset(target_width, t - target_first) + 64 (c - target_first). Columns j are taken in
- * chunks, so that the part of a row tile stays in the first cache and that of the group of column
- * tiles in the second. E: D(j+1, j), or NULL if D is diagonal. B: scratch, sli_front_scratch
- * doubles. */
 SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
                        const double *E, sl_int t0, sl_int t1, sl_int c0,
                        sl_int c1, sl_int j0, sl_int j1, double *target,
@@ -23401,7 +21680,6 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 #if SLV_TILES == 2
       t += is_pair;
       if (is_pair && c == t && c < c1) {
-        /* the second row tile of the pair has one tile more, on the diagonal */
         const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
         SLV_NAME(block1)
         (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
@@ -23414,8 +21692,6 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
 /* end of product.inl.h */
 /* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
-/* l(rows, k) = x(rows, k) / d(k); multiplies by 1/d where every |d| of the tile is in
- * 1e-290 .. 1e290, so that 1/d neither overflows nor underflows */
 #define SLI_SCALE(l, x, k) \
   if (by_reciprocal) { \
     SLV_BROADCAST(b, reciprocal + (k)) \
@@ -23425,7 +21701,6 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
     SLV_DIVIDE(l, x, b) \
   }
 
-/* magnitude(rows) += |l d l|, with x = l d and minus_sign = -sign(d) */
 #define SLI_GAIN(l, x, k) \
   SLV_BROADCAST(b, minus_sign + (k)) \
   SLV_MULTIPLY(b, l, b) \
@@ -23439,9 +21714,6 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
     SLV_ZERO(a##k) \
   }
 
-/* Column k of the diagonal tile: determines the pivot, then subtracts l(rows) x(column) from the
- * columns after it. Divides by d: the reciprocal would make the chain of dependent operations,
- * which limits the speed here, one operation longer. */
 #define SLI_AFTER(i, k) \
   if ((i) > (k)) { \
     SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
@@ -23470,7 +21742,6 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
     SLI_EACH8_AGAIN(SLI_AFTER, k) \
   }
 
-/* Column k of a tile below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l = x / d. */
 #define SLI_BEFORE(j, k) \
   if ((j) < (k)) { \
     SLV_BROADCAST(b, p + SLI_TILE * (j) + (k)) \
@@ -23484,7 +21755,6 @@ SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const 
     SLV_STORE((q) + SLI_TILE * (k), l) \
   }
 
-/* The pivots of column tile c, 8 or fewer. The columns before it are already applied. */
 SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
   const sl_int column = f->column + first;
@@ -23504,7 +21774,7 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c, dou
   SLI_EACH8(SLI_LOAD, p)
   SLI_EACH8(SLI_PIVOT, p)
   SLV_STORE(sums, m)
-  for (t = columns; t < SLI_TILE; t++) { /* rows below that are in the last tile of pivots */
+  for (t = columns; t < SLI_TILE; t++) {
     magnitude[t] = sums[t];
   }
   if (!safe) {
@@ -23512,7 +21782,6 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c, dou
   }
 }
 
-/* L in column tile c of row tiles t0 .. t1-1, all below its pivots. */
 SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
                        const double *reciprocals) {
   const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
@@ -23548,7 +21817,6 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* Applies the columns of the group before tile c to column tile c of row tiles t0 .. t1-1. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
                         sl_int t1, double *B) {
   if (c > c0) {
@@ -23605,9 +21873,6 @@ SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int 
   }
 }
 
-/* Extend-add. Consecutive rows that are in one tile of the child and in one tile of the parent form
- * a run. A run is moved as a whole through all columns, its lanes expanded by a mask. Entries above
- * the diagonal are moved too and never read. */
 SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
                       const sl_int *relative, sl_int columns, sl_int first,
                       sl_int last) {
@@ -23631,7 +21896,7 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
     {
       SLV_EXPAND(mask, lanes, end - row)
       for (i = 0; i < end && i < columns; i++) {
-        const int is_below = relative[i] >= w; /* selects the target without a branch */
+        const int is_below = relative[i] >= w;
         double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
         SLV_EXPAND_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
       }
@@ -23641,7 +21906,6 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
 /* end of front.inl.h */
 /* src/impl/kernels/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
-/* C(rows, k) -= A(rows, j) B(k, j) for one row tile. A and B: [length][8]; C: [columns][8]. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
                        double *C, sl_int columns) {
   sl_int k;
@@ -23655,8 +21919,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
     SLV_STORE((p) + SLI_TILE * (k), a) \
   }
 
-/* Clears the first columns of a tile. Not a loop: compilers turn one into rep stos, and the next
- * reads of the tile wait for that. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
   SLV_DECLARE(a)
   SLV_ZERO(a)
@@ -23667,9 +21929,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
 
 #define SLI_OFFSET(k) offset[k]
 
-/* Copies Z of the rows below from the front of the parent: row and column i are row and column
- * relative[i] there. Lanes that belong to no row below get a copy of a neighbor, which is never
- * read. */
 SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const double *from,
                       sl_int height, const sl_int *relative, sl_int t0,
                       sl_int t1) {
@@ -23706,7 +21965,6 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
     SLI_EACH8_AGAIN(SLI_BEFORE, k) \
   }
 
-/* x := x L'^-1 for the 8 x 8 unit triangle at l: x(rows, k) -= x(rows, j) L(k, j) for j < k. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x, sl_int columns) {
   SLV_DECLARE(b)
   SLI_EACH8(SLI_DECLARE, 0)
@@ -23721,8 +21979,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x
 #undef SLI_BEFORE
 #undef SLI_SOLVE
 
-/* N = -L_JJ'^-1 and P = -N D^-1 for the group of m columns from j0 on: row tiles c0 .. c1-1, row
- * tile c from column 8c on. Rows after the last are 0. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
                             sl_int c0, sl_int c1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
@@ -23740,7 +21996,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f
       for (k = 0; k < columns && t == c; k++) {
         x[SLI_TILE * k + k] = -1.0;
       }
-      if (t > c) { /* N(c, t) -= N(c, c..t-1) L(t, c..t-1)' */
+      if (t > c) {
         SLV_NAME(block)
         (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
          columns);
@@ -23759,7 +22015,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f
   }
 }
 
-/* W' = (L_SJ L_JJ^-1)' for row tiles t0 .. t1-1 of the panel: [column tile][row][8 columns]. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f, sl_int j0,
                            sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
@@ -23779,7 +22034,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f,
   }
 }
 
-/* Z_SJ = -Z_SS W for row tiles t0 .. t1-1, SLI_CHUNK_COLUMNS columns of Z_SS at a time. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
                            sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
@@ -23819,8 +22073,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f,
   }
 }
 
-/* Copies the first lanes of columns first .. last-1 from one tile to another. The other lanes are
- * rows below, which are perhaps not computed yet: they are neither read nor written. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
                        sl_int first, sl_int last) {
   sl_int k, i;
@@ -23837,7 +22089,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_
   }
 }
 
-/* Transposes a tile: its lanes first .. last-1 become columns, its first columns become lanes. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
                         double *to, sl_int columns) {
   if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
@@ -23849,7 +22100,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, 
   }
 }
 
-/* Z_JS = Z_SJ' for row tiles t0 .. t1-1 of Z_SJ. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
                           sl_int t0, sl_int t1) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
@@ -23867,8 +22117,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, 
   }
 }
 
-/* Z_JJ = L_JJ'^-1 D^-1 L_JJ^-1 - W' Z_SJ: the lower tiles of row tiles t0 .. t1-1 of the group, and
- * their transposes. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, sl_int j0,
                           sl_int t0, sl_int t1, double *scratch) {
   const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
@@ -23893,7 +22141,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, 
         SLV_NAME(block)
         (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
       }
-      /* after the last row of a root the lanes are 0, for the groups before this one */
       SLV_NAME(merge)
       (row + tile_size * (ptrdiff_t)c, x, f->below == 0 ? SLI_TILE : rows, 0, columns);
       if (c < t) {
@@ -23926,8 +22173,6 @@ SLV_FUNCTION static void SLV_NAME(inverse_phase)(const sli_inverse_front *f, sl_
   }
 }
 
-/* Groups of columns from the last to the first. The columns after a group count as rows below it.
- * The data of a group fit in the caches for any width. */
 SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double *scratch) {
   sl_int j0;
   for (j0 = sli_inverse_last_group(f); j0 + SLI_INVERSE_COLUMNS > f->first;
@@ -23946,22 +22191,16 @@ SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double 
 /* end of inverse_front.inl.h */
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
-/* Most supernodes of a 2D mesh are this small. They do not spend their time reading L but on loops
- * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
- * the width is a constant in each of 8 copies: there are no loops over columns, y or the sums of
- * all columns stay in registers, and x is gathered directly into registers. */
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
 
-/* The diagonal tile, one column after another; L is stored as 0 on and above its diagonal. */
 #define SLI_COLUMN(k, unused) \
   if ((k) < w) { \
     SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
     SLV_LANE(y##k, a, k) \
     SLV_DOT(a, l + SLI_TILE * (k), y##k) \
   }
-/* A tile below: even and odd columns have a sum each, two independent chains of FMAs. */
 #define SLI_EVEN_ODD(k, unused) \
   if ((k) < w) { \
     SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
@@ -23985,7 +22224,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_i
   for (i = 0; i < w; i++) {
     xs[i] = buf[i];
   }
-  for (row = SLI_TILE; row < w + below; row += SLI_TILE) { /* y(rows) -= L(rows, j) y(j) */
+  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
     l += SLI_TILE * w;
     SLV_ZERO(a)
     SLV_ZERO(b)
@@ -24005,7 +22244,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_i
   }
 }
 
-/* x(j) -= L(rows, j)' x(rows), from the last column to the first: L is read backward in memory. */
 #define SLI_DOT(k) \
   if ((k) < w) { \
     SLI_PREFETCH(l + SLI_TILE * (k), -SLI_PREFETCH_DISTANCE); \
@@ -24013,9 +22251,6 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_i
   }
 #define SLI_DOTS \
   SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
-/* Positions in x of the 8 rows of a tile. PART: the last tile, which has fewer rows; its last
- * position is repeated. OWN: the tile that holds the columns too; their lanes get any valid
- * position. */
 #define SLI_ROW_AT(k) rows[at + (k)]
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
@@ -24025,13 +22260,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_i
     xs[k] = r##k; \
   }
 #define SLI_XT(j, k) \
-  if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */ \
+  if ((j) < (k) && (k) < w) {  \
     r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j); \
   }
 #define SLI_ROW(k) \
   SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
 
-/* l: the end of the panel */
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_backward)(const sl_int w, sl_int below,
                                const sl_int *rows, const double *l,
                                const double *d, double *xs,
@@ -24114,10 +22348,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_small)(sl_int w, sl_int below, co
 /* end of small_supernode.inl.h */
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
-/* buf := L^-1 buf on the first `rows` local rows of a panel, by its columns 8 t0 .. columns-1 in
- * ascending order. tile: tile t0 of the panel. Four partial sums hide the latency of the FMA. The
- * sum to which a column is added depends only on its number, so a sweep that starts at a later tile
- * gives the same bits as a full one that has zeros before it. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
                            sl_int columns, sl_int rows, double *buf) {
   const sl_int first = SLI_TILE * t0;
@@ -24133,7 +22363,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     SLV_ZERO(a1)
     SLV_ZERO(a2)
     SLV_ZERO(a3)
-    for (j = first; j + 4 <= final; j += 4) { /* y(rows) -= L(rows, j) y(j) */
+    for (j = first; j + 4 <= final; j += 4) {
       const double *l = tile + SLI_TILE * j;
       SLV_AXPY(a0, l, buf + j)
       SLV_AXPY(a1, l + 8, buf + j + 1)
@@ -24150,7 +22380,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     if (inner == SLI_TILE) {
       SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
     } else {
-      for (k = 0; k < inner; k++) { /* columns inside the tile */
+      for (k = 0; k < inner; k++) {
         SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
         SLV_STORE(buf + row, a0)
       }
@@ -24184,9 +22414,6 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
   }
 }
 
-/* The backward sweep keeps an accumulator of partial sums for each column:
- * sums(j) -= L(rows, j)' x(rows) for columns j = first .. final-1, over one row tile or over two at
- * once, which saves half of the loads and stores of the sums. */
 #define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_ROW_AT(k) rows[at + (k)]
@@ -24206,7 +22433,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, s
   }
 }
 
-/* Two row tiles: l0 with the 8 rows at x, l1 with the 8 rows after them. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
                        sl_int first, sl_int final, double *sums) {
   ptrdiff_t j;
@@ -24223,8 +22449,6 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1,
   }
 }
 
-/* The diagonal tile, which has `inner` columns: adds up the partial sums of the rows below, adds
- * the right-hand side divided by D, and solves with the triangle. l: diagonal part of the tile. */
 #define SLI_TAKE_SUM(k, unused) \
   if ((k) < inner) { \
     SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
@@ -24242,7 +22466,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
   SLV_DECLARE(z)
   SLI_EACH8(SLI_SUM_DECLARE, a)
   SLV_ZERO(v)
-  if (inner < SLI_TILE) { /* buf is 0 on the columns: only the rows below count here */
+  if (inner < SLI_TILE) {
     SLV_LOAD(v, buf)
   }
   SLI_EACH8(SLI_TAKE_SUM, 0)
@@ -24255,7 +22479,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
   if (inner == SLI_TILE) {
     SLV_NAME(tile_backward)(l, r);
   } else {
-    for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
+    for (k = inner - 1; k > 0; k--) {
       for (j = 0; j < k; j++) {
         r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
       }
@@ -24266,12 +22490,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
   }
 }
 
-/* A sweep of at most so many steps is assumed to find L in a cache, where it is faster to read two
- * row tiles at a time. From main memory the hardware prefetcher keeps up only if the panels are
- * read in strict order. The bits are the same. */
 #define SLI_FEW_STEPS 4096
 
-/* buf: the rows of two tiles, then the sums. */
 SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
                       const double *L, const double *D, double *x,
                       double *buf) {
@@ -24301,7 +22521,7 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
       if (part == SLI_TILE) {
         SLV_GATHER(v, x, SLI_ROW_AT)
         SLV_STORE(buf + SLI_TILE, v)
-      } else if (inner < SLI_TILE) { /* the rows below, zeros elsewhere */
+      } else if (inner < SLI_TILE) {
         SLV_ZERO(v)
         if (part > 0) {
           SLV_GATHER(v, x, SLI_ROW_AT_PART)
@@ -24347,7 +22567,6 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 
-/* See sli_row_kernel. */
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                      const double *D, double *xs, double *x, double *buf,
                      double *pivot, double *magnitude) {
@@ -24355,7 +22574,7 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   double *lq = panel + sli_panel_at(w, q, 0);
   double d = *pivot, size = *magnitude;
   sl_int i;
-  for (i = 0; i < columns; i++) { /* y = row of A minus the updates of descendants */
+  for (i = 0; i < columns; i++) {
     buf[i] = lq[SLI_TILE * i] + xs[i];
     xs[i] = 0.0;
   }
@@ -24366,7 +22585,7 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   for (i = w; i < q; i++) {
     x[rows[i - w]] += buf[i];
   }
-  for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
+  for (i = 0; i < columns; i++) {
     const double l = buf[i] / D[i];
     lq[SLI_TILE * i] = l;
     d = SLV_FNMA1(l, buf[i], d);
@@ -24378,15 +22597,13 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
 /* end of single_rhs.inl.h */
 /* src/impl/kernels/change.inl.h: rank-k change of the rows of a panel, for 1, 2, 4 and 8 vectors */
 
-/* Row tile by row tile: w(r) -= l y(r), then l += sum over r of b(r) w(r). All w(r) need the old l,
- * so that they do not wait for each other. c: y(0) .. y(k-1), -b(0) .. -b(k-1) of each column. */
 #define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
 #define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
 #define SLI_STORE(r, unused) SLV_STORE(w + SLI_TILE * (r), w##r)
-#define SLI_CARRY(r, unused) /* w(i, r) -= l(i, j) y(j, r) */ \
+#define SLI_CARRY(r, unused)  \
   SLV_BROADCAST(s, c + (r)) \
   SLV_FNMA(w##r, a, s)
-#define SLI_CHANGE(r, ranks) /* l(i, j) += w(i, r) b(j, r) */ \
+#define SLI_CHANGE(r, ranks)  \
   SLV_BROADCAST(s, c + (ranks) + (r)) \
   SLV_FNMA(a, w##r, s)
 #define SLI_CHANGE_KERNEL(name, ranks, each) \
@@ -24413,7 +22630,6 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
-/* One vector and four row tiles, whose chains of w overlap. */
 #define SLI_CHANGE(t, unused) \
   SLV_LOAD_PINNED(a, l##t + at) \
   SLV_FNMA(w##t, a, y) \

@@ -20,8 +20,11 @@
  * so that OUT includes itself and each template is in it exactly once. A template that another
  * template includes is expanded in place; it may be included only once.
  *
- * Parts below impl/ are indented by two columns a level instead of four, because a header is read
- * by its users and copied in one piece: that makes OUT smaller by a twentieth.
+ * Parts below impl/ are indented by two columns a level instead of four, and their comments stay
+ * behind, because a header is read by its users and copied in one piece: that makes OUT smaller by
+ * a fifth. Whoever reads the implementation reads it in the folder of the manifest. Two kinds of
+ * comments are kept: the first line of a file, and reasons why no test reaches a line, which
+ * the measurement of coverage reads.
  *
  * The first line of a file, "name.h: what it does", gets the path of the file and so marks where it
  * begins. A template inside another one also has a line where it ends. Includes in angle brackets
@@ -100,6 +103,65 @@ static int read_file(text *t, const char *path) {
     fclose(f);
     if (t->length && t->bytes[t->length - 1] != '\n') append(t, "\n", 1);
     return 1;
+}
+
+/* Copies a string or character literal; returns the position after it. */
+static size_t copy_literal(text *to, const text *from, size_t at) {
+    const char quote = from->bytes[at];
+    size_t end = at + 1;
+    while (end < from->length && from->bytes[end] != quote && from->bytes[end] != '\n')
+        end += from->bytes[end] == '\\' ? 2 : 1;
+    end = end + 1 < from->length ? end + 1 : from->length;
+    append(to, from->bytes + at, end - at);
+    return end;
+}
+
+/* Returns the position after the comment at `at`. Copies it if it is one of those that are kept. */
+static size_t copy_comment(text *to, const text *from, size_t at) {
+    const char *begin = from->bytes + at, *close = strstr(begin, "*/");
+    const char *reason = strstr(begin, "untested: ");
+    if (!close) return from->length;
+    const size_t length = (size_t)(close - begin) + 2, width = strcspn(begin, "\n");
+    if (at == 0 && width < length) {
+        append(to, begin, width);
+        append_string(to, " */");
+    } else if (at == 0 || (reason && reason < close)) {
+        append(to, begin, length);
+    }
+    return at + length;
+}
+
+/* Drops the comments of an implementation's part, except those named at the top of this file, and
+ * the lines that had nothing else. Of the empty lines before and after such a line one is left. */
+static void drop_comments(text *t) {
+    text to = {NULL, 0, 0};
+    size_t line = 0;                     /* where the last line of `to` begins */
+    int has_comment = 0, is_dropped = 0; /* the last line; the line before it */
+    append(&to, "", 0);
+    for (size_t at = 0; at < t->length;) {
+        const char *c = t->bytes + at;
+        if (strncmp(c, "/*", 2) == 0) {
+            at = copy_comment(&to, t, at);
+            has_comment = 1;
+        } else if (*c == '"' || *c == '\'') {
+            at = copy_literal(&to, t, at);
+        } else if (*c != '\n') {
+            append(&to, c, 1);
+            at++;
+        } else {
+            while (has_comment && to.length > line && to.bytes[to.length - 1] == ' ')
+                to.length--;
+            const int is_empty = to.length == line;
+            const int is_second = line < 2 || to.bytes[line - 2] == '\n';
+            is_dropped = is_empty && (has_comment || (is_dropped && is_second));
+            if (!is_dropped) append(&to, "\n", 1);
+            line = to.length;
+            has_comment = 0;
+            at++;
+        }
+    }
+    free(t->bytes);
+    *t = to;
 }
 
 static void copy_path(char *to, const char *from, size_t length) {
@@ -382,6 +444,7 @@ static void expand(job *j, const char *path, int depth) {
     text part = {NULL, 0, 0};
     snprintf(full, sizeof full, "%s%s", j->folder, path);
     if (!read_file(&part, full)) fail(full, 0, "cannot be read", NULL);
+    if (strncmp(path, "impl/", 5) == 0) drop_comments(&part);
     const guard g = find_guard(part.bytes);
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *body = part.bytes;
     if (depth > 0) {
@@ -436,8 +499,8 @@ static size_t banner(text *out, const job *j, const char *name, size_t shift) {
              " * FNV-1a of the lines after this comment, without the license: %08lx%08lx\n",
              (unsigned long)(h >> 32), (unsigned long)(h & 0xffffffffu));
     append_string(out, line);
-    append_string(out, " *\n * Contents\n");
-    lines += 4;
+    append_string(out, " * The comments of the implementation are in src/impl.\n *\n * Contents\n");
+    lines += 5;
     size_t column = 0; /* of the last line, if that lists parts of the implementation */
     for (size_t k = 0; k < j->n_entries; k++) {
         const entry *e = &j->entries[k];
