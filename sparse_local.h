@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 265e999ac58473c2
+ * FNV-1a of the lines after this comment, without the license: 7974a095e2a1ede8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,35 +39,35 @@
  *   5730 graph.h   5879 coarsen.h   6128 labels.h   6322 subgraph.h   6517 heap.h   6577 bisect.h
  *   6807 separator.h   7069 mindeg.h   7252 dissect.h   7566 levelset.h   7681 geometric.h
  *   7871 septree.h   7931 metis.h   8080 metis_refined.h   8194 nd.h   8386 compress.h
- *   8507 quotient.h   8895 order.h
+ *   8507 quotient.h   8921 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9143 symbolic_types.h   9179 etree.h   9252 counts.h   9309 supernodes.h   9531 structure.h
- *   9652 schedule.h   9841 symbolic.h  10204 reach.h
+ *   9169 symbolic_types.h   9205 etree.h   9278 counts.h   9335 supernodes.h   9557 structure.h
+ *   9678 schedule.h   9867 symbolic.h  10230 reach.h
  * (factor: the numbers of L and D)
- *  10475 factor_types.h  10789 pivot_search.h  11135 pivoted.h  11203 scatter.h  11361 uplooking.h
- *  11433 null_vectors.h  11757 multifrontal.h  11992 nullspace.h  12178 growth.h
- *  12252 factor_setup.h  12504 factor.h  12704 leftlooking.h  12879 factor_query.h
- *  13012 combination.h
+ *  10501 factor_types.h  10815 pivot_search.h  11161 pivoted.h  11229 scatter.h  11387 uplooking.h
+ *  11459 null_vectors.h  11783 multifrontal.h  12018 nullspace.h  12204 growth.h
+ *  12278 factor_setup.h  12530 factor.h  12730 leftlooking.h  12905 factor_query.h
+ *  13038 combination.h
  * (solve: full and local solves)
- *  13073 region_types.h  13171 work.h  13268 query.h  13442 singular.h  13657 backward.h
- *  13687 sweep.h  13862 compile.h  14055 plan.h  14162 local.h  14312 parts.h  14599 refine.h
- *  14774 refine_local.h  14989 rcond.h  15146 defects.h
+ *  13099 region_types.h  13197 work.h  13294 query.h  13468 singular.h  13683 backward.h
+ *  13713 sweep.h  13888 compile.h  14081 plan.h  14188 local.h  14338 parts.h  14625 refine.h
+ *  14800 refine_local.h  15015 rcond.h  15172 defects.h
  * (inverse: entries of the inverse, regions)
- *  15200 traversal.h  15442 traversal_run.h  15605 row_sets.h  15632 unit_vectors.h
- *  15858 bilinear.h  16035 entries.h  16316 block.h  16556 reserve.h  16746 selected.h
- *  16950 selected_query.h  17052 region_choose.h  17278 region.h
+ *  15226 traversal.h  15468 traversal_run.h  15631 row_sets.h  15658 unit_vectors.h
+ *  15884 bilinear.h  16061 entries.h  16342 block.h  16582 reserve.h  16772 selected.h
+ *  16976 selected_query.h  17078 region_choose.h  17304 region.h
  * (change: a factor that follows changes of its matrix)
- *  17517 update.h  17866 rank.h  18191 edges.h  18345 choose.h  18532 pins.h
+ *  17543 update.h  17892 rank.h  18217 edges.h  18371 choose.h  18558 pins.h
  * (save: factors in files)
- *  19104 format.h  19305 decode.h  19447 check.h  19779 write.h  19980 load.h
+ *  19130 format.h  19331 decode.h  19473 check.h  19805 write.h  20006 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  20320 batch_solve.h  20529 batch_factor.h  20730 batch_diagonal.h
+ *  20346 batch_solve.h  20555 batch_factor.h  20756 batch_diagonal.h
  * (last: undefine every internal macro)
- *  20870 undef.h
+ *  20896 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  21008 multi_rhs.inl.h  21364 kernel_set.inl.h  21366 unit_triangle.inl.h  21399 two_rhs.inl.h
- *  21565 product.inl.h  21693 front.inl.h  21907 inverse_front.inl.h  22192 small_supernode.inl.h
- *  22349 single_rhs.inl.h  22598 change.inl.h
+ *  21034 multi_rhs.inl.h  21390 kernel_set.inl.h  21392 unit_triangle.inl.h  21425 two_rhs.inl.h
+ *  21591 product.inl.h  21719 front.inl.h  21933 inverse_front.inl.h  22218 small_supernode.inl.h
+ *  22375 single_rhs.inl.h  22624 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8654,6 +8654,12 @@ SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count
   return to;
 }
 
+SLI_INLINE void sli_quotient_absorb(sli_quotient *q, sl_int element, sl_int pivot) {
+  q->mark[element] = 0;
+  q->length[element] = 0;
+  q->into[element] = pivot;
+}
+
 static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
   const sl_int elements = q->elements[pivot];
   sl_int total = 0, k;
@@ -8673,8 +8679,7 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
       const sl_int e = q->list[at + k];
       if (q->mark[e] != 0) {
         to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
-        q->mark[e] = 0;
-        q->length[e] = 0;
+        sli_quotient_absorb(q, e, pivot);
       }
     }
     to = sli_quotient_gather(q, at + elements, q->length[pivot] - elements, to, &total);
@@ -8723,8 +8728,7 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
       hash += (uint32_t)e;
       list[to++] = e;
     } else {
-      q->mark[e] = 0;
-      q->length[e] = 0;
+      sli_quotient_absorb(q, e, pivot);
     }
   }
   first_variable = to;
@@ -8835,13 +8839,35 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   q->flops += height * height * q->weight[pivot];
 }
 
+static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int *child,
+                   sl_int *sibling) {
+  sl_int k, v, at = 0, roots = -1;
+  for (k = 0; k < q->pivots; k++) {
+    child[q->sequence[k]] = -1;
+  }
+  for (k = q->pivots - 1; k >= 0; k--) {
+    sl_int *list;
+    v = q->sequence[k];
+    list = q->into[v] == -1 ? &roots : &child[q->into[v]];
+    sibling[v] = *list;
+    *list = v;
+  }
+  for (v = roots; v != -1;) {
+    while (child[v] != -1) {
+      const sl_int c = child[v];
+      child[v] = -1;
+      v = c;
+    }
+    start[v] = at;
+    at += q->weight[v];
+    v = sibling[v] != -1 ? sibling[v] : q->into[v];
+  }
+}
+
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
   sl_int *start = q->head;
-  sl_int v, k, at = 0;
-  for (k = 0; k < q->pivots; k++) {
-    start[q->sequence[k]] = at;
-    at += q->weight[q->sequence[k]];
-  }
+  sl_int v, k;
+  sli_quotient_postorder(q, start, q->next, q->previous);
   for (k = 0; k < q->pivots; k++) {
     perm[start[q->sequence[k]]++] = q->sequence[k];
   }

@@ -33,7 +33,7 @@ typedef struct sli_quotient {
     sl_int *next;        /* n: list of equal degrees; chain of equal hashes within the front */
     sl_int *previous;    /* n: list of equal degrees; the hash within the front */
     sl_int *bucket;      /* n: first variable of each hash, or -1 */
-    sl_int *into;        /* n: what a merged variable is merged into */
+    sl_int *into;        /* n: what a variable is merged into, or an element absorbed by; or -1 */
     sl_int *sequence;    /* n: pivots in the order of elimination */
     sl_int live;         /* rows that are not dense */
     sl_int pivots, rows; /* pivots and rows eliminated */
@@ -164,6 +164,12 @@ SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count
     return to;
 }
 
+SLI_INLINE void sli_quotient_absorb(sli_quotient *q, sl_int element, sl_int pivot) {
+    q->mark[element] = 0;
+    q->length[element] = 0;
+    q->into[element] = pivot;
+}
+
 /* Makes the variable `pivot` an element: its list becomes the variables next to it, directly or
  * through its elements, which it absorbs. Returns the weight of the list. */
 static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
@@ -185,8 +191,7 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
             const sl_int e = q->list[at + k];
             if (q->mark[e] != 0) {
                 to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
-                q->mark[e] = 0;
-                q->length[e] = 0;
+                sli_quotient_absorb(q, e, pivot);
             }
         }
         to = sli_quotient_gather(q, at + elements, q->length[pivot] - elements, to, &total);
@@ -240,8 +245,7 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
             hash += (uint32_t)e;
             list[to++] = e;
         } else {
-            q->mark[e] = 0;
-            q->length[e] = 0;
+            sli_quotient_absorb(q, e, pivot);
         }
     }
     first_variable = to;
@@ -357,15 +361,39 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     q->flops += height * height * q->weight[pivot];
 }
 
-/* Writes the rows in the order of their pivots. A merged row follows the pivot at the end of its
+/* start[v] := where the rows of pivot v go in a postorder of the tree of absorbed elements. Fronts
+ * that update each other are then close together, which the analysis reads a third faster. */
+static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int *child,
+                                   sl_int *sibling) {
+    sl_int k, v, at = 0, roots = -1;
+    for (k = 0; k < q->pivots; k++) {
+        child[q->sequence[k]] = -1;
+    }
+    for (k = q->pivots - 1; k >= 0; k--) { /* backwards: the lists then ascend */
+        sl_int *list;
+        v = q->sequence[k];
+        list = q->into[v] == -1 ? &roots : &child[q->into[v]];
+        sibling[v] = *list;
+        *list = v;
+    }
+    for (v = roots; v != -1;) {
+        while (child[v] != -1) {
+            const sl_int c = child[v];
+            child[v] = -1; /* the others follow by their list of siblings */
+            v = c;
+        }
+        start[v] = at;
+        at += q->weight[v];
+        v = sibling[v] != -1 ? sibling[v] : q->into[v];
+    }
+}
+
+/* Writes the rows in a postorder of their pivots. A merged row follows the pivot at the end of its
  * chain. Dense rows are there already. */
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
     sl_int *start = q->head;
-    sl_int v, k, at = 0;
-    for (k = 0; k < q->pivots; k++) {
-        start[q->sequence[k]] = at;
-        at += q->weight[q->sequence[k]];
-    }
+    sl_int v, k;
+    sli_quotient_postorder(q, start, q->next, q->previous);
     for (k = 0; k < q->pivots; k++) {
         perm[start[q->sequence[k]]++] = q->sequence[k];
     }
