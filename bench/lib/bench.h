@@ -25,6 +25,7 @@ typedef struct bench_run_t {
 /** The questions, one file each. */
 void bench_patches(bench_run *run);
 void bench_scaling(bench_run *run);
+void bench_cold(bench_run *run);
 void bench_amortize(bench_run *run);
 void bench_ordering(bench_run *run);
 void bench_factor(bench_run *run);

@@ -15,6 +15,8 @@ typedef struct question {
 } question;
 
 static const question questions[] = {
+    {"cold", "from the matrix to the first solution: each stage, by purpose and threads",
+     bench_cold},
     {"scaling", "ordering, analysis, factorization and nnz(L) as n grows ([HDA17] Figure 6)",
      bench_scaling},
     {"amortize",
