@@ -1,73 +1,76 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7974a095e2a1ede8
+ * FNV-1a of the lines after this comment, without the license: 5fc0d45c01ea9592
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     75 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    143 config.h     macros that a user may define before the include, the version, and the integer types
- *    222 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    368 options.h    options of all calls, threads, and the allocator
- *    497 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    639 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    811 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    937 factor.h     the numerical factorization P A P' = L D L'
- *   1140 solve.h      full solves, and the workspace of all solves
- *   1250 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1344 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1456 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1565 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1701 batch.h      many independent solves by one call, distributed over threads
- *   1751 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1929 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2048 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2151 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2286 change.h     a factor that follows small changes of its matrix
- *   2373 pins.h       rows held at given values, on top of a factor that stays as it is
+ *     78 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    146 config.h     macros that a user may define before the include, the version, and the integer types
+ *    225 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    371 options.h    options of all calls, threads, and the allocator
+ *    500 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    642 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    814 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    940 factor.h     the numerical factorization P A P' = L D L'
+ *   1143 solve.h      full solves, and the workspace of all solves
+ *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1347 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1459 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1568 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1704 batch.h      many independent solves by one call, distributed over threads
+ *   1754 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1932 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2051 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2154 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2289 change.h     a factor that follows small changes of its matrix
+ *   2376 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2466 complex.h    complex Hermitian systems, solved as real ones of twice the size
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2473 base.h   2698 status.h   2759 options.h   2816 alloc.h   2926 hash.h   3056 file_map.h
- *   3152 sort.h   3216 parallel.h
+ *   2601 base.h   2826 status.h   2887 options.h   2944 alloc.h   3054 hash.h   3184 file_map.h
+ *   3280 sort.h   3344 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3249 panel.h   3271 step.h   3307 pivot_rule.h   3374 front.h   3418 pairs.h
- *   3625 inverse_front.h   3697 table.h   3722 simd.h   3763 simd_scalar.h   3881 simd_avx2.h
- *   4065 simd_avx512.h   4167 simd_neon.h   4345 dispatch.h
+ *   3377 panel.h   3399 step.h   3435 pivot_rule.h   3502 front.h   3546 pairs.h
+ *   3753 inverse_front.h   3825 table.h   3850 simd.h   3891 simd_scalar.h   4009 simd_avx2.h
+ *   4193 simd_avx512.h   4295 simd_neon.h   4473 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4425 csc.h   4539 csc_build.h   4673 csc64.h   4744 csc_triangle.h   4810 csc_products.h
- *   4927 permute.h   4993 sum.h   5075 output_file.h   5284 matrix_market.h
+ *   4553 csc.h   4667 csc_build.h   4801 csc64.h   4872 csc_triangle.h   4938 csc_products.h
+ *   5055 permute.h   5121 sum.h   5203 output_file.h   5412 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5730 graph.h   5879 coarsen.h   6128 labels.h   6322 subgraph.h   6517 heap.h   6577 bisect.h
- *   6807 separator.h   7069 mindeg.h   7252 dissect.h   7566 levelset.h   7681 geometric.h
- *   7871 septree.h   7931 metis.h   8080 metis_refined.h   8194 nd.h   8386 compress.h
- *   8507 quotient.h   8921 order.h
+ *   5858 graph.h   6007 coarsen.h   6256 labels.h   6450 subgraph.h   6645 heap.h   6705 bisect.h
+ *   6935 separator.h   7197 mindeg.h   7380 dissect.h   7694 levelset.h   7809 geometric.h
+ *   7999 septree.h   8059 metis.h   8208 metis_refined.h   8322 nd.h   8514 compress.h
+ *   8635 quotient.h   9049 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9169 symbolic_types.h   9205 etree.h   9278 counts.h   9335 supernodes.h   9557 structure.h
- *   9678 schedule.h   9867 symbolic.h  10230 reach.h
+ *   9297 symbolic_types.h   9333 etree.h   9406 counts.h   9463 supernodes.h   9685 structure.h
+ *   9806 schedule.h   9995 symbolic.h  10358 reach.h
  * (factor: the numbers of L and D)
- *  10501 factor_types.h  10815 pivot_search.h  11161 pivoted.h  11229 scatter.h  11387 uplooking.h
- *  11459 null_vectors.h  11783 multifrontal.h  12018 nullspace.h  12204 growth.h
- *  12278 factor_setup.h  12530 factor.h  12730 leftlooking.h  12905 factor_query.h
- *  13038 combination.h
+ *  10629 factor_types.h  10943 pivot_search.h  11289 pivoted.h  11357 scatter.h  11515 uplooking.h
+ *  11587 null_vectors.h  11911 multifrontal.h  12146 nullspace.h  12332 growth.h
+ *  12406 factor_setup.h  12658 factor.h  12858 leftlooking.h  13033 factor_query.h
+ *  13166 combination.h
  * (solve: full and local solves)
- *  13099 region_types.h  13197 work.h  13294 query.h  13468 singular.h  13683 backward.h
- *  13713 sweep.h  13888 compile.h  14081 plan.h  14188 local.h  14338 parts.h  14625 refine.h
- *  14800 refine_local.h  15015 rcond.h  15172 defects.h
+ *  13227 region_types.h  13325 work.h  13422 query.h  13596 singular.h  13811 backward.h
+ *  13841 sweep.h  14016 compile.h  14209 plan.h  14316 local.h  14466 parts.h  14753 refine.h
+ *  14928 refine_local.h  15143 rcond.h  15300 defects.h
  * (inverse: entries of the inverse, regions)
- *  15226 traversal.h  15468 traversal_run.h  15631 row_sets.h  15658 unit_vectors.h
- *  15884 bilinear.h  16061 entries.h  16342 block.h  16582 reserve.h  16772 selected.h
- *  16976 selected_query.h  17078 region_choose.h  17304 region.h
+ *  15354 traversal.h  15596 traversal_run.h  15759 row_sets.h  15786 unit_vectors.h
+ *  16012 bilinear.h  16189 entries.h  16470 block.h  16710 reserve.h  16900 selected.h
+ *  17104 selected_query.h  17206 region_choose.h  17432 region.h
  * (change: a factor that follows changes of its matrix)
- *  17543 update.h  17892 rank.h  18217 edges.h  18371 choose.h  18558 pins.h
+ *  17671 update.h  18020 rank.h  18345 edges.h  18499 choose.h  18686 pins.h
  * (save: factors in files)
- *  19130 format.h  19331 decode.h  19473 check.h  19805 write.h  20006 load.h
+ *  19258 format.h  19459 decode.h  19601 check.h  19933 write.h  20134 load.h
  * (batch: many solves, factors and diagonals by one call)
- *  20346 batch_solve.h  20555 batch_factor.h  20756 batch_diagonal.h
+ *  20474 batch_solve.h  20683 batch_factor.h  20884 batch_diagonal.h
+ * (complex: complex Hermitian systems over real factors)
+ *  21024 hermitian.h  21169 complex_rows.h
  * (last: undefine every internal macro)
- *  20896 undef.h
+ *  21337 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  21034 multi_rhs.inl.h  21390 kernel_set.inl.h  21392 unit_triangle.inl.h  21425 two_rhs.inl.h
- *  21591 product.inl.h  21719 front.inl.h  21933 inverse_front.inl.h  22218 small_supernode.inl.h
- *  22375 single_rhs.inl.h  22624 change.inl.h
+ *  21475 multi_rhs.inl.h  21831 kernel_set.inl.h  21833 unit_triangle.inl.h  21866 two_rhs.inl.h
+ *  22032 product.inl.h  22160 front.inl.h  22374 inverse_front.inl.h  22659 small_supernode.inl.h
+ *  22816 single_rhs.inl.h  23065 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -404,7 +407,7 @@ typedef struct sl_allocator {
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
- *  | sl_plan_create                             | region                                   |
+ *  | sl_plan_create, sl_complex_plan_create     | region                                   |
  *  | sl_region_create                           | region_bytes                             |
  *
  *  With SL_VERIFY a call refuses a field that is set and that it does not read.
@@ -2459,6 +2462,131 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
                                               size_t ldx, const double *B, size_t ldb,
                                               const double *G, size_t ldg, sl_int nrhs, sl_work *W);
+
+/* src/public/complex.h: complex Hermitian systems, solved as real ones of twice the size */
+
+/* Connection Laplacians and the like: H x = b with a Hermitian H of n complex rows. Complex row k
+ * becomes the real rows 2k (real part) and 2k + 1 (imaginary part), and an entry a + bi becomes the
+ * block [a -b; b a]. The real matrix is symmetric, and definite if and only if H is.
+ *
+ * A complex vector in memory, real and imaginary parts in turn, IS the vector of the real system:
+ * every call on factors and plans takes complex arrays as they are, with leading dimensions counted
+ * in doubles, twice the complex ones. What differs is here: matrices, sets of rows, entries of the
+ * inverse, the determinant. Of statistics, n and the counts of pivots (stats.factor.positive, ...)
+ * are twice those of H; condition and backward errors are those of the real system.
+ *
+ *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
+ *     A = sl_matrix_view(M);
+ *     options.block_size = 2;                          orders a block as one row, which is quicker
+ *     sl_symbolic_create(&S, &A, &options, NULL);
+ *     sl_factor_create(&F, S, &A, NULL, NULL);
+ *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
+ *
+ * L has four times the entries of that of a real matrix with the pattern of H.
+ */
+
+/** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
+ *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
+typedef struct sl_hermitian {
+    sl_int n;
+    const sl_int *p; /* n + 1 */
+    const sl_int *i; /* p[n] */
+    /* 2 p[n] with real and imaginary parts in turn; the real parts alone, p[n], if im is not NULL;
+     * NULL: pattern only */
+    const double *x;
+    const double *im; /* p[n] imaginary parts, or NULL */
+} sl_hermitian;
+
+/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores.
+ *
+ *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.row, error.column, in complex rows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
+ *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
+ *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
+                                                         const sl_options *opt, sl_stats *stats);
+
+/** Replaces the values of such a matrix by those of another H with the same pattern, for
+ *  sl_factor_refactor.
+ *
+ *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
+ *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN: another pattern.
+ *  Cost     O(n + nnz).
+ *  Threads  exclusive use of M.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
+                                                           sl_stats *stats);
+
+/** A set of complex rows as real rows: out[2k] = 2 rows[k], out[2k + 1] = 2 rows[k] + 1. For calls
+ *  that have no complex form: pins, regions, requests of a batch.
+ *
+ *  out    [out]  2 count rows; must not overlap rows.
+ *  rows   [in]   count rows in 0..2^30-5.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range.  Cost  O(count).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
+
+/** sl_plan_create with sets of complex rows.
+ *
+ *  S      [in]   analysis of the real matrix, 2n columns; borrowed, must outlive the plan.
+ *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
+ *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
+ *  stats  [out]  as in sl_plan_create; error.row is a complex row.
+ *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
+ *  Cost     as sl_plan_create.
+ *  Threads  as sl_plan_create.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
+                                                       const sl_int *bset, sl_int nb,
+                                                       const sl_int *xset, sl_int nx,
+                                                       const sl_options *opt, sl_stats *stats);
+
+/** A dense block of the complex inverse: Z(i, j) = (H^-1)(rows[i], columns[j]).
+ *
+ *  Z        [out]  n_rows x n_columns complex numbers, real and imaginary parts in turn,
+ *                  column-major, leading dimension ldz >= n_rows complex numbers.
+ *  rows, columns  [in]  n_rows and n_columns complex rows, any order, repetitions allowed.
+ *  W, stats  as in sl_inverse_block; error.row and error.column are complex rows.
+ *  Returns  as sl_inverse_block; SL_ERR_ARGUMENT also if F has an odd number of rows.
+ *  Cost     sl_inverse_block of 2 n_rows x n_columns entries; allocates the sets.
+ *  Threads  as sl_inverse_block.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                                                         const sl_int *rows, sl_int n_rows,
+                                                         const sl_int *columns, sl_int n_columns,
+                                                         sl_work *W, sl_stats *stats);
+
+/** Entries of the complex inverse: out[2k] and out[2k + 1] are the real and the imaginary part of
+ *  (H^-1)(rows[k], columns[k]).
+ *
+ *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
+ *  W, stats  as in sl_inverse_pairs; error.row and error.column are complex rows.
+ *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
+ *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
+ *  Threads  as sl_inverse_pairs.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
+                                                         const sl_int *rows, const sl_int *columns,
+                                                         sl_int count, sl_work *W, sl_stats *stats);
+
+/** log |det H| and the sign of det H, which is real: half the logarithm of the real determinant,
+ *  and the parity of half the negative pivots.
+ *
+ *  Returns  as sl_factor_logdet.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
+                                                  double *sign);
 
 #ifdef __cplusplus
 }
@@ -20890,6 +21018,319 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
   }
   status = works == NULL ? SL_OK : sli_check_works(works, d.workers);
   return status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
+}
+
+/* complex: complex Hermitian systems over real factors */
+/* src/impl/complex/hermitian.h: complex Hermitian matrices as real symmetric ones of twice the size */
+
+static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
+  sl_csc pattern = {0, 0, NULL, NULL, NULL};
+  sl_status status;
+  sl_int j, p;
+  sli_stats_clear_error(stats);
+  if (H == NULL || (H->x == NULL && H->im != NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  pattern.n_rows = pattern.n_cols = H->n;
+  pattern.p = H->p;
+  pattern.i = H->i;
+  status = sl_csc_check(&pattern, stats);
+  if (status == SL_OK && H->n > SLI_ROWS_MAX / 2) {
+    status = SL_ERR_TOO_LARGE;
+  }
+  for (j = 0; status == SL_OK && H->x != NULL && j < H->n; j++) {
+    for (p = H->p[j]; p < H->p[j + 1]; p++) {
+      const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
+      if (H->i[p] == j && !(im == 0.0)) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im);
+      }
+    }
+  }
+  return status;
+}
+
+static sl_off sli_hermitian_entries(const sl_hermitian *H) {
+  sl_off count = 0;
+  sl_int j, p;
+  for (j = 0; j < H->n; j++) {
+    for (p = H->p[j]; p < H->p[j + 1]; p++) {
+      count += H->i[p] == j ? 2 : 4;
+    }
+  }
+  return count;
+}
+
+typedef struct sli_hermitian_column {
+  sl_int row, count;
+  double x[2];
+} sli_hermitian_column;
+
+static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sl_int p, sl_int j,
+                        int second) {
+  const double a = H->x == NULL ? 0.0 : H->im != NULL ? H->x[p] : H->x[2 * (size_t)p];
+  const double b = H->x == NULL ? 0.0 : H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
+  sli_hermitian_column out;
+  if (H->i[p] == j) {
+    out.row = 2 * j + second;
+    out.count = 1;
+    out.x[0] = a;
+    out.x[1] = 0.0;
+  } else {
+    out.row = 2 * H->i[p];
+    out.count = 2;
+    out.x[0] = second ? -b : a;
+    out.x[1] = second ? a : b;
+  }
+  return out;
+}
+
+static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
+  sl_int j, p, k, second, at = 0;
+  M->p[0] = 0;
+  for (j = 0; j < H->n; j++) {
+    for (second = 0; second < 2; second++) {
+      for (p = H->p[j]; p < H->p[j + 1]; p++) {
+        const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+        for (k = 0; k < e.count; k++, at++) {
+          M->i[at] = e.row + k;
+          if (M->x != NULL) {
+            M->x[at] = e.x[k];
+          }
+        }
+      }
+      M->p[2 * j + second + 1] = at;
+    }
+  }
+}
+
+static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M, sl_stats *stats) {
+  sl_int j, p, k, second, at = 0;
+  if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
+    return SL_ERR_PATTERN;
+  }
+  for (j = 0; j < H->n; j++) {
+    for (second = 0; second < 2; second++) {
+      const sl_int end = M->p[2 * j + second + 1];
+      for (p = H->p[j]; p < H->p[j + 1]; p++) {
+        const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+        for (k = 0; k < e.count; k++, at++) {
+          if (at >= end || M->i[at] != e.row + k) {
+            return sli_fail_at(stats, SL_ERR_PATTERN, H->i[p], j, 0.0);
+          }
+        }
+      }
+      if (at != end) {
+        return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+      }
+    }
+  }
+  return SL_OK;
+}
+
+SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
+                      const sl_options *opt, sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  sl_matrix *M;
+  sl_status status;
+  sl_off count;
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_hermitian_check(H, stats)
+                               : SL_ERR_ARGUMENT;
+  if (status != SL_OK) {
+    return status;
+  }
+  count = sli_hermitian_entries(H);
+  if (count > INT32_MAX) {
+    return SL_ERR_TOO_LARGE;
+  }
+  status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
+  if (status == SL_OK) {
+    sli_hermitian_fill(H, M);
+    *out = M;
+  }
+  return status;
+}
+
+SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
+  sl_status status = sli_hermitian_check(H, stats);
+  if (status == SL_OK && (M == NULL || M->x == NULL || H->x == NULL)) {
+    status = SL_ERR_ARGUMENT;
+  }
+  status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
+  if (status == SL_OK) {
+    sli_hermitian_fill(H, M);
+  }
+  return status;
+}
+
+/* src/impl/complex/complex_rows.h: calls on a real factor whose sets count complex rows */
+
+typedef struct sli_complex_set {
+  const sl_int *rows;
+  sl_int count;
+  sl_int *real;
+} sli_complex_set;
+
+static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
+  return n % 2 != 0 || (set->rows != NULL && set->count < 0)  ? SL_ERR_ARGUMENT
+       : set->rows != NULL && set->count > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE
+                                : SL_OK;
+}
+
+static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
+  set->real = SLI_TAKE(b, sl_int, set->rows == NULL ? 0 : 2 * (size_t)set->count);
+}
+
+static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_int *real) {
+  sl_int k;
+  for (k = 0; k < count; k++) {
+    if (rows[k] < 0 || rows[k] >= n) {
+      return k;
+    }
+    real[2 * (size_t)k] = 2 * rows[k];
+    real[2 * (size_t)k + 1] = 2 * rows[k] + 1;
+  }
+  return -1;
+}
+
+static sl_status sli_complex_sets(sl_int n, sli_complex_set *first, sli_complex_set *second,
+                  int is_block, sli_block *b, const sl_allocator *a,
+                  sl_stats *stats) {
+  sl_status status = sli_complex_check(n, first);
+  sl_int bad;
+  int pass;
+  status = status == SL_OK ? sli_complex_check(n, second) : status;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_complex_layout(first, b);
+    sli_complex_layout(second, b);
+    status = pass == 0 ? sli_block_alloc(b, a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  bad = first->rows == NULL ? -1
+                : sli_complex_expand(first->rows, first->count, n / 2, first->real);
+  if (bad != -1) {
+    status = sli_fail_at(stats, SL_ERR_ARGUMENT, first->rows[bad], -1, 0.0);
+  } else {
+    bad = second->rows == NULL
+          ? -1
+          : sli_complex_expand(second->rows, second->count, n / 2, second->real);
+    if (bad != -1) {
+      status = sli_fail_at(stats, SL_ERR_ARGUMENT, is_block ? -1 : second->rows[bad],
+                 is_block ? second->rows[bad] : -1, 0.0);
+    }
+  }
+  if (status != SL_OK) {
+    sli_free(a, b->base);
+  }
+  return status;
+}
+
+static const sl_int *sli_complex_real(const sli_complex_set *set) {
+  return set->rows == NULL || set->count == 0 ? set->rows : set->real;
+}
+
+SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
+  if (count < 0 || count > SLI_ROWS_MAX / 2 || (count > 0 && (out == NULL || rows == NULL))) {
+    return SL_ERR_ARGUMENT;
+  }
+  return sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out) == -1 ? SL_OK : SL_ERR_ARGUMENT;
+}
+
+SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
+                    sl_int nb, const sl_int *xset, sl_int nx,
+                    const sl_options *opt, sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  sli_complex_set b, x;
+  sli_block block = {NULL, 0, 0};
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (S == NULL || !sli_options_are_valid(opt, SLI_READS_REGION)) {
+    return SL_ERR_ARGUMENT;
+  }
+  b.rows = bset;
+  b.count = nb;
+  x.rows = xset;
+  x.count = nx;
+  status = sli_complex_sets(S->n, &b, &x, 0, &block, &a, stats);
+  if (status == SL_OK) {
+    status = sl_plan_create(out, S, sli_complex_real(&b), bset == NULL ? 0 : 2 * nb,
+                sli_complex_real(&x), xset == NULL ? 0 : 2 * nx, opt, stats);
+    sli_free(&a, block.base);
+  }
+  return status;
+}
+
+SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                      const sl_int *rows, sl_int n_rows, const sl_int *columns,
+                      sl_int n_columns, sl_work *W, sl_stats *stats) {
+  sli_complex_set r, c;
+  sli_block block = {NULL, 0, 0};
+  sl_status status;
+  sl_int k;
+  sli_stats_clear_error(stats);
+  if (F == NULL || ldz > SIZE_MAX / 2 || (rows == NULL && n_rows != 0) ||
+    (columns == NULL && n_columns != 0)) {
+    return SL_ERR_ARGUMENT;
+  }
+  r.rows = rows;
+  r.count = n_rows;
+  c.rows = columns;
+  c.count = n_columns;
+  status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+  if (status == SL_OK) {
+    for (k = 0; k < n_columns;
+       k++) {
+      c.real[k] = 2 * columns[k];
+    }
+    status = sl_inverse_block(F, Z, 2 * ldz, r.real, 2 * n_rows, c.real, n_columns, W, stats);
+    sli_free(&F->allocator, block.base);
+  }
+  return status;
+}
+
+SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
+                      const sl_int *columns, sl_int count, sl_work *W,
+                      sl_stats *stats) {
+  sli_complex_set r, c;
+  sli_block block = {NULL, 0, 0};
+  sl_status status;
+  sl_int k;
+  sli_stats_clear_error(stats);
+  if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
+    return SL_ERR_ARGUMENT;
+  }
+  r.rows = rows;
+  c.rows = columns;
+  r.count = c.count = count;
+  status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+  if (status == SL_OK) {
+    for (k = 0; k < count;
+       k++) {
+      c.real[2 * (size_t)k + 1] = c.real[2 * (size_t)k];
+    }
+    status = sl_inverse_pairs(F, out, r.real, c.real, 2 * count, W, stats);
+    sli_free(&F->allocator, block.base);
+  }
+  return status;
+}
+
+SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
+  sl_status status =
+    F != NULL && F->S->n % 2 != 0 ? SL_ERR_ARGUMENT : sl_factor_logdet(F, log_abs_det, sign);
+  if (status == SL_OK) {
+    *log_abs_det *= 0.5;
+    *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;
+  }
+  return status;
 }
 
 /* last: undefine every internal macro */

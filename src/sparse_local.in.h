@@ -25,6 +25,7 @@ extern "C" {
 #include "public/save.h"
 #include "public/change.h"
 #include "public/pins.h"
+#include "public/complex.h"
 #ifdef __cplusplus
 }
 #endif
@@ -154,6 +155,9 @@ extern "C" {
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"
 #include "impl/batch/batch_diagonal.h"
+/* complex: complex Hermitian systems over real factors */
+#include "impl/complex/hermitian.h"
+#include "impl/complex/complex_rows.h"
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"
 #endif

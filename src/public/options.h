@@ -41,7 +41,7 @@ typedef struct sl_allocator {
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
- *  | sl_plan_create                             | region                                   |
+ *  | sl_plan_create, sl_complex_plan_create     | region                                   |
  *  | sl_region_create                           | region_bytes                             |
  *
  *  With SL_VERIFY a call refuses a field that is set and that it does not read.

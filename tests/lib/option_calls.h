@@ -72,6 +72,11 @@ OPTION_CALL(option_parse, sl_matrix,
 static const int64_t option_wide_p[2] = {0, 1}, option_wide_i[1] = {0};
 static const sl_csc64 option_wide = {1, 1, option_wide_p, option_wide_i, NULL};
 OPTION_CALL(option_csc64, sl_matrix, sl_matrix_from_csc64(&out, &option_wide, opt, NULL))
+static const sl_int option_hermitian_p[2] = {0, 1}, option_hermitian_i[1] = {0};
+static const sl_hermitian option_hermitian = {1, option_hermitian_p, option_hermitian_i, NULL,
+                                              NULL};
+OPTION_CALL(option_from_hermitian, sl_matrix,
+            sl_matrix_from_hermitian(&out, &option_hermitian, opt, NULL))
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
 OPTION_CALL(option_permute, sl_matrix, sl_matrix_permute(&out, &f->U, f->perm, opt))
 OPTION_CALL(option_sum, sl_matrix,
@@ -173,6 +178,7 @@ static const struct {
 } option_calls[] = {
     {"sl_matrix_from_triplets", option_triplets, READS_NOTHING},
     {"sl_matrix_from_csc64", option_csc64, READS_NOTHING},
+    {"sl_matrix_from_hermitian", option_from_hermitian, READS_NOTHING},
     {"sl_matrix_parse", option_parse, READS_NOTHING},
     {"sl_matrix_read", option_read, READS_NOTHING},
     {"sl_matrix_transpose", option_transpose, READS_NOTHING},

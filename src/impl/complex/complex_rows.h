@@ -1,0 +1,182 @@
+/* complex_rows.h: calls on a real factor whose sets count complex rows */
+#ifndef SLI_COMPLEX_COMPLEX_ROWS_H
+#define SLI_COMPLEX_COMPLEX_ROWS_H
+
+#include "hermitian.h"
+#include "../factor/factor_query.h"
+#include "../inverse/block.h"
+#include "../inverse/entries.h"
+#include "../solve/plan.h"
+
+/* The real rows of a set of complex rows. */
+typedef struct sli_complex_set {
+    const sl_int *rows; /* of the caller; NULL: all, if that is allowed */
+    sl_int count;
+    sl_int *real; /* 2 count */
+} sli_complex_set;
+
+/* Checks a set against the real rows n. A NULL set has no rows of its own. */
+static sl_status sli_complex_check(sl_int n, const sli_complex_set *set) {
+    return n % 2 != 0 || (set->rows != NULL && set->count < 0)  ? SL_ERR_ARGUMENT
+           : set->rows != NULL && set->count > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE
+                                                                : SL_OK;
+}
+
+static void sli_complex_layout(sli_complex_set *set, sli_block *b) {
+    set->real = SLI_TAKE(b, sl_int, set->rows == NULL ? 0 : 2 * (size_t)set->count);
+}
+
+/* Returns the index of the first row out of range 0..n-1, or -1. */
+static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_int *real) {
+    sl_int k;
+    for (k = 0; k < count; k++) {
+        if (rows[k] < 0 || rows[k] >= n) {
+            return k;
+        }
+        real[2 * (size_t)k] = 2 * rows[k];
+        real[2 * (size_t)k + 1] = 2 * rows[k] + 1;
+    }
+    return -1;
+}
+
+/* Allocates and expands two sets of rows of a real system of n rows. The second one is named as
+ * columns if is_block. */
+static sl_status sli_complex_sets(sl_int n, sli_complex_set *first, sli_complex_set *second,
+                                  int is_block, sli_block *b, const sl_allocator *a,
+                                  sl_stats *stats) {
+    sl_status status = sli_complex_check(n, first);
+    sl_int bad;
+    int pass;
+    status = status == SL_OK ? sli_complex_check(n, second) : status;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_complex_layout(first, b);
+        sli_complex_layout(second, b);
+        status = pass == 0 ? sli_block_alloc(b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    bad = first->rows == NULL ? -1
+                              : sli_complex_expand(first->rows, first->count, n / 2, first->real);
+    if (bad != -1) {
+        status = sli_fail_at(stats, SL_ERR_ARGUMENT, first->rows[bad], -1, 0.0);
+    } else {
+        bad = second->rows == NULL
+                  ? -1
+                  : sli_complex_expand(second->rows, second->count, n / 2, second->real);
+        if (bad != -1) {
+            status = sli_fail_at(stats, SL_ERR_ARGUMENT, is_block ? -1 : second->rows[bad],
+                                 is_block ? second->rows[bad] : -1, 0.0);
+        }
+    }
+    if (status != SL_OK) {
+        sli_free(a, b->base);
+    }
+    return status;
+}
+
+/* The expanded set for a call that takes NULL for all rows: an empty set has no array. */
+static const sl_int *sli_complex_real(const sli_complex_set *set) {
+    return set->rows == NULL || set->count == 0 ? set->rows : set->real;
+}
+
+SL_API sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count) {
+    if (count < 0 || count > SLI_ROWS_MAX / 2 || (count > 0 && (out == NULL || rows == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_complex_expand(rows, count, SLI_ROWS_MAX / 2, out) == -1 ? SL_OK : SL_ERR_ARGUMENT;
+}
+
+SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset,
+                                        sl_int nb, const sl_int *xset, sl_int nx,
+                                        const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sli_complex_set b, x;
+    sli_block block = {NULL, 0, 0};
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (S == NULL || !sli_options_are_valid(opt, SLI_READS_REGION)) {
+        return SL_ERR_ARGUMENT;
+    }
+    b.rows = bset;
+    b.count = nb;
+    x.rows = xset;
+    x.count = nx;
+    status = sli_complex_sets(S->n, &b, &x, 0, &block, &a, stats);
+    if (status == SL_OK) {
+        status = sl_plan_create(out, S, sli_complex_real(&b), bset == NULL ? 0 : 2 * nb,
+                                sli_complex_real(&x), xset == NULL ? 0 : 2 * nx, opt, stats);
+        sli_free(&a, block.base);
+    }
+    return status;
+}
+
+SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                                          const sl_int *rows, sl_int n_rows, const sl_int *columns,
+                                          sl_int n_columns, sl_work *W, sl_stats *stats) {
+    sli_complex_set r, c;
+    sli_block block = {NULL, 0, 0};
+    sl_status status;
+    sl_int k;
+    sli_stats_clear_error(stats);
+    if (F == NULL || ldz > SIZE_MAX / 2 || (rows == NULL && n_rows != 0) ||
+        (columns == NULL && n_columns != 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.rows = rows;
+    r.count = n_rows;
+    c.rows = columns;
+    c.count = n_columns;
+    status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+    if (status == SL_OK) {
+        for (k = 0; k < n_columns;
+             k++) { /* the column of the real part has both parts of entries */
+            c.real[k] = 2 * columns[k];
+        }
+        status = sl_inverse_block(F, Z, 2 * ldz, r.real, 2 * n_rows, c.real, n_columns, W, stats);
+        sli_free(&F->allocator, block.base);
+    }
+    return status;
+}
+
+SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
+                                          const sl_int *columns, sl_int count, sl_work *W,
+                                          sl_stats *stats) {
+    sli_complex_set r, c;
+    sli_block block = {NULL, 0, 0};
+    sl_status status;
+    sl_int k;
+    sli_stats_clear_error(stats);
+    if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.rows = rows;
+    c.rows = columns;
+    r.count = c.count = count;
+    status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+    if (status == SL_OK) {
+        for (k = 0; k < count;
+             k++) { /* both parts of an entry are in the column of the real part */
+            c.real[2 * (size_t)k + 1] = c.real[2 * (size_t)k];
+        }
+        status = sl_inverse_pairs(F, out, r.real, c.real, 2 * count, W, stats);
+        sli_free(&F->allocator, block.base);
+    }
+    return status;
+}
+
+SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
+    sl_status status =
+        F != NULL && F->S->n % 2 != 0 ? SL_ERR_ARGUMENT : sl_factor_logdet(F, log_abs_det, sign);
+    if (status == SL_OK) {
+        *log_abs_det *= 0.5;
+        *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,157 @@
+/* hermitian.h: complex Hermitian matrices as real symmetric ones of twice the size */
+#ifndef SLI_COMPLEX_HERMITIAN_H
+#define SLI_COMPLEX_HERMITIAN_H
+
+#include "../../public/complex.h"
+#include "../matrix/csc.h"
+
+/* Checks the view, and that the diagonal is real: an imaginary part would not be symmetric. */
+static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
+    sl_csc pattern = {0, 0, NULL, NULL, NULL};
+    sl_status status;
+    sl_int j, p;
+    sli_stats_clear_error(stats);
+    if (H == NULL || (H->x == NULL && H->im != NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    pattern.n_rows = pattern.n_cols = H->n;
+    pattern.p = H->p;
+    pattern.i = H->i;
+    status = sl_csc_check(&pattern, stats);
+    if (status == SL_OK && H->n > SLI_ROWS_MAX / 2) {
+        status = SL_ERR_TOO_LARGE;
+    }
+    for (j = 0; status == SL_OK && H->x != NULL && j < H->n; j++) {
+        for (p = H->p[j]; p < H->p[j + 1]; p++) {
+            const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
+            if (H->i[p] == j && !(im == 0.0)) {
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, j, j, im);
+            }
+        }
+    }
+    return status;
+}
+
+/* Entries of the real matrix: 4 for each complex entry, 2 on the diagonal. */
+static sl_off sli_hermitian_entries(const sl_hermitian *H) {
+    sl_off count = 0;
+    sl_int j, p;
+    for (j = 0; j < H->n; j++) {
+        for (p = H->p[j]; p < H->p[j + 1]; p++) {
+            count += H->i[p] == j ? 2 : 4;
+        }
+    }
+    return count;
+}
+
+/* One column of a block: rows, and the values of an entry a + bi. second: the column of the
+ * imaginary part, [-b a]. */
+typedef struct sli_hermitian_column {
+    sl_int row, count; /* rows `row` and, if count is 2, row + 1 */
+    double x[2];
+} sli_hermitian_column;
+
+static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sl_int p, sl_int j,
+                                                int second) {
+    const double a = H->x == NULL ? 0.0 : H->im != NULL ? H->x[p] : H->x[2 * (size_t)p];
+    const double b = H->x == NULL ? 0.0 : H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
+    sli_hermitian_column out;
+    if (H->i[p] == j) {
+        out.row = 2 * j + second;
+        out.count = 1;
+        out.x[0] = a;
+        out.x[1] = 0.0;
+    } else {
+        out.row = 2 * H->i[p];
+        out.count = 2;
+        out.x[0] = second ? -b : a;
+        out.x[1] = second ? a : b;
+    }
+    return out;
+}
+
+/* Writes positions, rows and values of the real matrix. */
+static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
+    sl_int j, p, k, second, at = 0;
+    M->p[0] = 0;
+    for (j = 0; j < H->n; j++) {
+        for (second = 0; second < 2; second++) {
+            for (p = H->p[j]; p < H->p[j + 1]; p++) {
+                const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+                for (k = 0; k < e.count; k++, at++) {
+                    M->i[at] = e.row + k;
+                    if (M->x != NULL) {
+                        M->x[at] = e.x[k];
+                    }
+                }
+            }
+            M->p[2 * j + second + 1] = at;
+        }
+    }
+}
+
+/* Has M the pattern of H? Names the first complex row and column where it differs. */
+static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M, sl_stats *stats) {
+    sl_int j, p, k, second, at = 0;
+    if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
+        return SL_ERR_PATTERN;
+    }
+    for (j = 0; j < H->n; j++) {
+        for (second = 0; second < 2; second++) {
+            const sl_int end = M->p[2 * j + second + 1];
+            for (p = H->p[j]; p < H->p[j + 1]; p++) {
+                const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+                for (k = 0; k < e.count; k++, at++) {
+                    if (at >= end || M->i[at] != e.row + k) {
+                        return sli_fail_at(stats, SL_ERR_PATTERN, H->i[p], j, 0.0);
+                    }
+                }
+            }
+            if (at != end) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
+                                          const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_matrix *M;
+    sl_status status;
+    sl_off count;
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_hermitian_check(H, stats)
+                                                           : SL_ERR_ARGUMENT;
+    if (status != SL_OK) {
+        return status;
+    }
+    count = sli_hermitian_entries(H);
+    if (count > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
+    if (status == SL_OK) {
+        sli_hermitian_fill(H, M);
+        *out = M;
+    }
+    return status;
+}
+
+SL_API sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H, sl_stats *stats) {
+    sl_status status = sli_hermitian_check(H, stats);
+    if (status == SL_OK && (M == NULL || M->x == NULL || H->x == NULL)) {
+        status = SL_ERR_ARGUMENT;
+    }
+    status = status == SL_OK ? sli_hermitian_compare(H, M, stats) : status;
+    if (status == SL_OK) {
+        sli_hermitian_fill(H, M);
+    }
+    return status;
+}
+
+#endif

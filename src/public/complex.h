@@ -1,0 +1,131 @@
+/* complex.h: complex Hermitian systems, solved as real ones of twice the size */
+#ifndef SL_PUBLIC_COMPLEX_H
+#define SL_PUBLIC_COMPLEX_H
+
+#include "options.h"
+#include "stats.h"
+
+/* Connection Laplacians and the like: H x = b with a Hermitian H of n complex rows. Complex row k
+ * becomes the real rows 2k (real part) and 2k + 1 (imaginary part), and an entry a + bi becomes the
+ * block [a -b; b a]. The real matrix is symmetric, and definite if and only if H is.
+ *
+ * A complex vector in memory, real and imaginary parts in turn, IS the vector of the real system:
+ * every call on factors and plans takes complex arrays as they are, with leading dimensions counted
+ * in doubles, twice the complex ones. What differs is here: matrices, sets of rows, entries of the
+ * inverse, the determinant. Of statistics, n and the counts of pivots (stats.factor.positive, ...)
+ * are twice those of H; condition and backward errors are those of the real system.
+ *
+ *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
+ *     A = sl_matrix_view(M);
+ *     options.block_size = 2;                          orders a block as one row, which is quicker
+ *     sl_symbolic_create(&S, &A, &options, NULL);
+ *     sl_factor_create(&F, S, &A, NULL, NULL);
+ *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
+ *
+ * L has four times the entries of that of a real matrix with the pattern of H.
+ */
+
+/** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
+ *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
+typedef struct sl_hermitian {
+    sl_int n;
+    const sl_int *p; /* n + 1 */
+    const sl_int *i; /* p[n] */
+    /* 2 p[n] with real and imaginary parts in turn; the real parts alone, p[n], if im is not NULL;
+     * NULL: pattern only */
+    const double *x;
+    const double *im; /* p[n] imaginary parts, or NULL */
+} sl_hermitian;
+
+/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores.
+ *
+ *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.row, error.column, in complex rows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
+ *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
+ *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
+                                                         const sl_options *opt, sl_stats *stats);
+
+/** Replaces the values of such a matrix by those of another H with the same pattern, for
+ *  sl_factor_refactor.
+ *
+ *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
+ *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN: another pattern.
+ *  Cost     O(n + nnz).
+ *  Threads  exclusive use of M.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
+                                                           sl_stats *stats);
+
+/** A set of complex rows as real rows: out[2k] = 2 rows[k], out[2k + 1] = 2 rows[k] + 1. For calls
+ *  that have no complex form: pins, regions, requests of a batch.
+ *
+ *  out    [out]  2 count rows; must not overlap rows.
+ *  rows   [in]   count rows in 0..2^30-5.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range.  Cost  O(count).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
+
+/** sl_plan_create with sets of complex rows.
+ *
+ *  S      [in]   analysis of the real matrix, 2n columns; borrowed, must outlive the plan.
+ *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
+ *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
+ *  stats  [out]  as in sl_plan_create; error.row is a complex row.
+ *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
+ *  Cost     as sl_plan_create.
+ *  Threads  as sl_plan_create.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
+                                                       const sl_int *bset, sl_int nb,
+                                                       const sl_int *xset, sl_int nx,
+                                                       const sl_options *opt, sl_stats *stats);
+
+/** A dense block of the complex inverse: Z(i, j) = (H^-1)(rows[i], columns[j]).
+ *
+ *  Z        [out]  n_rows x n_columns complex numbers, real and imaginary parts in turn,
+ *                  column-major, leading dimension ldz >= n_rows complex numbers.
+ *  rows, columns  [in]  n_rows and n_columns complex rows, any order, repetitions allowed.
+ *  W, stats  as in sl_inverse_block; error.row and error.column are complex rows.
+ *  Returns  as sl_inverse_block; SL_ERR_ARGUMENT also if F has an odd number of rows.
+ *  Cost     sl_inverse_block of 2 n_rows x n_columns entries; allocates the sets.
+ *  Threads  as sl_inverse_block.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                                                         const sl_int *rows, sl_int n_rows,
+                                                         const sl_int *columns, sl_int n_columns,
+                                                         sl_work *W, sl_stats *stats);
+
+/** Entries of the complex inverse: out[2k] and out[2k + 1] are the real and the imaginary part of
+ *  (H^-1)(rows[k], columns[k]).
+ *
+ *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
+ *  W, stats  as in sl_inverse_pairs; error.row and error.column are complex rows.
+ *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
+ *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
+ *  Threads  as sl_inverse_pairs.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
+                                                         const sl_int *rows, const sl_int *columns,
+                                                         sl_int count, sl_work *W, sl_stats *stats);
+
+/** log |det H| and the sign of det H, which is real: half the logarithm of the real determinant,
+ *  and the parity of half the negative pivots.
+ *
+ *  Returns  as sl_factor_logdet.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
+                                                  double *sign);
+
+#endif

@@ -1,0 +1,430 @@
+/* test_complex.c: complex Hermitian systems against complex arithmetic */
+#include <math.h>
+
+#include "tests/lib/gen_matrices.h"
+#include "tests/lib/test.h"
+
+enum { SIDE = 9, N = SIDE * SIDE, EDGES = 2 * SIDE * (SIDE - 1), ENTRIES = N + EDGES };
+
+/* A connection Laplacian of a grid plus a shift, by its lower triangle. */
+typedef struct connection_t {
+    sl_int p[N + 1], i[ENTRIES];
+    double x[2 * ENTRIES], re[ENTRIES], im[ENTRIES];
+    sl_hermitian H;
+} connection_t;
+
+static void connection_fill(connection_t *c, double shift, uint64_t seed) {
+    sl_int at = 0;
+    double diagonal[N];
+    for (sl_int k = 0; k < N; k++) {
+        diagonal[k] = shift;
+    }
+    for (sl_int k = 0; k < N; k++) {
+        const sl_int begin = at++;
+        c->p[k] = begin;
+        c->i[begin] = k;
+        for (int down = 0; down < 2; down++) {
+            const sl_int other = k + (down ? SIDE : 1);
+            if (down ? other < N : k % SIDE < SIDE - 1) {
+                const double weight = 1.5 + gen_real(&seed), angle = 3.0 * gen_real(&seed);
+                diagonal[k] += weight;
+                diagonal[other] += weight;
+                c->i[at] = other;
+                c->re[at] = -weight * cos(angle);
+                c->im[at++] = -weight * sin(angle);
+            }
+        }
+        c->re[begin] = diagonal[k]; /* edges to lower rows have been added */
+        c->im[begin] = 0.0;
+    }
+    c->p[N] = at;
+    for (sl_int k = 0; k < at; k++) {
+        c->x[2 * k] = c->re[k];
+        c->x[2 * k + 1] = c->im[k];
+    }
+    c->H.n = N;
+    c->H.p = c->p;
+    c->H.i = c->i;
+    c->H.x = c->x;
+    c->H.im = NULL;
+}
+
+static connection_t *connection_make(double shift, uint64_t seed) {
+    connection_t *c = (connection_t *)test_array(1, sizeof *c);
+    connection_fill(c, shift, seed);
+    return c;
+}
+
+/* The largest part of a component of H x - b, in complex arithmetic. */
+static double residual(const connection_t *c, const double *x, const double *b) {
+    double r[2 * N], worst = 0.0;
+    for (sl_int k = 0; k < 2 * N; k++) {
+        r[k] = -b[k];
+    }
+    for (sl_int j = 0; j < N; j++) {
+        for (sl_int p = c->p[j]; p < c->p[j + 1]; p++) {
+            const sl_int i = c->i[p];
+            const double re = c->re[p], im = c->im[p];
+            r[2 * i] += re * x[2 * j] - im * x[2 * j + 1];
+            r[2 * i + 1] += re * x[2 * j + 1] + im * x[2 * j];
+            if (i != j) { /* the conjugate entry */
+                r[2 * j] += re * x[2 * i] + im * x[2 * i + 1];
+                r[2 * j + 1] += re * x[2 * i + 1] - im * x[2 * i];
+            }
+        }
+    }
+    for (sl_int k = 0; k < 2 * N; k++) {
+        worst = fmax(worst, fabs(r[k]));
+    }
+    return worst;
+}
+
+typedef struct system_t {
+    sl_matrix *M;
+    sl_csc A;
+    sl_symbolic *S;
+    sl_factor *F;
+} system_t;
+
+static system_t system_make(const sl_hermitian *H) {
+    system_t y;
+    sl_options opt = options_none();
+    opt.block_size = 2;
+    SL_CHECK(sl_matrix_from_hermitian(&y.M, H, NULL, NULL));
+    y.A = sl_matrix_view(y.M);
+    SL_CHECK(sl_csc_check(&y.A, NULL));
+    SL_CHECK(sl_symbolic_create(&y.S, &y.A, &opt, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.A, NULL, NULL));
+    return y;
+}
+
+static void system_free(system_t *y) {
+    sl_factor_free(y->F);
+    sl_symbolic_free(y->S);
+    sl_matrix_free(y->M);
+}
+
+/* The other forms of c->H: split values, the upper triangle, both triangles. x and im have room for
+ * 2 ENTRIES. */
+static sl_hermitian other_form(const connection_t *c, int is_upper, int is_both, sl_int *p,
+                               sl_int *i, double *x, double *im) {
+    sl_hermitian H = {N, p, i, x, im};
+    sl_int at = 0;
+    for (sl_int column = 0; column < N; column++) {
+        p[column] = at;
+        for (sl_int j = 0; j < N && (is_upper || is_both); j++) {
+            for (sl_int q = c->p[j]; q < c->p[j + 1]; q++) {
+                if (c->i[q] == column && (j != column || !is_both)) {
+                    i[at] = j;
+                    x[at] = c->re[q];
+                    im[at++] = j == column ? 0.0 : -c->im[q];
+                }
+            }
+        }
+        for (sl_int q = c->p[column]; q < c->p[column + 1] && !is_upper; q++) {
+            i[at] = c->i[q];
+            x[at] = c->re[q];
+            im[at++] = c->im[q];
+        }
+    }
+    p[N] = at;
+    return H;
+}
+
+static void every_form_gives_the_same_solution(void **state) {
+    (void)state;
+    connection_t *c = connection_make(0.01, 3);
+    sl_int *p = test_ints(N + 1), *i = test_ints(2 * ENTRIES);
+    double *x = test_reals(2 * ENTRIES), *im = test_reals(2 * ENTRIES);
+    double b[2 * N], first[2 * N], X[2 * N];
+    gen_reals(b, 2 * N, 5);
+    for (int form = 0; form < 4; form++) {
+        const sl_hermitian H = form == 0 ? c->H : other_form(c, form == 2, form == 3, p, i, x, im);
+        system_t y = system_make(&H);
+        SL_CHECK(sl_factor_solve(y.F, X, 2 * N, b, 2 * N, 1, NULL));
+        assert_true(residual(c, X, b) < 1e-11);
+        for (sl_int k = 0; k < 2 * N; k++) {
+            first[k] = form == 0 ? X[k] : first[k];
+            assert_true(fabs(X[k] - first[k]) < 1e-10 * (1 + fabs(first[k])));
+        }
+        system_free(&y);
+    }
+    free(im);
+    free(x);
+    free(i);
+    free(p);
+    free(c);
+}
+
+static void local_solves_equal_full_ones(void **state) {
+    (void)state;
+    static const sl_int bset[3] = {40, 7, 62}, xset[4] = {41, 0, 80, 7};
+    connection_t *c = connection_make(0.3, 4);
+    system_t y = system_make(&c->H);
+    double b[6], full_b[2 * N] = {0}, full[2 * N], X[8];
+    sl_plan *P;
+    gen_reals(b, 6, 8);
+    for (int k = 0; k < 3; k++) {
+        full_b[2 * bset[k]] = b[2 * k];
+        full_b[2 * bset[k] + 1] = b[2 * k + 1];
+    }
+    SL_CHECK(sl_factor_solve(y.F, full, 2 * N, full_b, 2 * N, 1, NULL));
+    SL_CHECK(sl_complex_plan_create(&P, y.S, bset, 3, xset, 4, NULL, NULL));
+    SL_CHECK(sl_plan_solve(P, y.F, X, 8, b, 6, 1, NULL));
+    for (int k = 0; k < 4; k++) {
+        SAME_VALUES(X + 2 * k, full + 2 * xset[k], 2);
+    }
+    sl_plan_free(P);
+    /* all rows, and none */
+    double all[2 * N];
+    SL_CHECK(sl_complex_plan_create(&P, y.S, bset, 3, NULL, -7, NULL, NULL));
+    SL_CHECK(sl_plan_solve(P, y.F, all, 2 * N, b, 6, 1, NULL));
+    SAME_VALUES(all, full, 2 * N);
+    sl_plan_free(P);
+    SL_CHECK(sl_complex_plan_create(&P, y.S, bset, 0, xset, 4, NULL, NULL));
+    SL_CHECK(sl_plan_solve(P, y.F, X, 8, b, 6, 1, NULL));
+    for (int k = 0; k < 8; k++) {
+        assert_true(X[k] == 0.0);
+    }
+    sl_plan_free(P);
+    system_free(&y);
+    free(c);
+}
+
+static void entries_of_the_inverse(void **state) {
+    (void)state;
+    static const sl_int rows[3] = {3, 55, 54}, columns[2] = {54, 3};
+    connection_t *c = connection_make(0.3, 6);
+    system_t y = system_make(&c->H);
+    double Z[2 * 4 * 2], pairs[4], b[2 * N], x[2 * N];
+    sl_stats stats;
+    SL_CHECK(sl_complex_inverse_block(y.F, Z, 4, rows, 3, columns, 2, NULL, NULL));
+    for (int k = 0; k < 2; k++) {
+        memset(b, 0, sizeof b);
+        b[2 * columns[k]] = 1.0;
+        SL_CHECK(sl_factor_solve(y.F, x, 2 * N, b, 2 * N, 1, NULL));
+        for (int r = 0; r < 6; r++) {
+            assert_true(fabs(Z[8 * k + r] - x[2 * rows[r / 2] + r % 2]) < 1e-12);
+        }
+        SL_CHECK(sl_complex_inverse_pairs(y.F, pairs, rows + 1, columns + k, 1, NULL, NULL));
+        assert_true(fabs(pairs[0] - x[110]) < 1e-12 && fabs(pairs[1] - x[111]) < 1e-12);
+    }
+    assert_true(fabs(Z[8 + 1]) < 1e-13); /* the diagonal of the inverse is real */
+    SL_CHECK(sl_complex_inverse_block(y.F, Z, 0, NULL, 0, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_complex_inverse_pairs(y.F, pairs, NULL, NULL, 0, NULL, NULL));
+    /* the caller's rows are named */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(y.F, Z, 4, rows, 3, ((const sl_int[1]){N}),
+                                                        1, NULL, &stats));
+    assert_int_equal(stats.error.column, N);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(y.F, pairs, ((const sl_int[1]){-3}),
+                                                        columns, 1, NULL, &stats));
+    assert_int_equal(stats.error.row, -3);
+    system_free(&y);
+    free(c);
+}
+
+/* log |det| and the sign of a dense Hermitian matrix, by elimination without pivoting. */
+static double dense_logdet(const connection_t *c, double *sign) {
+    double *re = test_reals(N * N), *im = test_reals(N * N), sum = 0.0;
+    *sign = 1.0;
+    for (sl_int j = 0; j < N; j++) {
+        for (sl_int p = c->p[j]; p < c->p[j + 1]; p++) {
+            re[c->i[p] * N + j] = re[j * N + c->i[p]] = c->re[p];
+            im[c->i[p] * N + j] = c->im[p];
+            im[j * N + c->i[p]] = -c->im[p];
+        }
+    }
+    for (sl_int k = 0; k < N; k++) {
+        const double d = re[k * N + k];
+        sum += log(fabs(d));
+        *sign *= d < 0 ? -1.0 : 1.0;
+        for (sl_int i = k + 1; i < N; i++) {
+            const double a = re[i * N + k] / d, b = im[i * N + k] / d;
+            for (sl_int j = k + 1; j < N; j++) {
+                re[i * N + j] -= a * re[k * N + j] - b * im[k * N + j];
+                im[i * N + j] -= a * im[k * N + j] + b * re[k * N + j];
+            }
+        }
+    }
+    free(im);
+    free(re);
+    return sum;
+}
+
+static void determinants_and_inertia(void **state) {
+    (void)state;
+    static const double shifts[4] = {0.5, -2.2, -3.9, -9.3};
+    int signs = 0;
+    for (int k = 0; k < 4; k++) {
+        connection_t *c = connection_make(shifts[k], 9);
+        system_t y = system_make(&c->H);
+        double sign, value, wanted_sign, wanted = dense_logdet(c, &wanted_sign);
+        sl_stats stats;
+        sl_factor_stats(y.F, &stats);
+        assert_int_equal(stats.factor.negative % 2, 0);
+        assert_int_equal(stats.factor.positive + stats.factor.negative, 2 * N);
+        SL_CHECK(sl_complex_logdet(y.F, &value, &sign));
+        assert_true(fabs(value - wanted) < 1e-9 * (1 + fabs(wanted)));
+        assert_true(sign == wanted_sign);
+        signs |= sign < 0 ? 1 : 2;
+        system_free(&y);
+        free(c);
+    }
+    assert_int_equal(signs, 3); /* both signs occurred */
+}
+
+static void new_values_in_the_same_pattern(void **state) {
+    (void)state;
+    connection_t *c = connection_make(0.4, 10), *d = connection_make(0.2, 11);
+    system_t y = system_make(&c->H), z = system_make(&d->H);
+    const sl_off nnz = y.A.p[y.A.n_cols];
+    double *before = test_reals((size_t)nnz);
+    sl_stats stats;
+    memcpy(before, y.A.x, (size_t)nnz * sizeof *before);
+    /* another pattern: refused, and M stays */
+    d->i[4] = d->i[4] + 1;
+    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(y.M, &d->H, &stats));
+    assert_true(stats.error.column >= 0);
+    d->i[4] = d->i[4] - 1;
+    d->H.n = N - 1;
+    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(y.M, &d->H, NULL));
+    d->H.n = N;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(NULL, &d->H, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(y.M, NULL, NULL));
+    d->H.x = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_refill_hermitian(y.M, &d->H, NULL));
+    d->H.x = d->x;
+    assert_memory_equal(before, y.A.x, (size_t)nnz * sizeof *before);
+    SL_CHECK(sl_matrix_refill_hermitian(y.M, &d->H, NULL));
+    assert_memory_equal(z.A.x, y.A.x, (size_t)nnz * sizeof *before);
+    SL_CHECK(sl_factor_refactor(y.F, &y.A, NULL));
+    SAME_VALUES(sl_factor_view(y.F).D, sl_factor_view(z.F).D, 2 * N);
+    free(before);
+    system_free(&z);
+    system_free(&y);
+    free(d);
+    free(c);
+}
+
+static void wrong_arguments(void **state) {
+    (void)state;
+    connection_t *c = connection_make(0.4, 12);
+    system_t y = system_make(&c->H);
+    sl_matrix *M = y.M;
+    sl_plan *P = (sl_plan *)(void *)&M;
+    sl_stats stats;
+    sl_int out[4], set[2] = {5, N};
+    double value, sign;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(NULL, &c->H, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(&M, NULL, NULL, NULL));
+    assert_null(M);
+    c->x[2 * c->p[7] + 1] = 1e-30; /* a diagonal entry that is not real */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(&M, &c->H, NULL, &stats));
+    assert_int_equal(stats.error.row, 7);
+    c->x[2 * c->p[7] + 1] = NAN;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(&M, &c->H, NULL, &stats));
+    c->x[2 * c->p[7] + 1] = 0;
+    c->H.x = NULL;
+    c->H.im = c->im;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_hermitian(&M, &c->H, NULL, NULL));
+    c->H.im = NULL;
+    SL_CHECK(sl_matrix_from_hermitian(&M, &c->H, NULL, NULL)); /* the pattern alone */
+    assert_null(sl_matrix_view(M).x);
+    sl_matrix_free(M);
+    c->H.x = c->x;
+    c->i[3] = N;
+    SL_EXPECT(SL_ERR_PATTERN, sl_matrix_from_hermitian(&M, &c->H, NULL, &stats));
+    assert_int_equal(stats.error.row, N);
+    assert_null(M);
+
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, 2, set, 1, NULL, &stats));
+    assert_int_equal(stats.error.row, N);
+    assert_null(P);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, 1, set, 2, NULL, &stats));
+    assert_int_equal(stats.error.row, N);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, y.S, set, -1, set, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, NULL, set, 1, set, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(NULL, y.S, set, 1, set, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(NULL, &value, &sign));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(y.F, NULL, &sign));
+
+    SL_CHECK(sl_complex_rows(out, set, 2));
+    assert_true(out[0] == 10 && out[1] == 11 && out[2] == 2 * N && out[3] == 2 * N + 1);
+    SL_CHECK(sl_complex_rows(NULL, NULL, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, set, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(NULL, set, 1));
+    set[0] = -1;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, set, 1));
+    set[0] = INT32_MAX / 2;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_rows(out, set, 1));
+    system_free(&y);
+    free(c);
+}
+
+/* A real system with an odd number of rows is no complex one. */
+static void odd_systems_are_refused(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 1, 2, 3}, i[3] = {0, 1, 2}, none[1] = {0};
+    static const double x[3] = {1, 2, 3};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_plan *P;
+    double out[2];
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_plan_create(&P, S, none, 1, none, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_block(F, out, 1, none, 1, none, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_inverse_pairs(F, out, none, none, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_complex_logdet(F, out, out + 1));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* Every allocation of the calls fails in turn. */
+static void failing_allocations(void **state) {
+    (void)state;
+    static const sl_int set[3] = {3, 55, 54};
+    connection_t *c = connection_make(0.3, 13);
+    system_t y = system_make(&c->H);
+    for (int call = 0; call < 4; call++) {
+        sl_status status = SL_ERR_MEMORY;
+        for (int64_t k = 0; status != SL_OK; k++) {
+            counter_t counter = counter_make();
+            sl_options opt = options_counted(&counter);
+            sl_matrix *M = NULL;
+            sl_plan *P = NULL;
+            sl_factor *F = NULL;
+            double Z[18];
+            SL_CHECK(sl_factor_create(&F, y.S, &y.A, &opt, NULL));
+            counter.fail_at = (int64_t)counter.calls + k;
+            status = call == 0   ? sl_matrix_from_hermitian(&M, &c->H, &opt, NULL)
+                     : call == 1 ? sl_complex_plan_create(&P, y.S, set, 3, set, 3, &opt, NULL)
+                     : call == 2 ? sl_complex_inverse_block(F, Z, 3, set, 3, set, 3, NULL, NULL)
+                                 : sl_complex_inverse_pairs(F, Z, set, set, 3, NULL, NULL);
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            assert_int_equal(status == SL_OK, counter.calls <= (size_t)counter.fail_at);
+            assert_true(k > 0 || status == SL_ERR_MEMORY);
+            sl_matrix_free(M);
+            sl_plan_free(P);
+            sl_factor_free(F);
+            COUNTER_CLEAN(&counter);
+        }
+    }
+    system_free(&y);
+    free(c);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_form_gives_the_same_solution),
+        cmocka_unit_test(local_solves_equal_full_ones),
+        cmocka_unit_test(entries_of_the_inverse),
+        cmocka_unit_test(determinants_and_inertia),
+        cmocka_unit_test(new_values_in_the_same_pattern),
+        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(odd_systems_are_refused),
+        cmocka_unit_test(failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
