@@ -12,7 +12,7 @@ SUB_MAKE = $(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOB
 DATA ?= ../shared/data
 ## BENCH    size of the bench: quick, full (to 4e6 unknowns) or nothing
 BENCH ?=
-## QUESTION questions of the bench by name (build/timed/bench --list); nothing: all
+## QUESTION questions of the bench by name (build/timed/bench --list); nothing: those of a newcomer, or all with BENCH
 QUESTION ?=
 ## MESH     mesh file that the bench uses instead of its grids
 MESH ?=

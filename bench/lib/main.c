@@ -14,9 +14,29 @@ typedef struct question {
     void (*answer)(bench_run *run);
 } question;
 
+/* What a newcomer wants to know; without a name and at the default size, only these are run. */
+enum { N_FIRST = 9 };
+
 static const question questions[] = {
     {"cold", "from the matrix to the first solution: each stage, by purpose and threads",
      bench_cold},
+    {"vertex_pairs",
+     "b and x at one vertex; random pairs by one or two reaches ([HDA17] section 5)",
+     bench_vertex_pairs},
+    {"locality", "the same local solve on meshes of growing size", bench_locality},
+    {"patches",
+     "local solves on a patch against refactorization of the patch, conjugate gradients and full "
+     "solves ([HDA17] Figures 4, 5)",
+     bench_patches},
+    {"multi_rhs", "1 to 8 right-hand sides in one call against one call each", bench_multi_rhs},
+    {"harmonic", "harmonic, biharmonic, triharmonic systems: analysis, factorization, full solve",
+     bench_harmonic},
+    {"inverse_entries", "entries and blocks of the inverse: forward sweeps against local solves",
+     bench_inverse_entries},
+    {"neumann", "zero-mean solutions of singular Laplacians against shifted ones; refinement",
+     bench_neumann},
+    {"change", "entries changed by rank-one updates against refactorizations; pins", bench_change},
+    /* by name, or of BENCH=quick and BENCH=full */
     {"scaling", "ordering, analysis, factorization and nnz(L) as n grows ([HDA17] Figure 6)",
      bench_scaling},
     {"amortize",
@@ -28,19 +48,6 @@ static const question questions[] = {
      bench_factor},
     {"front_kernels", "dense kernels of the factorization by shape of the front",
      bench_front_kernels},
-    {"harmonic", "harmonic, biharmonic, triharmonic systems: analysis, factorization, full solve",
-     bench_harmonic},
-    {"patches",
-     "local solves on a patch against refactorization of the patch, conjugate gradients and full "
-     "solves ([HDA17] Figures 4, 5)",
-     bench_patches},
-    {"multi_rhs", "1 to 8 right-hand sides in one call against one call each", bench_multi_rhs},
-    {"vertex_pairs",
-     "b and x at one vertex; random pairs by one or two reaches ([HDA17] section 5)",
-     bench_vertex_pairs},
-    {"inverse_entries", "entries and blocks of the inverse: forward sweeps against local solves",
-     bench_inverse_entries},
-    {"locality", "the same local solve on meshes of growing size", bench_locality},
     {"selected_inverse",
      "the whole diagonal of the inverse against a refactorization and against single entries",
      bench_selected_inverse},
@@ -50,10 +57,7 @@ static const question questions[] = {
      bench_adf},
     {"shifted", "M + t L for eight t: factors, one plan on all of them, heat kernel signatures",
      bench_shifted},
-    {"neumann", "zero-mean solutions of singular Laplacians against shifted ones; refinement",
-     bench_neumann},
     {"saved", "factors in files: saved, loaded, mapped, shared by processes", bench_saved},
-    {"change", "entries changed by rank-one updates against refactorizations; pins", bench_change},
 #ifdef SL_BENCH_PEERS
     {"peers", "CHOLMOD and Eigen: setup, refactorization, full and local solves", bench_peers},
     {"peers_harmonic", "the same steps on harmonic, biharmonic and triharmonic systems",
@@ -71,13 +75,17 @@ static void list(FILE *out) {
 }
 
 static int usage(FILE *out) {
-    fprintf(out, "usage: bench [--help] [--list] [name ...]\n"
-                 "Runs the named questions, or all of them:\n");
+    fprintf(out,
+            "usage: bench [--help] [--list] [name ...]\n"
+            "Runs the named questions, or the first %d, or all with BENCH:\n",
+            N_FIRST);
     list(out);
     fprintf(out,
             "Environment:\n"
-            "  BENCH=quick|full  up to 1e5 vertices (seconds), or up to 4e6; default: 1e6 (four "
-            "minutes)\n"
+            "  BENCH=quick|full  all questions up to 1e5 vertices (seconds), or up to 4e6; "
+            "default: the "
+            "first\n"
+            "                    ones up to 1e6 (two minutes)\n"
             "  MESH=path         use this mesh (.obj .off .ply .stl, plain or .gz) in place of "
             "synthetic grids\n"
             "  BENCH_OUT=folder  where CSV files and plots are written; default: build/bench-out\n"
@@ -87,14 +95,14 @@ static int usage(FILE *out) {
     return out == stderr ? 2 : 0;
 }
 
-/* Whether the question is to be run: all are if none is named. */
-static int is_selected(const char *name, int argc, char **argv) {
+/* Whether the question is to be run. */
+static int is_selected(const bench_run *run, int k, int argc, char **argv) {
     for (int a = 1; a < argc; a++) {
-        if (strcmp(argv[a], name) == 0) {
+        if (strcmp(argv[a], questions[k].name) == 0) {
             return 1;
         }
     }
-    return argc == 1;
+    return argc == 1 && (k < N_FIRST || run->size != BENCH_DEFAULT);
 }
 
 /* Creates the folder and its parents. Returns whether it exists now. */
@@ -163,11 +171,18 @@ int main(int argc, char **argv) {
     bench_bandwidth_measure();
     bench_peak_measure(&run);
     for (int k = 0; k < N_QUESTIONS; k++) {
-        if (is_selected(questions[k].name, argc, argv)) {
+        if (is_selected(&run, k, argc, argv)) {
             double begin = bench_now();
             questions[k].answer(&run);
             bench_progress("[%s: %.0f s]\n", questions[k].name, bench_now() - begin);
         }
+    }
+    if (argc == 1 && run.size == BENCH_DEFAULT) {
+        printf("\nMore questions by name (make bench QUESTION=...), or all with BENCH=full:");
+        for (int k = N_FIRST; k < N_QUESTIONS; k++) {
+            printf(" %s", questions[k].name);
+        }
+        printf("\n");
     }
     printf("\n%.0f s in total; CSV files and plots are in %s; %d checks failed\n",
            bench_now() - start, run.out_dir, run.failures);
