@@ -1,0 +1,163 @@
+/* app_picture.c: camera, color range, legend and files of the pictures, shared by all commands */
+#include "app.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/draw/legend.h"
+
+void app_view(render_view *view, const app_output *o) {
+    *view = render_view_default();
+    char rest = 0;
+    if (o->size != NULL &&
+        (sscanf(o->size, "%dx%d%c", &view->width, &view->height, &rest) != 2 || view->width < 1 ||
+         view->height < 1 || view->width > 8000 || view->height > 8000)) {
+        app_die_usage("--size %s: expected WxH such as 800x600, each from 1 to 8000", o->size);
+    }
+    if (o->view != NULL) {
+        if (sscanf(o->view, "%lf,%lf%c", &view->azimuth, &view->elevation, &rest) != 2) {
+            app_die_usage("--view %s: expected azimuth,elevation such as 30,20", o->view);
+        }
+        view->automatic = false;
+    }
+    if (o->up != NULL) {
+        static const char order[] = "yxz"; /* of camera_up */
+        const char *axis = strchr(order, o->up[0]);
+        if (axis == NULL || o->up[0] == '\0' || o->up[1] != '\0') {
+            app_die_usage("--up %s: expected x, y or z", o->up);
+        }
+        view->up = (camera_up)(axis - order);
+    }
+    if (o->view == NULL) {
+        const double *d = o->direction;
+        const double steepest = 55;
+        render_look_from(view, d);
+        if (!o->is_frontal) {
+            view->elevation = fmax(-steepest, fmin(steepest, view->elevation));
+        } else if (isfinite(d[0] + d[1] + d[2]) && (d[0] != 0 || d[1] != 0 || d[2] != 0)) {
+            view->automatic = false;
+        }
+    }
+}
+
+void app_check_output(const app_output *o, const char *out) {
+    render_view view;
+    app_view(&view, o);
+    if (out != NULL && !mesh_write_knows(out)) {
+        app_die(
+            "%s: unknown mesh format: the name must end in .obj or .ply, optionally followed by "
+            ".gz",
+            out);
+    }
+}
+
+void app_aim_camera(app_output *o, const mesh *m, const sl_int *vertices, sl_int count,
+                    bool is_frontal) {
+    unsigned char *chosen = app_alloc((size_t)m->n_vertices, 1);
+    render_view view;
+    app_view(&view, o);
+    memset(o->direction, 0, sizeof o->direction);
+    o->is_frontal = is_frontal;
+    for (sl_int k = 0; vertices != NULL && k < count; k++) {
+        chosen[vertices[k]] = 1;
+    }
+    for (size_t f = 0; f < (size_t)m->n_faces; f++) {
+        const sl_int *v = m->faces + 3 * f;
+        const double *a = m->xyz + 3 * (size_t)v[0], *b = m->xyz + 3 * (size_t)v[1],
+                     *c = m->xyz + 3 * (size_t)v[2];
+        bool counts = vertices == NULL || chosen[v[0]] || chosen[v[1]] || chosen[v[2]];
+        for (int d = 0; d < 3 && counts; d++) {
+            int e = (d + 1) % 3, g = (d + 2) % 3;
+            o->direction[d] += (b[e] - a[e]) * (c[g] - a[g]) - (b[g] - a[g]) * (c[e] - a[e]);
+        }
+    }
+    free(chosen);
+}
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+void app_range(double *low, double *high, const mesh *m, const double *value) {
+    size_t count = 0;
+    double *sorted = app_alloc(3 * (size_t)m->n_faces, sizeof *sorted);
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        double x = value[m->faces[k]];
+        if (isfinite(x)) {
+            sorted[count++] = x;
+        }
+    }
+    qsort(sorted, count, sizeof *sorted, by_size);
+    *low = count > 0 ? sorted[count / 200] : 0;
+    *high = count > 0 ? sorted[count - 1 - count / 200] : 1;
+    free(sorted);
+}
+
+void app_write_png(const picture *p, const char *path) {
+    char message[512];
+    if (!picture_write_png(p, path, message, sizeof message)) {
+        app_die("%s", message);
+    }
+}
+
+/* The ends of the color map as render_mesh chooses them. */
+static void find_range(render_style *style, sl_int n) {
+    double low = INFINITY, high = -INFINITY;
+    for (sl_int v = 0; v < n && style->low == 0 && style->high == 0; v++) {
+        if (isfinite(style->scalar[v])) {
+            low = fmin(low, style->scalar[v]);
+            high = fmax(high, style->scalar[v]);
+        }
+    }
+    if (low <= high) {
+        style->low = low;
+        style->high = high;
+    }
+}
+
+/* Renders the mesh, with a legend at its right if the style has one and the picture room for it. */
+static bool render_with_legend(picture *p, const mesh *m, const render_view *whole,
+                               const render_style *given) {
+    const rgb white = {255, 255, 255};
+    render_view view = *whole;
+    render_style style = *given;
+    picture drawn;
+    int width = given->legend != NULL ? legend_width(view.width, view.height) : 0;
+    if (width == 0 || style.scalar == NULL) {
+        return render_mesh(p, m, &view, &style);
+    }
+    find_range(&style, m->n_vertices);
+    view.width -= width;
+    if (!picture_create(p, whole->width, whole->height, white)) {
+        return false;
+    }
+    if (!render_mesh(&drawn, m, &view, &style)) {
+        picture_free(p);
+        return false;
+    }
+    picture_paste(p, &drawn, 0, 0);
+    picture_free(&drawn);
+    legend_draw(p, width, style.legend, style.low, style.high, style.isolines);
+    return true;
+}
+
+void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
+               const render_style *style) {
+    char message[512];
+    if (o->out != NULL && !mesh_write(o->out, m, extra, message, sizeof message)) {
+        app_die("%s", message);
+    }
+    if (o->png != NULL) {
+        render_view view;
+        picture p;
+        app_view(&view, o);
+        if (!render_with_legend(&p, m, &view, style)) {
+            app_die("%s: out of memory for a picture of %d x %d", o->png, view.width, view.height);
+        }
+        app_write_png(&p, o->png);
+        picture_free(&p);
+    }
+}
