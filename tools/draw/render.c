@@ -1,10 +1,12 @@
-/* render.c: renders a mesh to a picture: projection, depth buffer, marks and lines */
+/* render.c: renders a mesh to a picture: projection, visible colors, marks and lines */
 #include "render.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "render_cover.h"
+#include "render_layers.h"
 #include "render_shade.h"
 
 enum { SUPERSAMPLE = 2 };
@@ -131,7 +133,8 @@ static void project(scene *s, const render_view *view) {
         double shrink = distance > 0 && distance > e[2] ? distance / (distance - e[2]) : 1;
         p[0] = e[0] * shrink;
         p[1] = -e[1] * shrink;
-        p[2] = distance > 0 ? shrink : e[2]; /* as 1 / distance, it is linear on the screen */
+        /* As 1 / distance, it is linear on the screen. */
+        p[2] = distance > 0 ? distance * shrink : e[2];
     }
     for (sl_int f = 0; f < s->m->n_faces; f++) {
         for (size_t c = 0; c < 3 && is_drawn(s, f); c++) {
@@ -151,6 +154,7 @@ static void project(scene *s, const render_view *view) {
         double *p = s->screen + 3 * (size_t)v;
         p[0] = 0.5 * width + scale * (p[0] - 0.5 * (low[0] + high[0]));
         p[1] = 0.5 * height + scale * (p[1] - 0.5 * (low[1] + high[1]));
+        p[2] *= scale;
     }
 }
 
@@ -158,39 +162,64 @@ static int clamp_pixel(double x, int size) {
     return !(x > 0) ? 0 : x >= size ? size : (int)x;
 }
 
-/* Colors the pixels whose centers lie in the triangle, unless a nearer face covers them. */
-static void fill_face(scene *s, sl_int face) {
-    const sl_int *f = s->m->faces + 3 * (size_t)face;
-    const double *a = s->screen + 3 * (size_t)f[0], *b = s->screen + 3 * (size_t)f[1],
-                 *c = s->screen + 3 * (size_t)f[2];
-    double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    if (!(fabs(area) > 1e-12)) {
-        return;
-    }
+/* The face whose parts are drawn into a band of rows. */
+typedef struct face_in_band {
+    const scene *s;
     render_triangle tri;
-    render_shade_face(&tri, &s->shade, face, a, b, c);
-    int left = clamp_pixel(fmin(fmin(a[0], b[0]), c[0]) - 0.5, s->pixels.width);
-    int right = clamp_pixel(fmax(fmax(a[0], b[0]), c[0]) + 1.5, s->pixels.width);
-    int top = clamp_pixel(fmin(fmin(a[1], b[1]), c[1]) - 0.5, s->pixels.height);
-    int bottom = clamp_pixel(fmax(fmax(a[1], b[1]), c[1]) + 1.5, s->pixels.height);
-    for (int y = top; y < bottom; y++) {
-        for (int x = left; x < right; x++) {
-            double px = x + 0.5, py = y + 0.5;
-            double w[3];
-            w[0] = ((b[0] - px) * (c[1] - py) - (b[1] - py) * (c[0] - px)) / area;
-            w[1] = ((c[0] - px) * (a[1] - py) - (c[1] - py) * (a[0] - px)) / area;
-            w[2] = 1 - w[0] - w[1];
-            if (w[0] < -1e-9 || w[1] < -1e-9 || w[2] < -1e-9) {
-                continue;
-            }
-            double z = w[0] * a[2] + w[1] * b[2] + w[2] * c[2];
-            size_t at = (size_t)y * (size_t)s->pixels.width + (size_t)x;
-            if (z > s->depth[at]) {
-                s->depth[at] = z;
-                s->pixels.at[at] = render_shade_point(&s->shade, &tri, w);
-            }
+    render_cell *cells; /* from the first row of the band on */
+    int top;
+} face_in_band;
+
+static void draw_part(void *context, const cover_part *part) {
+    face_in_band *f = (face_in_band *)context;
+    const size_t width = (size_t)f->s->pixels.width;
+    render_cell *cell = &f->cells[(size_t)(part->y - f->top) * width + (size_t)part->x];
+    if (!render_cell_hides(cell, part->depth)) {
+        rgb color = render_shade_point(&f->s->shade, &f->tri, part->w);
+        render_cell_add(cell, part->area, part->mask, part->depth, color);
+    }
+}
+
+/* Draws all faces into the rows top..bottom-1. */
+static void draw_band(scene *s, render_cell *cells, int top, int bottom) {
+    const size_t width = (size_t)s->pixels.width, count = (size_t)(bottom - top) * width;
+    face_in_band f;
+    f.s = s;
+    f.cells = cells;
+    f.top = top;
+    for (size_t k = 0; k < count; k++) {
+        cells[k].count = 0;
+    }
+    for (sl_int face = 0; face < s->m->n_faces; face++) {
+        const sl_int *v = s->m->faces + 3 * (size_t)face;
+        const double *corner[3];
+        for (int c = 0; c < 3; c++) {
+            corner[c] = s->screen + 3 * (size_t)v[c];
+        }
+        const double *a = corner[0], *b = corner[1], *c = corner[2];
+        if (is_drawn(s, face) && fmin(fmin(a[1], b[1]), c[1]) < bottom &&
+            fmax(fmax(a[1], b[1]), c[1]) > top) {
+            render_shade_face(&f.tri, &s->shade, face, a, b, c);
+            cover_triangle(corner, 0, s->pixels.width, top, bottom, draw_part, &f);
         }
     }
+    for (size_t k = 0; k < count; k++) {
+        const size_t at = (size_t)top * width + k;
+        s->pixels.at[at] = render_cell_color(&cells[k], background, &s->depth[at]);
+    }
+}
+
+/* Draws the surface in bands of rows, so that the layers of few cells are in memory at a time. */
+static bool draw_surface(scene *s) {
+    const int width = s->pixels.width, height = s->pixels.height, fewest = height / 64 + 1;
+    int rows = (1 << 18) / width < fewest ? fewest : (1 << 18) / width;
+    rows = rows < height ? rows : height;
+    render_cell *cells = (render_cell *)malloc((size_t)rows * (size_t)width * sizeof *cells);
+    for (int top = 0; cells != NULL && top < height; top += rows) {
+        draw_band(s, cells, top, top + rows < height ? top + rows : height);
+    }
+    free(cells);
+    return cells != NULL;
 }
 
 /* Draws a disk at a point that the surface does not hide by more than `tolerance` in depth. */
@@ -208,7 +237,7 @@ static void draw_overlay(scene *s) {
         low = fmin(low, s->screen[3 * (size_t)v + 2]);
         high = fmax(high, s->screen[3 * (size_t)v + 2]);
     }
-    double tolerance = high > low ? 0.01 * (high - low) : 1e-9;
+    double tolerance = high > low ? fmax(1, 0.01 * (high - low)) : 1;
     for (int k = 0; k < s->style->n_segments; k++) {
         const render_segment *line = &s->style->segments[k];
         const double *a = s->screen + 3 * (size_t)line->from, *b = s->screen + 3 * (size_t)line->to;
@@ -247,17 +276,10 @@ bool render_mesh(picture *out, const mesh *m, const render_view *view, const ren
     s.eye = (double *)malloc((3 * n + 1) * sizeof *s.eye);
     bool ok = s.depth != NULL && s.screen != NULL && s.eye != NULL;
     if (ok) {
-        for (size_t k = 0; k < pixels; k++) {
-            s.depth[k] = -HUGE_VAL;
-        }
         project(&s, view);
         ok = render_shade_begin(&s.shade, m, style, s.eye, SUPERSAMPLE);
     }
-    for (sl_int f = 0; ok && f < m->n_faces; f++) {
-        if (is_drawn(&s, f)) {
-            fill_face(&s, f);
-        }
-    }
+    ok = ok && draw_surface(&s);
     if (ok) {
         draw_overlay(&s);
         picture_shrink(&s.pixels, SUPERSAMPLE);

@@ -58,14 +58,16 @@ typedef struct render_style {
     double low, high;        /* ends of the color map; both 0: smallest and largest finite value */
     const char *legend;      /* title of the legend, lines separated by newlines; NULL: no legend.
                                 Drawn by app_write, not by render_mesh */
-    int isolines;            /* number of levels strictly between low and high; 0: none */
+    int isolines;            /* number of levels strictly between low and high; 0: none. Omitted
+                                where they would be closer than twice their width */
     const rgb *vertex_color; /* n_vertices */
     bool nearest;            /* color of the nearest corner; false: interpolated */
     const rgb *face_color;   /* n_faces */
     const unsigned char *hidden; /* n_faces: faces with 1 are not drawn; NULL: all are drawn */
     bool flat;                   /* one normal per face */
     bool unlit;                  /* no shading, as for layouts in the plane */
-    double edges;                /* width of the edges in pixels; 0: none */
+    double edges;                /* width of the edges in pixels; 0: none. Faces thinner than three
+                                    widths have none */
     rgb edge_color;
     const render_mark *marks;
     int n_marks;
@@ -73,7 +75,9 @@ typedef struct render_style {
     int n_segments;
 } render_style;
 
-/** Renders a mesh; each pixel is the mean of 2 x 2 samples.
+/** Renders a mesh. Each quarter of a pixel shows the visible parts of all faces in it by their
+ *  areas, so that faces far thinner than a pixel show their mean color. Faces that lie on one
+ *  another show the mean of their colors.
  *
  *  The scale is chosen from the vertices that faces use. A mesh without faces gives an empty
  *  picture. Faces with a coordinate of magnitude 1e150 or more are not drawn.

@@ -18,6 +18,10 @@ static void face_normal(double normal[3], const double *a, const double *b, cons
     }
 }
 
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 static void normalize(double x[3]) {
     double length = hypot(hypot(x[0], x[1]), x[2]);
     for (int d = 0; d < 3; d++) {
@@ -25,28 +29,70 @@ static void normalize(double x[3]) {
     }
 }
 
-/* Area-weighted means of the normals of the incident faces. */
-static bool vertex_normals(render_shade *s) {
-    size_t n = (size_t)s->m->n_vertices;
-    s->normal = (double *)calloc(3 * n + 1, sizeof *s->normal);
-    if (s->normal == NULL) {
-        return false;
+/* Adds the area-weighted normals of all faces to those of their corners. size[v] sums up their
+ * lengths; at a vertex with a reference, each is first turned to the reference's side. */
+static void sum_normals(const render_shade *s, double *sum, double *size, const double *reference) {
+    for (size_t k = 0; k < (size_t)s->m->n_faces; k++) {
+        const sl_int *f = s->m->faces + 3 * k;
+        double normal[3];
+        face_normal(normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
+                    s->eye + 3 * (size_t)f[2]);
+        const double length = hypot(hypot(normal[0], normal[1]), normal[2]);
+        for (int c = 0; c < 3 && isfinite(length); c++) {
+            const size_t v = (size_t)f[c];
+            const double sign = reference != NULL && dot(normal, reference + 3 * v) < 0 ? -1 : 1;
+            size[v] += length;
+            for (size_t d = 0; d < 3; d++) {
+                sum[3 * v + d] += sign * normal[d];
+            }
+        }
     }
+}
+
+/* The largest normal of the faces at each vertex. */
+static void largest_normals(const render_shade *s, double *largest) {
     for (size_t k = 0; k < (size_t)s->m->n_faces; k++) {
         const sl_int *f = s->m->faces + 3 * k;
         double normal[3];
         face_normal(normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
                     s->eye + 3 * (size_t)f[2]);
         for (int c = 0; c < 3; c++) {
-            for (int d = 0; d < 3; d++) {
-                s->normal[3 * (size_t)f[c] + (size_t)d] += normal[d];
+            double *other = largest + 3 * (size_t)f[c];
+            if (dot(normal, normal) > dot(other, other)) {
+                memcpy(other, normal, sizeof normal);
             }
         }
     }
-    for (size_t v = 0; v < n; v++) {
-        normalize(s->normal + 3 * v);
+}
+
+/* Area-weighted means of the normals of the incident faces. Where these cancel, as those of faces
+ * that lie on one another with opposite orientations do, rounding alone would decide about their
+ * mean: there all normals are turned to one side. Light does not depend on the side. */
+static bool vertex_normals(render_shade *s) {
+    const size_t n = (size_t)s->m->n_vertices;
+    const double cancelled = 0.05;
+    double *size = (double *)calloc(n + 1, sizeof *size);
+    double *aligned = (double *)calloc(3 * n + 1, sizeof *aligned);
+    double *largest = (double *)calloc(3 * n + 1, sizeof *largest);
+    s->normal = (double *)calloc(3 * n + 1, sizeof *s->normal);
+    const bool ok = s->normal != NULL && size != NULL && aligned != NULL && largest != NULL;
+    if (ok) {
+        largest_normals(s, largest);
+        sum_normals(s, aligned, size, largest);
+        memset(size, 0, n * sizeof *size);
+        sum_normals(s, s->normal, size, NULL);
     }
-    return true;
+    for (size_t v = 0; v < n && ok; v++) {
+        double *sum = s->normal + 3 * v;
+        if (dot(sum, sum) <= cancelled * cancelled * size[v] * size[v]) {
+            memcpy(sum, aligned + 3 * v, 3 * sizeof *sum);
+        }
+        normalize(sum);
+    }
+    free(largest);
+    free(aligned);
+    free(size);
+    return ok;
 }
 
 static void find_range(render_shade *s) {
@@ -130,6 +176,9 @@ void render_shade_face(render_triangle *tri, const render_shade *s, sl_int face,
     face_normal(tri->normal, s->eye + 3 * (size_t)f[0], s->eye + 3 * (size_t)f[1],
                 s->eye + 3 * (size_t)f[2]);
     normalize(tri->normal);
+    for (int k = 0; k < 3 && s->normal != NULL; k++) {
+        tri->side[k] = dot(tri->normal, s->normal + 3 * (size_t)f[k]) < 0 ? -1 : 1;
+    }
     if (s->style->scalar != NULL) {
         const double *x = s->style->scalar;
         double du = x[f[1]] - x[f[0]], dv = x[f[2]] - x[f[0]];
@@ -155,16 +204,17 @@ static rgb checked(const render_shade *s, const render_triangle *tri, const doub
 }
 
 /* Whether the value is within half a line width of an isoline. Their levels are
- * low + k (high - low) / (isolines + 1) for k = 1..isolines. */
+ * low + k (high - low) / (isolines + 1) for k = 1..isolines. Where lines would be closer than two
+ * widths, there are none: they would hide the color. */
 static bool on_isoline(const render_shade *s, const render_triangle *tri, double value) {
     int count = s->style->isolines;
     double step = (s->high - s->low) / (count + 1);
     if (count < 1 || !(step > 0)) {
         return false;
     }
-    double level = floor((value - s->low) / step + 0.5);
-    return level >= 1 && level <= count &&
-           fabs(value - s->low - level * step) <= 0.5 * isoline_width * s->pixel * tri->slope;
+    double level = floor((value - s->low) / step + 0.5), width = isoline_width * s->pixel;
+    return level >= 1 && level <= count && width * tri->slope <= 0.5 * step &&
+           fabs(value - s->low - level * step) <= 0.5 * width * tri->slope;
 }
 
 static rgb base_color(const render_shade *s, const render_triangle *tri, const double w[3]) {
@@ -206,13 +256,13 @@ static rgb lit(const render_shade *s, const render_triangle *tri, const double w
         for (int d = 0; d < 3; d++) {
             normal[d] = 0;
             for (int c = 0; c < 3; c++) {
-                normal[d] += w[c] * s->normal[3 * (size_t)f[c] + (size_t)d];
+                normal[d] += w[c] * tri->side[c] * s->normal[3 * (size_t)f[c] + (size_t)d];
             }
         }
         normalize(normal);
     }
     double side = normal[2] < 0 ? -1 : 1;
-    double cosine = side * (normal[0] * light[0] + normal[1] * light[1] + normal[2] * light[2]);
+    double cosine = side * dot(normal, light);
     double intensity = 0.45 + 0.55 * fmax(0, cosine);
     rgb black = {0, 0, 0};
     return color_mix(black, color, intensity);
@@ -223,9 +273,10 @@ rgb render_shade_point(const render_shade *s, const render_triangle *tri, const 
     if (!s->style->unlit) {
         color = lit(s, tri, w, color);
     }
+    /* Thin faces have no lines along them, which would hide their color. */
     double half_width = 0.5 * s->style->edges * s->pixel;
     for (int c = 0; half_width > 0 && c < 3; c++) {
-        if (w[c] * tri->height[c] <= half_width) {
+        if (tri->height[c] > 6 * half_width && w[c] * tri->height[c] <= half_width) {
             return s->style->edge_color;
         }
     }

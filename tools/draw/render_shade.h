@@ -20,6 +20,7 @@ typedef struct render_triangle {
     sl_int face;
     double height[3]; /* distance in pixels from each corner to the opposite edge */
     double normal[3]; /* of the face, unit length or 0 */
+    double side[3];   /* -1: the normal of the corner is on the other side of the face; else 1 */
     double slope;     /* change of the scalar per pixel */
     double uv[3][2];
     bool has_uv;
