@@ -206,6 +206,10 @@ gives 2 'needs T' heat sphere:1 --time
 gives 2 'such as 800x600' adf sphere:1 --png "$dir/x.png" --size 8
 gives 2 'such as 30,20' adf sphere:1 --png "$dir/x.png" --view 8
 gives 2 'expected x, y or z' adf sphere:1 --png "$dir/x.png" --up w
+for scale in 0 5 2x -1 ''; do
+    gives 2 'expected 1 to 4' adf sphere:1 --png "$dir/x.png" --scale "$scale"
+done
+gives 2 'at most 8000 pixels' adf sphere:1 --png "$dir/x.png" --size 4001x10 --scale 2
 gives 1 'cannot be written' adf sphere:1 --png "$dir/no/x.png"
 gives 1 'cannot be written' adf sphere:1 --csv "$dir/no/x.csv"
 gives 1 'must end in .obj or .ply' adf sphere:1 --out "$dir/x.off"

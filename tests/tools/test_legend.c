@@ -28,7 +28,7 @@ static void bars_show_the_color_map(void **state) {
         int width = legend_width(sizes[k][0], sizes[k][1]), highest = -1, lowest = -1;
         assert_true(width > 0 && 4 * width < 3 * sizes[k][0]);
         assert_true(picture_create(&p, sizes[k][0], sizes[k][1], white));
-        legend_draw(&p, width, "a title beyond the width\nt = 1", -1.25e-10, 3.5e100, 0);
+        legend_draw(&p, 1, "a title beyond the width\nt = 1", -1.25e-10, 3.5e100, 0);
         int x = p.width - width + 1;
         assert_true(drawn(&p, 0, p.width - width) == 0 && drawn(&p, p.width - width, p.width) > 0);
         for (int y = 0; y < p.height; y++) {
@@ -67,7 +67,30 @@ static void text_is_drawn(void **state) {
     picture_free(&p);
 }
 
-/* Pictures of numbers keep their size. */
+/* At twice and four times the scale, text, bar and ticks are where they were and as large. */
+static void legends_keep_their_proportions(void **state) {
+    (void)state;
+    const int width = 700, height = 500; /* at no scale a multiple of 800 x 600 */
+    picture one;
+    assert_true(picture_create(&one, width, height, white));
+    legend_draw(&one, 1, "heat\nt = 0.25", -3, 12, 9);
+    for (int scale = 2; scale <= 4; scale += 2) {
+        picture p;
+        double difference = 0;
+        assert_true(picture_create(&p, scale * width, scale * height, white));
+        legend_draw(&p, scale, "heat\nt = 0.25", -3, 12, 9);
+        assert_true(drawn(&p, 0, p.width - scale * legend_width(width, height)) == 0);
+        picture_shrink(&p, scale);
+        for (int k = 0; k < width * height; k++) {
+            difference += abs(p.at[k].g - one.at[k].g);
+        }
+        assert_true(difference < 0.25 * 255 * (double)drawn(&one, 0, width));
+        picture_free(&p);
+    }
+    picture_free(&one);
+}
+
+/* Pictures of numbers have the size that was asked for, times the scale. */
 static void pictures_keep_their_size(void **state) {
     (void)state;
     static const char *const commands[] = {"adf sphere:2", "heat sphere:2 --from 3,4",
@@ -77,14 +100,16 @@ static void pictures_keep_their_size(void **state) {
         char words[900];
         int width = 0, height = 0, status;
         size_t length;
-        (void)snprintf(words, sizeof words, "%s --size 640x360 --png %s", commands[k],
-                       files_path("a.png"));
-        free(run_command(run[k], words, &status));
-        assert_int_equal(status, 0);
-        char *text = files_get(files_path("a.png"), &length);
-        assert_int_equal(sscanf(text, "%d %d", &width, &height), 2);
-        assert_true(width == 640 && height == 360);
-        free(text);
+        for (int scale = 1; scale <= 4; scale++) {
+            (void)snprintf(words, sizeof words, "%s --size 640x360 --scale %d --png %s",
+                           commands[k], scale, files_path("a.png"));
+            free(run_command(run[k], words, &status));
+            assert_int_equal(status, 0);
+            char *text = files_get(files_path("a.png"), &length);
+            assert_int_equal(sscanf(text, "%d %d", &width, &height), 2);
+            assert_true(width == 640 * scale && height == 360 * scale);
+            free(text);
+        }
     }
 }
 
@@ -92,6 +117,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bars_show_the_color_map),
         cmocka_unit_test(text_is_drawn),
+        cmocka_unit_test(legends_keep_their_proportions),
         cmocka_unit_test(pictures_keep_their_size),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

@@ -100,6 +100,49 @@ static void nearer_faces_hide_farther_ones(void **state) {
     }
 }
 
+/* The same picture with more pixels: lines, marks and edges are as wide as before. */
+static void larger_scales_show_the_same(void **state) {
+    (void)state;
+    mesh m;
+    assert_true(surface_generate(&m, "sphere:1", NULL, 0));
+    double *height = test_reals((size_t)m.n_vertices);
+    for (int v = 0; v < m.n_vertices; v++) {
+        height[v] = m.xyz[3 * v + 1];
+    }
+    const render_mark mark = {4, 9, {200, 0, 0}};
+    const render_segment line = {0, 4, 3, {0, 0, 200}};
+    render_style style;
+    memset(&style, 0, sizeof style);
+    style.scalar = height;
+    style.isolines = 5;
+    style.edges = 1;
+    style.marks = &mark;
+    style.n_marks = 1;
+    style.segments = &line;
+    style.n_segments = 1;
+    picture one, p;
+    render_view view = view_with_size(200, 150);
+    assert_true(render_mesh(&one, &m, &view, &style));
+    for (view.scale = 2; view.scale <= 4; view.scale += 2) {
+        double difference = 0;
+        assert_true(render_mesh(&p, &m, &view, &style));
+        assert_true(p.width == 200 * view.scale && p.height == 150 * view.scale);
+        picture_shrink(&p, view.scale);
+        for (int k = 0; k < 200 * 150; k++) {
+            difference += abs(p.at[k].r - one.at[k].r) + abs(p.at[k].b - one.at[k].b);
+        }
+        assert_true(difference < 4 * 200 * 150);
+        picture_free(&p);
+    }
+    view.scale = 0;
+    assert_false(render_mesh(&p, &m, &view, &style));
+    view.scale = 41; /* 8200 pixels */
+    assert_false(render_mesh(&p, &m, &view, &style));
+    picture_free(&one);
+    free(height);
+    mesh_free(&m);
+}
+
 /* The axes of the view are right-handed for every direction: a face seen from its front is never
  * mirrored. */
 static void views_are_not_mirrored(void **state) {
@@ -289,6 +332,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_triangle_fills_the_expected_pixels),
         cmocka_unit_test(nearer_faces_hide_farther_ones),
+        cmocka_unit_test(larger_scales_show_the_same),
         cmocka_unit_test(views_are_not_mirrored),
         cmocka_unit_test(scalars_and_isolines_have_the_expected_colors),
         cmocka_unit_test(layouts_draw_a_checkerboard),

@@ -72,12 +72,13 @@ void app_progress_end(void);
 
 /** Output files and the camera of the picture; all zero: no output, default camera. */
 typedef struct app_output {
-    const char *out;  /* mesh file with the results at its vertices: .ply, .obj, optional .gz */
-    const char *png;  /* picture */
-    const char *csv;  /* table */
-    const char *size; /* of the picture: "800x600" */
-    const char *view; /* "azimuth,elevation" in degrees; NULL: default, or see direction */
-    const char *up;   /* "x", "y" or "z" */
+    const char *out;   /* mesh file with the results at its vertices: .ply, .obj, optional .gz */
+    const char *png;   /* picture */
+    const char *csv;   /* table */
+    const char *size;  /* of the picture: "800x600" */
+    const char *view;  /* "azimuth,elevation" in degrees; NULL: default, or see direction */
+    const char *scale; /* pixels per pixel of size: "2" */
+    const char *up;    /* "x", "y" or "z" */
     /* Without `view` the camera is on this side of the mesh; 0 0 0: on the default side. */
     double direction[3];
     /* true: the camera is exactly in this direction; false: at most 55 degrees above or below the
@@ -95,6 +96,9 @@ typedef struct app_output {
 #define APP_PICTURE_OPTIONS(o) \
     {OPTION_OUTPUT, "png", &(o)->png, "FILE", "draw the result as a picture"}, \
         {OPTION_TEXT, "size", &(o)->size, "WxH", "size of the picture in pixels (800x600)"}, \
+        {OPTION_TEXT, "scale", &(o)->scale, "N", \
+         "draw N pixels for each pixel of --size, 1 to 4: text and lines keep their size and are " \
+         "sharper (1)"}, \
         {OPTION_TEXT, "view", &(o)->view, "A,E", \
          "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
          "the patch are, else 30,20; a flat mesh is seen from above)"}, \

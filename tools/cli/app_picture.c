@@ -16,6 +16,12 @@ void app_view(render_view *view, const app_output *o) {
          view->height < 1 || view->width > 8000 || view->height > 8000)) {
         app_die_usage("--size %s: expected WxH such as 800x600, each from 1 to 8000", o->size);
     }
+    if (o->scale != NULL &&
+        (sscanf(o->scale, "%d%c", &view->scale, &rest) != 1 || view->scale < 1 || view->scale > 4 ||
+         view->width > 8000 / view->scale || view->height > 8000 / view->scale)) {
+        app_die_usage("--scale %s: expected 1 to 4, and at most 8000 pixels along each side",
+                      o->scale);
+    }
     if (o->view != NULL) {
         if (sscanf(o->view, "%lf,%lf%c", &view->azimuth, &view->elevation, &rest) != 2) {
             app_die_usage("--view %s: expected azimuth,elevation such as 30,20", o->view);
@@ -131,7 +137,7 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
     }
     find_range(&style, m->n_vertices);
     view.width -= width;
-    if (!picture_create(p, whole->width, whole->height, white)) {
+    if (!picture_create(p, view.scale * whole->width, view.scale * whole->height, white)) {
         return false;
     }
     if (!render_mesh(&drawn, m, &view, &style)) {
@@ -140,7 +146,7 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
     }
     picture_paste(p, &drawn, 0, 0);
     picture_free(&drawn);
-    legend_draw(p, width, style.legend, style.low, style.high, style.isolines);
+    legend_draw(p, view.scale, style.legend, style.low, style.high, style.isolines);
     return true;
 }
 
@@ -155,7 +161,8 @@ void app_write(const app_output *o, const mesh *m, const mesh_extra *extra,
         picture p;
         app_view(&view, o);
         if (!render_with_legend(&p, m, &view, style)) {
-            app_die("%s: out of memory for a picture of %d x %d", o->png, view.width, view.height);
+            app_die("%s: out of memory for a picture of %d x %d", o->png, view.scale * view.width,
+                    view.scale * view.height);
         }
         app_write_png(&p, o->png);
         picture_free(&p);

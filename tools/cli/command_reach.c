@@ -149,7 +149,9 @@ static void draw(const reach_options *o, const app_output *output, const mesh *m
     }
     if (o->pattern != NULL) {
         picture p;
-        if (!draw_pattern(&p, A, view, kind, 500)) {
+        render_view picture_view;
+        app_view(&picture_view, output);
+        if (!draw_pattern(&p, A, view, kind, 500 * picture_view.scale)) {
             app_die("%s: out of memory for the picture", o->pattern);
         }
         app_write_png(&p, o->pattern);

@@ -44,30 +44,57 @@ static void fill(picture *p, int x, int y, int width, int height, rgb color) {
     }
 }
 
-void legend_text(picture *p, int x, int y, int scale, const char *text) {
-    for (; *text != '\0'; text++, x += ADVANCE * scale) {
-        const char *found = strchr(characters, tolower((unsigned char)*text));
-        for (int k = 0; found != NULL && k < GLYPH_ROWS * GLYPH_COLUMNS; k++) {
-            int row = k / GLYPH_COLUMNS, column = k % GLYPH_COLUMNS;
-            if (glyphs[found - characters][row] >> (GLYPH_COLUMNS - 1 - column) & 1) {
-                fill(p, x + column * scale, y + row * scale, scale, scale, ink);
+static bool has_dot(const unsigned char *glyph, int row, int column) {
+    return row < GLYPH_ROWS && column >= 0 && column < GLYPH_COLUMNS &&
+           (glyph[row] >> (GLYPH_COLUMNS - 1 - column) & 1) != 0;
+}
+
+/* Draws a glyph with strokes between neighboring dots; diagonal ones where these have no other
+ * neighbor in common. */
+static void draw_glyph(picture *p, int x, int y, int scale, const unsigned char *glyph) {
+    static const int to[4][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}}; /* rows, columns */
+    for (int k = 0; k < GLYPH_ROWS * GLYPH_COLUMNS; k++) {
+        const int row = k / GLYPH_COLUMNS, column = k % GLYPH_COLUMNS;
+        const double px = x + (column + 0.5) * scale, py = y + (row + 0.5) * scale;
+        if (!has_dot(glyph, row, column)) {
+            continue;
+        }
+        picture_stroke(p, px, py, px, py, scale, ink);
+        for (int n = 0; n < 4; n++) {
+            const int down = to[n][0], right = to[n][1];
+            bool cut = n >= 2 &&
+                       (has_dot(glyph, row, column + right) || has_dot(glyph, row + down, column));
+            if (!cut && has_dot(glyph, row + down, column + right)) {
+                picture_stroke(p, px, py, px + right * scale, py + down * scale, scale, ink);
             }
         }
     }
 }
 
+void legend_text(picture *p, int x, int y, int scale, const char *text) {
+    for (; *text != '\0'; text++, x += ADVANCE * scale) {
+        const char *found = strchr(characters, tolower((unsigned char)*text));
+        if (found != NULL) {
+            draw_glyph(p, x, y, scale, glyphs[found - characters]);
+        }
+    }
+}
+
 /* Twice the size of the font at 600 rows; grows with the picture. */
-static int scale_of(int width, int height) {
+static int font_scale(int width, int height) {
     int scale = height / 300 < width / 400 ? height / 300 : width / 400;
     return scale < 1 ? 1 : scale;
 }
 
 int legend_width(int width, int height) {
-    return width < 320 || height < 200 ? 0 : LINE_CHARACTERS * ADVANCE * scale_of(width, height);
+    return width < 320 || height < 200 ? 0 : LINE_CHARACTERS * ADVANCE * font_scale(width, height);
 }
 
-void legend_draw(picture *p, int width, const char *title, double low, double high, int isolines) {
-    const int scale = scale_of(p->width, p->height), left = p->width - width;
+void legend_draw(picture *p, int of_size, const char *title, double low, double high,
+                 int isolines) {
+    const int width = p->width / of_size, height = p->height / of_size;
+    const int left = p->width - of_size * legend_width(width, height);
+    const int scale = of_size * font_scale(width, height);
     int y = LINE * scale;
     while (*title != '\0') {
         char line[LINE_CHARACTERS + 1];
@@ -95,6 +122,6 @@ void legend_draw(picture *p, int width, const char *title, double low, double hi
         int at = bottom - 1 - (int)(t * (bottom - 1 - top));
         (void)snprintf(number, sizeof number, "%.3g", low + t * (high - low));
         fill(p, left + bar, at - scale / 2, 3 * scale, scale, ink);
-        legend_text(p, left + bar + 5 * scale, at - GLYPH_ROWS * scale / 2, scale, number);
+        legend_text(p, left + bar + 6 * scale, at - GLYPH_ROWS * scale / 2, scale, number);
     }
 }

@@ -4,21 +4,22 @@
 
 #include "picture.h"
 
-/** The pixels that a legend takes at the right of a picture; 0: the picture is too small for one
- *  (below 320 x 200). */
+/** The width of a legend at the right of a picture; 0: the picture is too small for one (below
+ *  320 x 200). */
 int legend_width(int width, int height);
 
-/** Draws the legend into the last `width` columns of a picture: the lines of the title, and a color
- *  bar with five ticks.
+/** Draws the legend into the last of_size * legend_width columns of a picture: the lines of the
+ *  title, and a color bar with five ticks.
  *
+ *  of_size    [in]  1 or more: pixels per unit of legend_width; text and lines grow with it.
  *  title      [in]  lines separated by '\n'; letters, digits and . - + = , ( ) are drawn.
  *  low, high  [in]  the values at the ends of the color map.
  *  isolines   [in]  number of levels of isolines, marked in the bar; 0: none.
  */
-void legend_draw(picture *p, int width, const char *title, double low, double high, int isolines);
+void legend_draw(picture *p, int of_size, const char *title, double low, double high, int isolines);
 
 /** Draws a line of text with its upper left corner at (x, y); a character is 6 x 8 times `scale`
- *  pixels. Letters are lower case. */
+ *  pixels, with round strokes. Letters are lower case. */
 void legend_text(picture *p, int x, int y, int scale, const char *text);
 
 #endif

@@ -36,17 +36,21 @@ static int first_pixel(double x, int size) {
     return !(k > 0) ? 0 : k >= size ? size : (int)k;
 }
 
-void picture_line(picture *p, double x0, double y0, double x1, double y1, double width, rgb color) {
-    double r = 0.5 * width;
+/* Draws a line with round ends. Along its rim the part of the color falls from 1 to 0 over a
+ * distance of `rim`. */
+static void draw_line(picture *p, const double from[2], const double to[2], double width,
+                      double rim, rgb color) {
+    const double r = 0.5 * width, reach = r + 0.5 * rim;
+    const double x0 = from[0], y0 = from[1], x1 = to[0], y1 = to[1];
     double dx = x1 - x0, dy = y1 - y0;
     double length2 = dx * dx + dy * dy;
     if (!(length2 <= 1e20)) {
         return;
     }
-    int left = first_pixel(fmin(x0, x1) - r, p->width);
-    int right = first_pixel(fmax(x0, x1) + r, p->width);
-    int top = first_pixel(fmin(y0, y1) - r, p->height);
-    int bottom = first_pixel(fmax(y0, y1) + r, p->height);
+    int left = first_pixel(fmin(x0, x1) - reach, p->width);
+    int right = first_pixel(fmax(x0, x1) + reach, p->width);
+    int top = first_pixel(fmin(y0, y1) - reach, p->height);
+    int bottom = first_pixel(fmax(y0, y1) + reach, p->height);
     for (int y = top; y < bottom; y++) {
         for (int x = left; x < right; x++) {
             double px = x + 0.5 - x0, py = y + 0.5 - y0;
@@ -54,11 +58,26 @@ void picture_line(picture *p, double x0, double y0, double x1, double y1, double
             t = t < 0 ? 0 : t > 1 ? 1 : t;
             px -= t * dx;
             py -= t * dy;
-            if (px * px + py * py <= r * r) {
-                p->at[(size_t)y * (size_t)p->width + (size_t)x] = color;
+            rgb *at = &p->at[(size_t)y * (size_t)p->width + (size_t)x];
+            if (rim > 0) {
+                double inside = (r - hypot(px, py)) / rim + 0.5;
+                *at = color_mix(*at, color, fmax(0, fmin(1, inside)));
+            } else if (px * px + py * py <= r * r) {
+                *at = color;
             }
         }
     }
+}
+
+void picture_line(picture *p, double x0, double y0, double x1, double y1, double width, rgb color) {
+    const double from[2] = {x0, y0}, to[2] = {x1, y1};
+    draw_line(p, from, to, width, 0, color);
+}
+
+void picture_stroke(picture *p, double x0, double y0, double x1, double y1, double width,
+                    rgb color) {
+    const double from[2] = {x0, y0}, to[2] = {x1, y1};
+    draw_line(p, from, to, width, 1, color);
 }
 
 void picture_disk(picture *p, double x, double y, double radius, rgb color) {

@@ -28,6 +28,10 @@ void picture_disk(picture *p, double x, double y, double radius, rgb color);
 /** Draws a line with round ends. */
 void picture_line(picture *p, double x0, double y0, double x1, double y1, double width, rgb color);
 
+/** Draws a line with round ends whose rim is smooth: a pixel on it is mixed with what is there. */
+void picture_stroke(picture *p, double x0, double y0, double x1, double y1, double width,
+                    rgb color);
+
 /** Fills the rectangle from (x0, y0) to (x1, y1). */
 void picture_box(picture *p, double x0, double y0, double x1, double y1, rgb color);
 

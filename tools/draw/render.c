@@ -17,7 +17,7 @@ static const double largest_coordinate = 1e150;
 static const rgb background = {255, 255, 255};
 
 render_view render_view_default(void) {
-    render_view view = {800, 600, 30, 20, 0, 1, CAMERA_UP_Y, true};
+    render_view view = {800, 600, 1, 30, 20, 0, 1, CAMERA_UP_Y, true};
     return view;
 }
 
@@ -27,6 +27,7 @@ typedef struct scene {
     const render_style *style;
     render_shade shade;
     picture pixels;
+    double unit;    /* cells per unit of width */
     double *depth;  /* width x height; larger is nearer */
     double *screen; /* 3 n_vertices: x and y in pixels, depth; NaN: not drawable */
     double *eye;    /* 3 n_vertices: camera coordinates (right, up, toward the camera) */
@@ -242,18 +243,18 @@ static void draw_overlay(scene *s) {
         const render_segment *line = &s->style->segments[k];
         const double *a = s->screen + 3 * (size_t)line->from, *b = s->screen + 3 * (size_t)line->to;
         double length = hypot(b[0] - a[0], b[1] - a[1]);
-        int steps = length < 1e5 ? (int)(length / fmax(0.5, 0.5 * line->width)) + 1 : 0;
+        int steps = length < 1e5 ? (int)(length / fmax(0.5, 0.25 * s->unit * line->width)) + 1 : 0;
         for (int i = 0; steps > 0 && i <= steps; i++) {
             double t = (double)i / steps, point[3];
             for (int d = 0; d < 3; d++) {
                 point[d] = a[d] + t * (b[d] - a[d]);
             }
-            draw_dot(s, point, 0.5 * SUPERSAMPLE * line->width, tolerance, line->color);
+            draw_dot(s, point, 0.5 * s->unit * line->width, tolerance, line->color);
         }
     }
     for (int k = 0; k < s->style->n_marks; k++) {
         const render_mark *mark = &s->style->marks[k];
-        draw_dot(s, s->screen + 3 * (size_t)mark->vertex, SUPERSAMPLE * mark->radius, tolerance,
+        draw_dot(s, s->screen + 3 * (size_t)mark->vertex, s->unit * mark->radius, tolerance,
                  mark->color);
     }
 }
@@ -264,11 +265,14 @@ bool render_mesh(picture *out, const mesh *m, const render_view *view, const ren
     memset(&s, 0, sizeof s);
     s.m = m;
     s.style = style;
-    if (view->width < 1 || view->height < 1 || view->width > 8192 || view->height > 8192 ||
-        !picture_create(&s.pixels, SUPERSAMPLE * view->width, SUPERSAMPLE * view->height,
+    const int64_t width = (int64_t)view->width * view->scale,
+                  height = (int64_t)view->height * view->scale;
+    if (view->width < 1 || view->height < 1 || width < 1 || width > 8192 || height > 8192 ||
+        !picture_create(&s.pixels, SUPERSAMPLE * (int)width, SUPERSAMPLE * (int)height,
                         background)) {
         return false;
     }
+    s.unit = SUPERSAMPLE * view->scale;
     size_t pixels = (size_t)s.pixels.width * (size_t)s.pixels.height;
     size_t n = (size_t)m->n_vertices;
     s.depth = (double *)malloc(pixels * sizeof *s.depth);
@@ -277,7 +281,7 @@ bool render_mesh(picture *out, const mesh *m, const render_view *view, const ren
     bool ok = s.depth != NULL && s.screen != NULL && s.eye != NULL;
     if (ok) {
         project(&s, view);
-        ok = render_shade_begin(&s.shade, m, style, s.eye, SUPERSAMPLE);
+        ok = render_shade_begin(&s.shade, m, style, s.eye, s.unit);
     }
     ok = ok && draw_surface(&s);
     if (ok) {

@@ -11,8 +11,9 @@
 /** The camera and the size of the picture. All zero is not useful: start from
  *  render_view_default. */
 typedef struct render_view {
-    int width; /* pixels */
+    int width; /* of the picture, divided by scale */
     int height;
+    int scale;          /* pixels per unit of width and height, and of all other lengths below */
     double azimuth;     /* degrees, as in camera_axes */
     double elevation;   /* degrees, as in camera_axes */
     double perspective; /* 0: parallel; else the camera's distance in radii of the mesh, > 1 */
@@ -21,7 +22,7 @@ typedef struct render_view {
     bool automatic; /* view a mesh that is flat along a coordinate axis from that axis */
 } render_view;
 
-/** 800 x 600, azimuth 30, elevation 20, parallel projection, y up, automatic. */
+/** 800 x 600, scale 1, azimuth 30, elevation 20, parallel projection, y up, automatic. */
 render_view render_view_default(void);
 
 /** Sets azimuth and elevation so that `direction` points from the mesh to the camera. A direction
@@ -32,7 +33,7 @@ void render_look_from(render_view *view, const double direction[3]);
 /** A disk drawn over the surface at a vertex. */
 typedef struct render_mark {
     sl_int vertex;
-    double radius; /* pixels */
+    double radius; /* pixels, times the view's scale; so are all widths */
     rgb color;
 } render_mark;
 
@@ -83,7 +84,7 @@ typedef struct render_style {
  *  picture. Faces with a coordinate of magnitude 1e150 or more are not drawn.
  *
  *  out  [out]  release with picture_free; all zero on error.
- *  Returns  true; false: width or height outside 1..8192, out of memory.
+ *  Returns  true; false: width or height times scale outside 1..8192, out of memory.
  */
 bool render_mesh(picture *out, const mesh *m, const render_view *view, const render_style *style);
 
