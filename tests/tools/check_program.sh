@@ -106,7 +106,7 @@ record $? "hks gives the same numbers with one thread and with two"
 gives 0 'v.html: 162 vertices, 320 faces, 5 fields' view sphere:2 "$dir/h1.csv" "$dir/a.csv" \
     "$dir/a.csv" --out "$dir/v.html"
 gives 2 'out FILE is missing' view sphere:2
-gives 2 'expected y or z' view sphere:2 --up x --out "$dir/v.html"
+gives 2 'expected y, z or auto' view sphere:2 --up x --out "$dir/v.html"
 gives 1 'h1.csv:14: vertex 12 is not one of the 12 vertices' view sphere:0 "$dir/h1.csv" \
     --out "$dir/v.html"
 
@@ -205,7 +205,7 @@ gives 2 'not an integer' pairs sphere:1 --count -1
 gives 2 'needs T' heat sphere:1 --time
 gives 2 'such as 800x600' adf sphere:1 --png "$dir/x.png" --size 8
 gives 2 'such as 30,20' adf sphere:1 --png "$dir/x.png" --view 8
-gives 2 'expected x, y or z' adf sphere:1 --png "$dir/x.png" --up w
+gives 2 'expected x, y, z or auto' adf sphere:1 --png "$dir/x.png" --up w
 for scale in 0 5 2x -1 ''; do
     gives 2 'expected 1 to 4' adf sphere:1 --png "$dir/x.png" --scale "$scale"
 done
@@ -229,7 +229,7 @@ for command in adf heat hks geodesic param arap scp reach; do
     gives 1 'must end in .obj or .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"
     gives 2 'such as 800x600' "$command" "$dir/no-such-file.obj" --size 8
     gives 2 'such as 30,20' "$command" "$dir/no-such-file.obj" --view 8
-    gives 2 'expected x, y or z' "$command" "$dir/no-such-file.obj" --up w
+    gives 2 'expected x, y, z or auto' "$command" "$dir/no-such-file.obj" --up w
 done
 
 # Vertices that were drawn are named; without --from all commands start at the same vertex.
@@ -246,5 +246,18 @@ record $? "heat starts from the first vertex of a face with an area"
 "$program" geodesic "$dir/late.obj" --csv "$dir/g.csv" >"$dir/out" 2>"$dir/err" &&
     grep -q '^1,0,' "$dir/g.csv"
 record $? "geodesic starts there too"
+
+# A picture says if auto chose z; it is the one that --up z gives.
+
+for command in adf heat hks geodesic reach param arap scp; do
+    gives 0 '^upward     z, because the mesh is a relief over the x-y plane' \
+        "$command" hills:30x30 --png "$dir/auto.png"
+    "$program" "$command" hills:30x30 --png "$dir/z.png" --up z >"$dir/out" 2>"$dir/err" &&
+        ! grep -q upward "$dir/out" && cmp -s "$dir/auto.png" "$dir/z.png"
+    record $? "$command draws with the z axis upward"
+done
+gives 0 'upward     z, because' view hills:30x30 --out "$dir/auto.html"
+grep -q 'up: "z"' "$dir/auto.html"
+record $? "the page begins with the z axis upward"
 
 checks_end

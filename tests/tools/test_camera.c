@@ -1,9 +1,10 @@
-/* test_camera.c: the camera for each upward axis: right-handed, faces not mirrored */
+/* test_camera.c: the camera for each upward axis: right-handed, faces not mirrored; --up auto */
 #include "tests/lib/test.h"
 
 #include "tools/draw/camera.h"
 #include "tools/draw/picture.h"
 #include "tools/draw/render.h"
+#include "tools/draw/upward.h"
 
 static const camera_up ups[3] = {CAMERA_UP_X, CAMERA_UP_Y, CAMERA_UP_Z};
 static const int up_axis[3] = {0, 1, 2};
@@ -125,11 +126,59 @@ static void a_face_seen_from_its_front(void **state) {
     }
 }
 
+/* Guesses for two opposite sides of a box at `from`, or for a square with one corner raised. */
+static camera_up guess(const double from[3], const double size[3], bool relief) {
+    double xyz[24];
+    sl_int faces[12] = {0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7};
+    const char *reason;
+    for (int k = 0; k < 8; k++) {
+        for (int d = 0; d < 3; d++) {
+            xyz[3 * k + d] = from[d] + (k >> d & 1) * size[d];
+        }
+    }
+    if (relief) {
+        xyz[2] = from[2] + size[2];
+    }
+    const mesh m = {8, relief ? 2 : 4, xyz, faces};
+    const camera_up up = upward_of(&m, &reason);
+    assert_true((up == CAMERA_UP_Z) == (reason != NULL));
+    return up;
+}
+
+static void upward_axes_are_guessed(void **state) {
+    (void)state;
+    static const struct {
+        double from[3], size[3];
+        bool relief;
+        camera_up up;
+    } cases[] = {{{-1, -1, 0}, {2, 2, 2}, false, CAMERA_UP_Z},    /* on z = 0 */
+                 {{-1, -1, 1e-4}, {2, 2, 2}, false, CAMERA_UP_Z}, /* nearly */
+                 {{-1, -1, 0.1}, {2, 2, 2}, false, CAMERA_UP_Y},  /* not on z = 0 */
+                 {{-1, 0, -1}, {2, 2, 2}, false, CAMERA_UP_Y},    /* on y = 0 */
+                 {{0, 0, 0}, {2, 2, 2}, false, CAMERA_UP_Y},      /* moved to the positive octant */
+                 {{-1, -1, -2}, {2, 2, 4}, false, CAMERA_UP_Z},   /* a column along z */
+                 {{-1, 0, -2}, {2, 2, 4}, false, CAMERA_UP_Y},    /* a car along z, on y = 0 */
+                 {{-1, -1, -1}, {2, 2, 2.9}, false, CAMERA_UP_Y}, /* not long enough */
+                 {{-1, -2, -1}, {2, 4, 2}, false, CAMERA_UP_Y},   /* a column along y */
+                 {{3, 3, 7}, {2, 2, 0.5}, true, CAMERA_UP_Z},     /* a hill */
+                 {{3, 3, 7}, {2, 2, 0.5}, false, CAMERA_UP_Y},    /* a flat box */
+                 {{3, 3, 7}, {2, 2, 1}, true, CAMERA_UP_Y},       /* too high for a relief */
+                 {{-1, -1, 0}, {2, 2, 0}, false, CAMERA_UP_Y},    /* flat */
+                 {{-1e300, -1, 0}, {2, 2, NAN}, false, CAMERA_UP_Y}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        assert_int_equal(guess(cases[k].from, cases[k].size, cases[k].relief), cases[k].up);
+    }
+    const mesh none = {0, 0, NULL, NULL};
+    const char *reason;
+    assert_int_equal(upward_of(&none, &reason), CAMERA_UP_Y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(axes_are_right_handed),
         cmocka_unit_test(bad_directions_change_nothing),
         cmocka_unit_test(a_face_seen_from_its_front),
+        cmocka_unit_test(upward_axes_are_guessed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

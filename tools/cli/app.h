@@ -78,7 +78,7 @@ typedef struct app_output {
     const char *size;  /* of the picture: "800x600" */
     const char *view;  /* "azimuth,elevation" in degrees; NULL: default, or see direction */
     const char *scale; /* pixels per pixel of size: "2" */
-    const char *up;    /* "x", "y" or "z" */
+    const char *up;    /* "x", "y", "z" or "auto"; NULL: auto */
     /* Without `view` the camera is on this side of the mesh; 0 0 0: on the default side. */
     double direction[3];
     /* true: the camera is exactly in this direction; false: at most 55 degrees above or below the
@@ -103,7 +103,10 @@ typedef struct app_output {
          "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
          "the patch are, else 30,20; a flat mesh is seen from above)"}, \
     { \
-        OPTION_TEXT, "up", &(o)->up, "x|y|z", "axis that points upward in the picture (y)" \
+        OPTION_TEXT, "up", &(o)->up, "AXIS", \
+            "axis that points upward in the picture, or auto: z if the extent of the mesh says " \
+            "so, " \
+            "else y (auto)" \
     }
 
 /** Describes the operand MESH, for the help texts. */
@@ -164,6 +167,13 @@ sl_int app_default_vertex(const mesh *m);
  */
 void app_aim_camera(app_output *o, const mesh *m, const sl_int *vertices, sl_int count,
                     bool is_frontal);
+
+/** Replaces "auto" in o->up by the axis that upward_of guesses, and prints a line if that is z and
+ *  `is_drawn`. Without this call auto is y. */
+void app_set_up(app_output *o, const mesh *m, bool is_drawn);
+
+/** The same for the value of an option --up; returns "y" or "z" for "auto" or NULL, else `up`. */
+const char *app_guess_up(const char *up, const mesh *m, bool is_drawn);
 
 /** The range of a field for the color map: its values at the corners of faces without the lowest
  *  and the highest 0.5 %, so that a few outliers do not leave one color for the rest. 0 and 1 if no

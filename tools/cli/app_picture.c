@@ -7,6 +7,27 @@
 #include <string.h>
 
 #include "tools/draw/legend.h"
+#include "tools/draw/upward.h"
+
+static bool is_automatic(const char *up) {
+    return up == NULL || strcmp(up, "auto") == 0;
+}
+
+const char *app_guess_up(const char *up, const mesh *m, bool is_drawn) {
+    const char *reason;
+    if (!is_automatic(up)) {
+        return up;
+    }
+    const camera_up axis = upward_of(m, &reason);
+    if (axis == CAMERA_UP_Z && is_drawn) {
+        printf("%-10s z, because %s; --up y is the other choice\n", "upward", reason);
+    }
+    return axis == CAMERA_UP_Z ? "z" : "y";
+}
+
+void app_set_up(app_output *o, const mesh *m, bool is_drawn) {
+    o->up = app_guess_up(o->up, m, is_drawn);
+}
 
 void app_view(render_view *view, const app_output *o) {
     *view = render_view_default();
@@ -28,11 +49,11 @@ void app_view(render_view *view, const app_output *o) {
         }
         view->automatic = false;
     }
-    if (o->up != NULL) {
+    if (!is_automatic(o->up)) {
         static const char order[] = "yxz"; /* of camera_up */
         const char *axis = strchr(order, o->up[0]);
         if (axis == NULL || o->up[0] == '\0' || o->up[1] != '\0') {
-            app_die_usage("--up %s: expected x, y or z", o->up);
+            app_die_usage("--up %s: expected x, y, z or auto", o->up);
         }
         view->up = (camera_up)(axis - order);
     }

@@ -104,6 +104,7 @@ int command_adf(int argc, char **argv) {
     heat_system h;
     sl_int count = 0;
     heat_system_open(&h, &m, operand, &time, 0.05, &output);
+    app_set_up(&output, &m, output.png != NULL);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     double *values = app_alloc((size_t)count, sizeof *values);
     app_stage("auto-diffusion");

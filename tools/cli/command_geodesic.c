@@ -388,6 +388,7 @@ static void find_time(geodesic_command *cmd, double squared_edge) {
 static void open_command(geodesic_command *cmd, const char *operand) {
     double time = cmd->time, scaled = cmd->scaled_time;
     app_mesh(&cmd->m, operand, true);
+    app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL);
     cmd->sources = sources_of(cmd->from, &cmd->m, &cmd->n_sources);
     double edge = mesh_mean_edge_length(&cmd->m);
     double t = time > 0 ? time : (scaled > 0 ? scaled : FIRST_TIME) * edge * edge;

@@ -184,6 +184,7 @@ int command_heat(int argc, char **argv) {
         app_die_usage("%s: a saved factor has no mesh for --radius", operand);
     }
     heat_system_open(&h, &m, operand, &time, 0, &output);
+    app_set_up(&output, &m, output.png != NULL);
     sl_int n_sources = 0, n_wanted = 0;
     if (from == NULL) {
         (void)snprintf(vertex, sizeof vertex, "%d", (int)app_default_vertex(&m));

@@ -190,6 +190,7 @@ int command_hks(int argc, char **argv) {
     mesh m;
     heat_system h;
     app_mesh(&m, operand, true);
+    app_set_up(&output, &m, output.png != NULL);
     sl_int *vertices = app_vertices("at", at, m.n_vertices, 1, &count);
     if (like != NULL) {
         like_position = find_like(like, vertices, count, m.n_vertices);

@@ -204,6 +204,7 @@ int command_reach(int argc, char **argv) {
     mesh m;
     sl_matrix *L = NULL;
     app_mesh(&m, operand, true);
+    app_set_up(&output, &m, output.png != NULL || o.separators != NULL);
     if (o.graph != NULL && m.n_vertices > 500) {
         app_die("--graph: the mesh has %d vertices, at most 500 fit into the picture",
                 (int)m.n_vertices);

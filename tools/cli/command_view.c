@@ -74,14 +74,16 @@ static void free_tables(view_fields *f) {
 }
 
 int command_view(int argc, char **argv) {
-    const char *operands[1 + MOST_TABLES + 1] = {NULL}, *out = NULL, *up = "y";
+    const char *operands[1 + MOST_TABLES + 1] = {NULL}, *out = NULL, *up = "auto";
     const option options[] = {
         {OPTION_OUTPUT, "out", &out, "FILE", "the page to write: required"},
-        {OPTION_TEXT, "up", &up, "y|z", "axis that points upward at first (y)"},
+        {OPTION_TEXT, "up", &up, "AXIS",
+         "axis that points upward at first: y, z, or auto: z if the extent of the mesh says so, "
+         "else y (auto)"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, operands);
-    if (strcmp(up, "y") != 0 && strcmp(up, "z") != 0) {
-        app_die_usage("--up %s: expected y or z", up);
+    if (strcmp(up, "y") != 0 && strcmp(up, "z") != 0 && strcmp(up, "auto") != 0) {
+        app_die_usage("--up %s: expected y, z or auto", up);
     }
     mesh m;
     view_fields f;
@@ -92,6 +94,7 @@ int command_view(int argc, char **argv) {
     read_tables(&f, operands + 1, m.n_vertices);
     app_stage("writing the page");
     FILE *file = app_create(out);
+    up = app_guess_up(up, &m, true);
     view_page_write(file, &m, operands[0], up[0], f.fields, f.n_fields);
     app_close(file);
     app_progress_end();

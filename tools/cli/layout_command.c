@@ -129,6 +129,7 @@ void layout_command_open(layout_command *job, const char *operand) {
     }
     app_check_output(&job->picture, job->out);
     app_mesh(&job->m, operand, true);
+    app_set_up(&job->picture, &job->m, job->picture.png != NULL || job->patch_png != NULL);
     if (!incidence_create(&job->inc, &job->m)) {
         app_die("out of memory");
     }
