@@ -58,6 +58,28 @@ case $report in
 *) record 1 "the value of vertex $vertex is $value" ;;
 esac
 
+# Tables of several commands are fields of one page.
+for command in adf hks geodesic; do
+    "$program" $command sphere:3 --csv "$dir/$command.csv" >"$dir/out" 2>&1
+done
+"$program" view sphere:3 "$dir/heat.csv" "$dir/adf.csv" "$dir/hks.csv" "$dir/geodesic.csv" \
+    --out "$dir/fields.html" >"$dir/out" 2>&1
+report=$(cat "$dir/out")
+record $? 'view writes a page of four tables'
+shows "$dir/fields.html" 642
+columns=$(cat "$dir/heat.csv" "$dir/adf.csv" "$dir/hks.csv" "$dir/geodesic.csv" |
+    awk -F, '/^vertex,/ { n += NF - 1 } END { print n }')
+[ "$(number fields)" = "$columns" ]
+record $? "the page has the $columns fields of the four tables"
+[ "$(number recolored)" -gt 10000 ]
+record $? 'another field has other colors'
+last=$(awk -F, -v v="$vertex" '$1 == v { printf "%.6g", $NF }' "$dir/geodesic.csv")
+first=$(awk -F, -v v="$vertex" '$1 == v { printf "%.6g", $2 }' "$dir/heat.csv")
+case $report in
+*" vertex $vertex: $first"*"last vertex $vertex: $last"*) record 0 ;;
+*) record 1 "the values of vertex $vertex are $first in the first field and $last in the last one" ;;
+esac
+
 # as many faces as a scan has
 "$program" view hills:318x318 --up z --out "$dir/hills.html" >"$dir/out" 2>&1
 report=$(cat "$dir/out")
