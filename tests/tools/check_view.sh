@@ -77,7 +77,7 @@ last=$(awk -F, -v v="$vertex" '$1 == v { printf "%.6g", $NF }' "$dir/geodesic.cs
 first=$(awk -F, -v v="$vertex" '$1 == v { printf "%.6g", $2 }' "$dir/heat.csv")
 case $report in
 *" vertex $vertex: $first"*"last vertex $vertex: $last"*) record 0 ;;
-*) record 1 "the values of vertex $vertex are $first in the first field and $last in the last one" ;;
+*) record 1 "vertex $vertex has $first in the first field and $last in the last one" ;;
 esac
 
 # as many faces as a scan has
