@@ -162,7 +162,11 @@ static void paths_approach_straight_lines(void **state) {
     assert_true(incidence_create(&inc, &m));
     for (int k = 0; k < 3; k++) {
         u[k] = test_reals((size_t)m.n_vertices);
-        assert_true(surface_paths(u[k], &inc, &source, 1, points[k]));
+        surface_search *search;
+        assert_true(surface_search_create(&search, &inc, points[k]));
+        assert_true(surface_search_run(search, &source, 1, INFINITY));
+        memcpy(u[k], surface_search_lengths(search), (size_t)m.n_vertices * sizeof *u[k]);
+        surface_search_free(search);
         for (sl_int v = 0; v < m.n_vertices; v++) {
             const double *x = m.xyz + 3 * v, *y = m.xyz + 3 * source;
             double line = hypot(x[0] - y[0], x[1] - y[1]);
@@ -172,7 +176,9 @@ static void paths_approach_straight_lines(void **state) {
     }
     print_message("longer than lines by %.3f, %.3f, %.3f\n", worst[0], worst[1], worst[2]);
     assert_true(worst[1] < 0.5 * worst[0] && worst[2] < 0.5 * worst[1] && worst[2] < 0.05);
-    assert_false(surface_paths(u[0], &inc, &source, 1, 16));
+    surface_search *none;
+    assert_false(surface_search_create(&none, &inc, 16));
+    assert_null(none);
     double d[4] = {0, 5, 0.001, NAN};
     const sl_int at[4] = {source, 0, 440, 5};
     surface_correction c = surface_paths_correct(d, at, 4, u[1], u[2], 0.01);

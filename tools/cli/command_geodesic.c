@@ -7,10 +7,11 @@
 #include "app.h"
 #include "command.h"
 #include "laplacian_choice.h"
+#include "path_check.h"
+#include "solve_accuracy.h"
 #include "tools/geometry/distance_accuracy.h"
 #include "tools/geometry/heat_distance.h"
 #include "tools/geometry/laplacian.h"
-#include "tools/geometry/surface_paths.h"
 
 static const options_usage usage = {
     "geodesic", "MESH", 1, 1,
@@ -27,7 +28,7 @@ static const options_manual manual = {
     "therefore compared with paths over the faces through 3 and through 1 points of each edge, and "
     "moved where they exceed the shorter one, or fall short of it by more than a quarter of an "
     "edge "
-    "and half the difference of both (not with --each, --voronoi or --raw). With 1, the usual "
+    "and half the difference of both (not with --raw). With 1, the usual "
     "value, an error of "
     "about 1 % remains on regular grids however fine they are; larger values smooth the distance "
     "where shortest paths meet. In a short time heat can become negative behind obtuse faces, and "
@@ -39,12 +40,14 @@ static const options_manual manual = {
     "is less accurate.\n"
     "--voronoi assigns each vertex to the source (site) from which most heat arrives (Herholz et "
     "al. 2017). For a short time that is the nearest site, except where two are almost equally "
-    "near.",
+    "near, and on bad meshes. Vertices therefore move to the site with the shortest path over the "
+    "faces where theirs is farther by more than the same tolerance (not with --raw).",
     "mesh, region, prepared, distances: sizes and times; with --region, region (L) and region (M) "
     "are those of the factors of the Laplacian L and of heat, M + t L. touched: vertices of the "
     "ball and entries of L read. heat, distance: what the solves read. bounds: how far distances "
     "violate what holds on every surface. paths: what was moved, and "
-    "what errors remain. exact: errors with --exact.\n"
+    "what errors remain; with --voronoi, how many vertices may still be nearer to another site, "
+    "and by how much. exact: errors with --exact.\n"
     "--csv has columns vertex,distance,path,heat, where path is the length along edges; with "
     "--each source,vertex,distance; with --voronoi vertex,site.",
     "star:6 --from 100 --png distance.png\nbunny.obj --from 17 --radius 0.3 --csv distance.csv\n"
@@ -147,6 +150,12 @@ static void prepare_patch(geodesic_command *cmd, heat_patch *patch) {
            cmd->region ? " and both regions" : "", 1e3 * seconds);
 }
 
+/* The radius within which the heat method returns distances. Where these are compared with paths,
+ * all of the patch: a distance may fall below --radius by that. */
+static double wanted_radius(const geodesic_command *cmd) {
+    return cmd->raw ? cmd->heat.radius : 0;
+}
+
 /* Seconds, the best of as many repetitions as fit into 0.2 s, at least two: the first runs with
  * cold caches. */
 static double best_distance(heat_field *f, const geodesic_command *cmd, heat_patch *patch) {
@@ -155,42 +164,12 @@ static double best_distance(heat_field *f, const geodesic_command *cmd, heat_pat
     for (int k = 0; k < 2 || (k < 20 && app_now() - began < 0.2); k++) {
         heat_field_free(f);
         double begin = app_now();
-        app_must(heat_patch_distance(f, patch, cmd->sources, cmd->n_sources, cmd->heat.radius,
+        app_must(heat_patch_distance(f, patch, cmd->sources, cmd->n_sources, wanted_radius(cmd),
                                      cmd->heat.solves),
                  "distances", NULL);
         seconds = fmin(seconds, app_now() - begin);
     }
     return seconds;
-}
-
-/* Compares distances with short paths over the faces and moves those that cannot be right. */
-static void correct(const geodesic_command *cmd, heat_field *f) {
-    size_t n = (size_t)cmd->m.n_vertices;
-    incidence inc;
-    double *u1 = app_alloc(n, sizeof *u1), *u3 = app_alloc(n, sizeof *u3);
-    const double edge = mesh_mean_edge_length(&cmd->m), slack = 0.25 * edge, began = app_now();
-    app_stage("comparing with paths");
-    if (!incidence_create(&inc, &cmd->m)) {
-        app_die("out of memory");
-    }
-    if (!surface_paths(u1, &inc, cmd->sources, cmd->n_sources, 1) ||
-        !surface_paths(u3, &inc, cmd->sources, cmd->n_sources, 3)) {
-        app_die("out of memory for paths over the faces");
-    }
-    surface_correction c = surface_paths_correct(f->distance, f->vertices, f->n, u1, u3, slack);
-    app_progress_end();
-    printf("paths      over the faces in %.1f ms: %d distances raised, %d lowered, by up to %.3g; "
-           "errors of at most about %.3g, %.3g on average\n",
-           1e3 * (app_now() - began), (int)c.raised, (int)c.lowered, c.largest, c.largest_width,
-           c.mean_width);
-    if (c.largest > 4 * edge) {
-        app_warn("the heat method is off by up to %.3g, %.1f mean edges: %d of %d distances are "
-                 "those of short paths",
-                 c.largest, c.largest / edge, (int)(c.raised + c.lowered), (int)f->n);
-    }
-    incidence_free(&inc);
-    free(u3);
-    free(u1);
 }
 
 static void distances(geodesic_command *cmd) {
@@ -202,7 +181,14 @@ static void distances(geodesic_command *cmd) {
     heat_patch_free(&patch);
     sl_symbolic_stats(cmd->s.S, &all);
     if (!cmd->raw) {
-        correct(cmd, &f);
+        path_check check;
+        app_stage("comparing with paths");
+        path_check_open(&check, &cmd->m);
+        path_check_distances(&check, &f, cmd->sources, cmd->n_sources, cmd->heat.radius,
+                             heat_options_patch_radius(&cmd->heat));
+        app_progress_end();
+        path_check_report(&check);
+        path_check_close(&check);
     }
     for (sl_int k = 0; k < f.n; k++) {
         farthest = fmax(farthest, f.distance[k]);
@@ -238,20 +224,30 @@ static void distances(geodesic_command *cmd) {
 /* Distances from each source separately, with the plans of one ball around all of them. */
 static void distances_of_each(geodesic_command *cmd) {
     heat_patch patch;
+    path_check check;
     FILE *csv = cmd->output.csv != NULL ? app_create(cmd->output.csv) : NULL;
     double seconds = 0;
     sl_off found = 0;
+    sl_int negative = 0; /* sources with negative heat somewhere */
     prepare_patch(cmd, &patch);
     if (csv != NULL) {
         fprintf(csv, "source,vertex,distance\n");
     }
+    if (!cmd->raw) {
+        path_check_open(&check, &cmd->m);
+    }
     for (sl_int i = 0; i < cmd->n_sources; i++) {
         heat_field f;
         double began = app_now();
-        app_must(heat_patch_distance(&f, &patch, cmd->sources + i, 1, cmd->heat.radius,
+        app_must(heat_patch_distance(&f, &patch, cmd->sources + i, 1, wanted_radius(cmd),
                                      cmd->heat.solves),
                  "distances", NULL);
         seconds += app_now() - began;
+        negative += f.negative > 0;
+        if (!cmd->raw) {
+            path_check_distances(&check, &f, cmd->sources + i, 1, cmd->heat.radius,
+                                 heat_options_patch_radius(&cmd->heat));
+        }
         found += f.n;
         if (i == 0) {
             app_print_reads("heat", &f.heat_stats);
@@ -268,6 +264,15 @@ static void distances_of_each(geodesic_command *cmd) {
     printf("distances  %lld, from each of %d sources, in %.3f ms: %.3f ms per source\n",
            (long long)found, (int)cmd->n_sources, 1e3 * seconds,
            1e3 * seconds / (double)cmd->n_sources);
+    if (!cmd->raw) {
+        path_check_report(&check);
+        path_check_close(&check);
+    }
+    if (negative > 0) {
+        app_warn("negative heat from %d of %d sources: the heat method is wrong there, a larger "
+                 "--scaled-time may help",
+                 (int)negative, (int)cmd->n_sources);
+    }
     if (csv != NULL) {
         app_close(csv);
     }
@@ -326,6 +331,12 @@ static void cells(geodesic_command *cmd) {
              "cells", NULL);
     app_progress_end();
     double seconds = app_now() - began;
+    if (!cmd->raw) {
+        path_check check;
+        path_check_open(&check, &cmd->m);
+        path_check_cells(&check, cell, cmd->sources, cmd->n_sources, cmd->heat.radius);
+        path_check_close(&check);
+    }
     for (size_t v = 0; v < n; v++) {
         sizes[cell[v] < 0 ? cmd->n_sources : cell[v]]++;
     }
@@ -407,6 +418,7 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     app_progress_end();
     printf("mesh       %d vertices, %d faces, mean edge %.4g; time %.4g; both factors in %.1f ms\n",
            (int)cmd->m.n_vertices, (int)cmd->m.n_faces, edge, t, 1e3 * (app_now() - began));
+    accuracy_warn_poisson(cmd->s.m, cmd->s.inc.lengths, is_intrinsic ? cmd->surface.share : 1);
     if (!(time > 0) && !(scaled > 0)) {
         find_time(cmd, edge * edge);
     }
@@ -463,7 +475,8 @@ int command_geodesic(int argc, char **argv) {
         {OPTION_FLAG, "each", &cmd.each, NULL,
          "distances from each source separately, with one set of plans in a ball around all"},
         {OPTION_FLAG, "raw", &cmd.raw, NULL,
-         "print the distances of the heat method as they are, without the comparison with paths"},
+         "keep distances and cells of the heat method as they are, without the comparison with "
+         "paths; it takes about 10 seconds for each million vertices and source"},
         {OPTION_FLAG, "voronoi", &cmd.voronoi, NULL, "nearest site in place of the distance"},
         LAPLACIAN_OPTION(&cmd.laplacian),
         APP_OUTPUT_OPTIONS(&cmd.output),

@@ -67,6 +67,8 @@ static void compute(double *values, heat_system *h, const double *times, sl_int 
                  "auto-diffusion", &stats);
     }
     app_progress_end();
+    /* the longest time has the largest condition */
+    heat_system_warn(h, factors[(n_times - 1) % block], times[n_times - 1]);
     for (sl_int k = 0; k < block; k++) {
         sl_factor_free(factors[k]);
     }

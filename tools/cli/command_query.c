@@ -6,6 +6,7 @@
 
 #include "app.h"
 #include "command.h"
+#include "solve_accuracy.h"
 
 static const options_usage usage = {"query", "FILE.slf", 1, 1,
                                     "Solves with a saved factor: a line of answers for each "
@@ -140,6 +141,7 @@ int command_query(int argc, char **argv) {
     if (F == NULL) {
         app_die("%s: holds an analysis without a factor", operand);
     }
+    accuracy_warn(NULL, F, NULL);
     app_must(sl_work_create(&W, NULL), "workspace", NULL);
     while (read_line(&line, stdin)) {
         if (line.text[0] != '\0' && line.text[0] != '#') {

@@ -13,46 +13,61 @@ static void check_time(double t) {
     }
 }
 
-/* Scatters the diagonal matrix M to h->terms[0]. */
-static void scatter_mass(const heat_system *h, const double *mass) {
-    sl_int *identity = app_alloc((size_t)h->n + 1, sizeof *identity);
+/* The diagonal matrix M; the caller frees *identity, which it borrows. */
+static sl_csc mass_matrix(const heat_system *h, sl_int **identity) {
+    *identity = app_alloc((size_t)h->n + 1, sizeof **identity);
     for (sl_int j = 0; j <= h->n; j++) {
-        identity[j] = j;
+        (*identity)[j] = j;
     }
-    const sl_csc M = {h->n, h->n, identity, identity, mass};
-    app_must(sl_symbolic_scatter(h->S, h->terms[0], &M, NULL), "masses", NULL);
+    const sl_csc M = {h->n, h->n, *identity, *identity, h->mass};
+    return M;
+}
+
+void heat_system_warn(const heat_system *h, const sl_factor *F, double t) {
+    if (h->laplacian == NULL) {
+        accuracy_warn(NULL, F, NULL);
+        return;
+    }
+    sl_int *identity;
+    sl_matrix *sum = NULL;
+    const double one_and_t[2] = {1, t};
+    const sl_csc terms[2] = {mass_matrix(h, &identity), sl_matrix_view(h->laplacian)};
+    app_must(sl_matrix_sum(&sum, one_and_t, terms, 2, NULL, NULL), "M + t L", NULL);
+    const sl_csc A = sl_matrix_view(sum);
+    accuracy_warn(&h->faces, F, &A);
+    sl_matrix_free(sum);
     free(identity);
 }
 
 void heat_system_analyze(heat_system *h, const mesh *m, const char *name, const sl_options *opt) {
-    sl_matrix *laplacian = NULL;
+    sl_int *identity;
     intrinsic a;
     memset(h, 0, sizeof *h);
     h->n = m->n_vertices;
     h->stats.error.row = -1;
     double begin = app_now();
     app_stage("assembling");
-    double *mass = app_alloc((size_t)h->n, sizeof *mass);
+    h->mass = app_alloc((size_t)h->n, sizeof *h->mass);
     const mesh *surface = laplacian_choose(&a, m, name) ? &a.m : m;
     double share = surface == m ? 1 : a.share;
-    if (!laplacian_cotangent_of(&laplacian, surface, a.lengths, share)) {
+    if (!laplacian_cotangent_of(&h->laplacian, surface, a.lengths, share)) {
         app_die("out of memory for the Laplacian of %d vertices", (int)h->n);
     }
-    laplacian_mass_of(mass, surface, a.lengths, share);
+    laplacian_mass_of(h->mass, surface, a.lengths, share);
+    h->faces = accuracy_of_faces(surface, a.lengths);
     intrinsic_free(&a);
     app_stage("analyzing");
     h->seconds_assemble = app_now() - begin;
-    const sl_csc L = sl_matrix_view(laplacian);
+    const sl_csc L = sl_matrix_view(h->laplacian), M = mass_matrix(h, &identity);
     app_must(sl_symbolic_create(&h->S, &L, opt, &h->stats), "analysis", &h->stats);
     begin = app_now();
     for (int k = 0; k < 2; k++) {
         h->terms[k] = app_alloc((size_t)sl_symbolic_entries(h->S), sizeof *h->terms[k]);
     }
-    scatter_mass(h, mass);
+    app_must(sl_symbolic_scatter(h->S, h->terms[0], &M, NULL), "masses", NULL);
     app_must(sl_symbolic_scatter(h->S, h->terms[1], &L, NULL), "Laplacian", NULL);
     h->seconds_assemble += app_now() - begin;
-    sl_matrix_free(laplacian);
-    free(mass);
+    free(identity);
     app_progress_end();
 }
 
@@ -67,6 +82,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t, const char *lap
              "factorization", &h->stats);
     h->t = t;
     app_progress_end();
+    heat_system_warn(h, h->F, t);
 }
 
 /* Maps a saved factor. A file of the other byte order is loaded. */
@@ -105,6 +121,7 @@ void heat_system_open(heat_system *h, mesh *m, const char *operand, const heat_t
         app_die_usage("%s: a saved factor has no mesh for --out and --png", operand);
     }
     open_saved(h, m, operand);
+    heat_system_warn(h, h->F, h->t);
 }
 
 const char *heat_system_time(const heat_system *h) {
@@ -137,6 +154,8 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
 void heat_system_free(heat_system *h) {
     sl_factor_free(h->F);
     sl_symbolic_free(h->S);
+    sl_matrix_free(h->laplacian);
+    free(h->mass);
     free(h->terms[0]);
     free(h->terms[1]);
     memset(h, 0, sizeof *h);

@@ -3,6 +3,7 @@
 #define TOOLS_HEAT_SYSTEM_H
 
 #include "laplacian_choice.h"
+#include "solve_accuracy.h"
 
 /** Values of the options --time, --scaled-time, --area-time, --laplacian; all 0 initially. */
 typedef struct heat_time {
@@ -23,8 +24,11 @@ typedef struct heat_time {
  */
 typedef struct heat_system {
     sl_int n;
-    double t;         /* of F; NAN: F is of a file, which does not say */
-    double *terms[2]; /* M and L in the pattern of the analysis; M + t L combines them */
+    double t;             /* of F; NAN: F is of a file, which does not say */
+    double *terms[2];     /* M and L in the pattern of the analysis; M + t L combines them */
+    sl_matrix *laplacian; /* L, lower triangle; NULL: of a file */
+    double *mass;         /* n: the diagonal of M */
+    accuracy_faces faces; /* of the triangulation that L is of */
     sl_symbolic *S;
     sl_factor *F;            /* NULL: analyzed only */
     sl_stats stats;          /* of analysis and factorization */
@@ -73,6 +77,11 @@ const char *heat_system_time(const heat_system *h);
  */
 void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,
                          const sl_threads *threads);
+
+/** Warns on standard error if the mesh leaves few digits to the solutions with M + t L
+ *  (solve_accuracy.h); F is its factor. heat_system_create and heat_system_open have done this for
+ *  h->F. */
+void heat_system_warn(const heat_system *h, const sl_factor *F, double t);
 
 /** Releases everything and sets h to all zero. */
 void heat_system_free(heat_system *h);

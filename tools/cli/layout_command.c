@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solve_accuracy.h"
 #include "tools/geometry/harmonic_map.h"
 #include "tools/io/input.h"
 #include "tools/mesh/int_list.h"
@@ -154,6 +155,7 @@ void layout_command_open(layout_command *job, const char *operand) {
         app_print_region("region", &job->s.stats, job->seconds_region);
     }
     app_print_reads("reads", &job->s.stats);
+    accuracy_warn_poisson(&job->d.p.m, NULL, 1);
 }
 
 double *layout_command_boundary(const layout_command *job) {

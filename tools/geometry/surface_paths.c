@@ -14,7 +14,7 @@ typedef struct entry {
 } entry;
 
 /* Points are the vertices, then `points` of each edge, from its lower to its higher vertex. */
-typedef struct search {
+struct surface_search {
     const incidence *inc;
     int points;
     sl_int n_edges;
@@ -22,11 +22,15 @@ typedef struct search {
     sl_off *begin;   /* n_edges + 1: the sides of an edge are side[begin[e]] .. */
     sl_int *side;    /* 3 n_faces */
     double *length;  /* of the shortest path so far, by point */
+    sl_int *origin;  /* the position of its source, by point */
+    int64_t *found;  /* the points with a path, in the order of discovery */
+    size_t n_found;
+    double limit;
     entry *heap;
     size_t used, capacity;
-} search;
+};
 
-static bool push(search *s, double length, int64_t point) {
+static bool push(surface_search *s, double length, int64_t point) {
     if (s->used == s->capacity) {
         size_t wanted = s->capacity < 64 ? 64 : 2 * s->capacity;
         entry *larger = (entry *)realloc(s->heap, wanted * sizeof *larger);
@@ -45,7 +49,7 @@ static bool push(search *s, double length, int64_t point) {
     return true;
 }
 
-static entry pop(search *s) {
+static entry pop(surface_search *s) {
     entry top = s->heap[0], last = s->heap[--s->used];
     size_t at = 0;
     for (size_t child = 1; child < s->used; child = 2 * at + 1) {
@@ -69,7 +73,7 @@ static void ends_of(sl_int ends[2], const mesh *m, sl_int s) {
 }
 
 /* Numbers the edges: sides are sorted by both ends, in two passes of counting. */
-static bool number_edges(search *s) {
+static bool number_edges(surface_search *s) {
     const mesh *m = s->inc->m;
     size_t n = (size_t)m->n_vertices;
     sl_int count = 3 * m->n_faces, ends[2], before[2] = {-1, -1};
@@ -107,7 +111,7 @@ static bool number_edges(search *s) {
     return ok;
 }
 
-static void place(double x[3], const search *s, int64_t point) {
+static void place(double x[3], const surface_search *s, int64_t point) {
     const mesh *m = s->inc->m;
     if (point < m->n_vertices) {
         memcpy(x, m->xyz + 3 * point, 3 * sizeof *x);
@@ -124,8 +128,18 @@ static void place(double x[3], const search *s, int64_t point) {
     }
 }
 
+/* Notes a shorter path to a point. */
+static bool reach(surface_search *s, double length, int64_t point, sl_int origin) {
+    if (s->length[point] == INFINITY) {
+        s->found[s->n_found++] = point;
+    }
+    s->length[point] = length;
+    s->origin[point] = origin;
+    return push(s, length, point);
+}
+
 /* Extends a path to all points of a face. */
-static bool extend(search *s, entry e, sl_int face) {
+static bool extend(surface_search *s, entry e, sl_int face) {
     const mesh *m = s->inc->m;
     double from[3], to[3];
     place(from, s, e.point);
@@ -137,23 +151,26 @@ static bool extend(search *s, entry e, sl_int face) {
             place(to, s, point);
             double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2];
             double length = e.length + sqrt(x * x + y * y + z * z);
-            if (length < s->length[point]) {
-                s->length[point] = length;
-                if (!push(s, length, point)) {
-                    return false;
-                }
+            if (length < s->length[point] && length <= s->limit &&
+                !reach(s, length, point, s->origin[e.point])) {
+                return false;
             }
         }
     }
     return true;
 }
 
-static bool run(search *s, const sl_int *sources, sl_int count) {
+bool surface_search_run(surface_search *s, const sl_int *sources, sl_int count, double limit) {
     const sl_int n = s->inc->m->n_vertices;
     bool ok = true;
+    for (size_t k = 0; k < s->n_found; k++) {
+        s->length[s->found[k]] = INFINITY;
+    }
+    s->n_found = 0;
+    s->used = 0;
+    s->limit = limit;
     for (sl_int k = 0; k < count && ok; k++) {
-        s->length[sources[k]] = 0;
-        ok = push(s, 0, sources[k]);
+        ok = s->length[sources[k]] == 0 || reach(s, 0, sources[k], k);
     }
     while (ok && s->used > 0) {
         entry e = pop(s);
@@ -174,35 +191,56 @@ static bool run(search *s, const sl_int *sources, sl_int count) {
     return ok;
 }
 
-bool surface_paths(double *length, const incidence *inc, const sl_int *sources, sl_int count,
-                   int points) {
-    search s;
-    memset(&s, 0, sizeof s);
+bool surface_search_create(surface_search **out, const incidence *inc, int points) {
     size_t corners = 3 * (size_t)inc->m->n_faces, n = (size_t)inc->m->n_vertices;
-    s.inc = inc;
-    s.points = points;
-    if (points < 0 || points > POINTS_MAX || inc->m->n_faces > INT32_MAX / 3) {
+    surface_search *s = (surface_search *)calloc(1, sizeof *s);
+    *out = NULL;
+    if (s == NULL || points < 0 || points > POINTS_MAX || inc->m->n_faces > INT32_MAX / 3) {
+        free(s);
         return false;
     }
-    s.edge_of = (sl_int *)malloc((corners + 1) * sizeof *s.edge_of);
-    s.side = (sl_int *)malloc((corners + 1) * sizeof *s.side);
-    s.begin = (sl_off *)malloc((corners + 2) * sizeof *s.begin);
-    bool ok = s.edge_of != NULL && s.side != NULL && s.begin != NULL && number_edges(&s);
-    size_t total = n + (size_t)s.n_edges * (size_t)points;
-    s.length = ok ? (double *)malloc((total + 1) * sizeof *s.length) : NULL;
-    for (size_t k = 0; k < total && s.length != NULL; k++) {
-        s.length[k] = INFINITY;
-    }
-    ok = s.length != NULL && run(&s, sources, count);
+    s->inc = inc;
+    s->points = points;
+    s->edge_of = (sl_int *)malloc((corners + 1) * sizeof *s->edge_of);
+    s->side = (sl_int *)malloc((corners + 1) * sizeof *s->side);
+    s->begin = (sl_off *)malloc((corners + 2) * sizeof *s->begin);
+    bool ok = s->edge_of != NULL && s->side != NULL && s->begin != NULL && number_edges(s);
+    size_t total = n + (size_t)s->n_edges * (size_t)points + 1;
     if (ok) {
-        memcpy(length, s.length, n * sizeof *length);
+        s->length = (double *)malloc(total * sizeof *s->length);
+        s->origin = (sl_int *)malloc(total * sizeof *s->origin);
+        s->found = (int64_t *)malloc(total * sizeof *s->found);
     }
-    free(s.heap);
-    free(s.length);
-    free(s.begin);
-    free(s.side);
-    free(s.edge_of);
-    return ok;
+    for (size_t k = 0; k < total && s->length != NULL; k++) {
+        s->length[k] = INFINITY;
+    }
+    if (s->length == NULL || s->origin == NULL || s->found == NULL) {
+        surface_search_free(s);
+        return false;
+    }
+    *out = s;
+    return true;
+}
+
+const double *surface_search_lengths(const surface_search *s) {
+    return s->length;
+}
+
+const sl_int *surface_search_origins(const surface_search *s) {
+    return s->origin;
+}
+
+void surface_search_free(surface_search *s) {
+    if (s != NULL) {
+        free(s->heap);
+        free(s->found);
+        free(s->origin);
+        free(s->length);
+        free(s->begin);
+        free(s->side);
+        free(s->edge_of);
+        free(s);
+    }
 }
 
 surface_correction surface_paths_correct(double *distance, const sl_int *vertices, sl_int n,
@@ -211,8 +249,10 @@ surface_correction surface_paths_correct(double *distance, const sl_int *vertice
     sl_int counted = 0;
     memset(&c, 0, sizeof c);
     for (sl_int k = 0; k < n; k++) {
-        double high = u3[vertices[k]], width = 0.5 * (u1[vertices[k]] - high) + slack;
-        double low = fmax(0, high - width), d = distance[k];
+        double high = u3[vertices[k]], d = distance[k];
+        /* without u1, which is longer than its search followed, only high is known */
+        double gap = isfinite(u1[vertices[k]]) ? u1[vertices[k]] - high : 2 * high;
+        double low = fmax(0, high - 0.5 * gap - slack);
         if (isnan(d) || !isfinite(high)) {
             continue;
         }
@@ -220,7 +260,7 @@ surface_correction surface_paths_correct(double *distance, const sl_int *vertice
         c.raised += moved > d;
         c.lowered += moved < d;
         c.largest = fmax(c.largest, fabs(moved - d));
-        double bound = u1[vertices[k]] - high + slack;
+        double bound = fmin(gap, high) + slack;
         c.mean_width += bound;
         c.largest_width = fmax(c.largest_width, bound);
         counted++;

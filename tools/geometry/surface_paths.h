@@ -4,20 +4,40 @@
 
 #include "tools/mesh/incidence.h"
 
-/** Lengths of the shortest paths from some vertices through the vertices and `points` evenly spaced
- *  points of each edge, straight across faces. They are upper bounds of the distances on the
- *  surface; their relative error falls with the square of the number of points.
+/** Searches for the shortest paths from some vertices through the vertices and some evenly spaced
+ *  points of each edge, straight across faces. Their lengths are upper bounds of the distances on
+ *  the surface; the relative error falls with the square of the number of points. */
+typedef struct surface_search surface_search;
+
+/** Prepares searches.
  *
- *  length   [out]  n_vertices; INFINITY where no path leads.
- *  inc      [in]   the mesh.
- *  sources  [in]   count vertices.
- *  points   [in]   0..15.
+ *  out     [out]  release with surface_search_free; NULL on error.
+ *  inc     [in]   the mesh; borrowed, must outlive out.
+ *  points  [in]   of each edge, 0..15.
  *  Returns  true; false: out of memory, or too many points.
- *  Cost     O(k log k) for k = (points + 1) n_edges: about 1 s for 100 000 vertices and 3 points.
+ *  Cost     O(faces), about 40 + 20 points bytes for each face.
+ */
+bool surface_search_create(surface_search **out, const incidence *inc, int points);
+
+/** Finds the paths up to a length. Forgets those of the search before.
+ *
+ *  sources  [in]  count vertices.
+ *  limit    [in]  longer paths are not followed; INFINITY: all.
+ *  Returns  true; false: out of memory.
+ *  Cost     O(k log k) for the k points found: about 1 s for 100 000 vertices and 3 points.
  *  Example  tests/tools/test_intrinsic.c
  */
-bool surface_paths(double *length, const incidence *inc, const sl_int *sources, sl_int count,
-                   int points);
+bool surface_search_run(surface_search *s, const sl_int *sources, sl_int count, double limit);
+
+/** The lengths of the last search by vertex of the mesh; INFINITY where no path leads. */
+const double *surface_search_lengths(const surface_search *s);
+
+/** The position in `sources` of the vertex where the path to each vertex starts; defined where the
+ *  length is finite. */
+const sl_int *surface_search_origins(const surface_search *s);
+
+/** Releases everything; NULL is allowed. */
+void surface_search_free(surface_search *s);
 
 /** What surface_paths_correct did. */
 typedef struct surface_correction {
@@ -34,7 +54,8 @@ typedef struct surface_correction {
  *  u3 - slack - (u1 - u3) / 2 are raised to that, those above u3 are lowered to it.
  *
  *  distance  [in,out]  n values of the vertices `vertices`; NaNs stay.
- *  u1, u3    [in]      by vertex of the mesh.
+ *  u1, u3    [in]      by vertex of the mesh; distances stay where u3 is infinite, and are
+ *                      only lowered where u1 is.
  *  slack     [in]      0 or more: what the distances may be shorter than u3 in any case.
  */
 surface_correction surface_paths_correct(double *distance, const sl_int *vertices, sl_int n,

@@ -1,0 +1,45 @@
+/* path_check.h: compares the distances and cells of the heat method with paths over the faces */
+#ifndef TOOLS_PATH_CHECK_H
+#define TOOLS_PATH_CHECK_H
+
+#include "app.h"
+#include "tools/geometry/cell_paths.h"
+#include "tools/geometry/heat_patch.h"
+
+/** Searches on one mesh, and what they found so far. Like all functions of this folder, those below
+ *  end the program with a message on errors. */
+typedef struct path_check {
+    const mesh *m; /* borrowed */
+    incidence inc;
+    surface_search *one, *three; /* through 1 and 3 points of each edge */
+    double edge;                 /* the mean length */
+    double seconds;
+    surface_correction sum; /* over all distances; mean_width is a sum until the report */
+    double width_sum;
+    sl_off distances;
+} path_check;
+
+/** Prepares the searches; release with path_check_close. m must outlive it. */
+void path_check_open(path_check *check, const mesh *m);
+
+/** Moves distances that cannot be right (surface_paths_correct).
+ *
+ *  f       [in,out]  distances from the sources. With a radius, of a whole patch; those that are
+ *                    then beyond the radius are removed.
+ *  radius  [in]      0: none.
+ *  limit   [in]      paths are followed so far; above the radius; INFINITY: all.
+ */
+void path_check_distances(path_check *check, heat_field *f, const sl_int *sources, sl_int count,
+                          double radius, double limit);
+
+/** Prints what path_check_distances has done, and warns of large errors. */
+void path_check_report(const path_check *check);
+
+/** Moves vertices to nearer sites (cell_paths_correct), prints what was done and what errors
+ *  remain, and warns if much was wrong. */
+void path_check_cells(path_check *check, sl_int *cell, const sl_int *sites, sl_int count,
+                      double radius);
+
+void path_check_close(path_check *check);
+
+#endif
