@@ -30,6 +30,49 @@ static void ascii_variants_are_read(void **state) {
     mesh_free(&m);
 }
 
+/* Reads a pyramid whose note contains `words`; "" if there is no note. */
+static void assert_is_noted(const char *path, const char *words) {
+    mesh m;
+    char message[300], note[300] = "x";
+    assert_is_pyramid(path);
+    assert_true(mesh_read_noting(&m, path, message, sizeof message, note, sizeof note));
+    if (words[0] == '\0' ? note[0] != '\0'
+                         : strncmp(note, path, strlen(path)) != 0 || !strstr(note, words)) {
+        print_error("%s\n    lacks: %s\n", note, words);
+        fail();
+    }
+    mesh_free(&m);
+}
+
+#define PLY_XYZ "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+
+/* Values beyond the declared ones are ignored and noted where each row has its line; rows may be
+ * split over lines, or share them. Rows with fewer values are blamed on their own line. */
+static void rows_are_told_from_lines(void **state) {
+    (void)state;
+#define PYRAMID_START PLY_ASCII_HEADER PLY_XYZ PLY_FACE "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.25 -2.5"
+    const char *path = files_put_text("r.ply", ply_ascii);
+    assert_is_noted(path, "");
+    path = files_put_text("r.ply", PYRAMID_START "\n4 0 3 2 1 255 0 9\n3 0 1 4 255 0 9\n"
+                                                 "3 1 2 4 255 1 1\n3 2 3 4 0 0 0\n3 3 0 4 1 1 1\n");
+    assert_is_noted(path, "line 16: face 0 has more values than the header declares");
+    path = files_put_text("r.ply", PYRAMID_START " 0.5 7\n\n" OFF_FACES "\n");
+    assert_is_noted(path, "line 15: vertex 4 has more values");
+    path = files_put_text("r.ply", PLY_ASCII_HEADER PLY_XYZ PLY_FACE
+                          "0 0 0 1 0 0 1 1 0\n0 1 0 0.5 0.25 -2.5 4 0 3 2 1\n3 0 1 4 3 1 2 4\n"
+                          "3 2 3 4 3 3 0 4\n");
+    assert_is_noted(path, "");
+    path = files_put_text("r.ply", PYRAMID_START "\n4\n0 3 2 1\n3\n0 1 4\n3 1 2\n4\n3 2 3 4\n3 "
+                                                 "3\n0\n4");
+    assert_is_noted(path, "");
+    path = files_put_text("r.ply", PYRAMID_START "\n4 0 3 2 1\n3 0 1 4 4\n4 1 2 4\n3 2 3 4\n"
+                                                 "3 3 0 4\n");
+    assert_is_refused(path, ":18: face 2: fewer values in its line");
+    path = files_put_text("r.ply", PLY_ASCII_HEADER PLY_XYZ PLY_FACE
+                          "0 0 0\n1 0\n1 1 0\n0 1 0\n0.5 0.25 -2.5\n" OFF_FACES "\n1\n2\n3");
+    assert_is_refused(path, ":12: vertex 1: fewer values in its line");
+}
+
 static void binary_variants_are_read(void **state) {
     (void)state;
     static const struct {
@@ -181,6 +224,7 @@ static void bad_files_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ascii_variants_are_read),
+        cmocka_unit_test(rows_are_told_from_lines),
         cmocka_unit_test(binary_variants_are_read),
         cmocka_unit_test(property_types_keep_their_sign),
         cmocka_unit_test(data_that_look_like_a_line_end_are_read),

@@ -14,11 +14,14 @@ const char app_mesh_help[] =
     "grid:100x100, hills:100x100, sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
 
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
-    char message[512];
+    char message[512], note[512] = "";
     bool made = surface_is_specification(operand);
     if (made ? !surface_generate(out, operand, message, sizeof message)
-             : !mesh_read(out, operand, message, sizeof message)) {
+             : !mesh_read_noting(out, operand, message, sizeof message, note, sizeof note)) {
         app_die("%s", message);
+    }
+    if (note[0] != '\0') {
+        app_warn("%s", note);
     }
     if (faces_needed && out->n_faces == 0) {
         app_die("%s: has no faces, only %d vertices; this command needs a surface", operand,

@@ -2,6 +2,8 @@
 #include "mesh.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -100,6 +102,15 @@ bool mesh_build_polygon(mesh_build *b) {
     return true;
 }
 
+void mesh_build_note(mesh_build *b, const char *format, ...) {
+    if (b->note[0] == '\0') {
+        va_list list;
+        va_start(list, format);
+        (void)vsnprintf(b->note, sizeof b->note, format, list);
+        va_end(list);
+    }
+}
+
 static bool indices_in_range(mesh_build *b) {
     if (b->largest < b->result.n_vertices) {
         return true;
@@ -111,6 +122,11 @@ static bool indices_in_range(mesh_build *b) {
 }
 
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) {
+    return mesh_read_noting(out, path, message, message_size, NULL, 0);
+}
+
+bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message_size, char *note,
+                      size_t note_size) {
     static const struct {
         const char *ending;
         bool (*read)(mesh_build *b);
@@ -119,6 +135,9 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) 
                    {".ply", mesh_read_ply},
                    {".stl", mesh_read_stl}};
     memset(out, 0, sizeof *out);
+    if (note_size > 0) {
+        note[0] = '\0';
+    }
     input in;
     if (!input_open(&in, path, message, message_size)) {
         return false;
@@ -143,6 +162,9 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) 
     input_close(&in);
     if (ok) {
         *out = b.result;
+        if (note_size > 0 && b.note[0] != '\0') {
+            (void)snprintf(note, note_size, "%s: %s", path, b.note);
+        }
     } else {
         mesh_free(&b.result);
     }

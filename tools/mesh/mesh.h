@@ -30,7 +30,7 @@ typedef struct mesh {
  *       ignored.
  *  PLY  1.0: ascii, binary_little_endian, binary_big_endian. Properties of any scalar type in any
  *       order; the corners are a list vertex_indices or vertex_index. Other elements and properties
- *       are ignored.
+ *       are ignored, as are values beyond the declared ones in the line of a row, which is noted.
  *  STL  ASCII or binary; the file length decides which. Corners with equal coordinates become one
  *       vertex, numbered in order of first appearance. Normals and attributes are ignored.
  *
@@ -49,6 +49,14 @@ typedef struct mesh {
  *  Example  tests/tools/test_mesh_obj_off.c, test_mesh_ply.c, test_mesh_stl.c
  */
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
+
+/** The same, and tells what is odd about a file that can be read.
+ *
+ *  note  [out]  the first odd thing, with the file, note_size bytes; "" if there is none or on
+ *               error; may be NULL with note_size 0.
+ */
+bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message_size, char *note,
+                      size_t note_size);
 
 /** Releases the arrays and sets m to all zero. An empty mesh and NULL are allowed. */
 void mesh_free(mesh *m);

@@ -19,6 +19,7 @@ typedef struct mesh_build {
     int64_t largest_line; /* the line of that index; 0 for binary files */
     int64_t largest_face; /* the polygon of that index, counted from 0 */
     int64_t polygons;
+    char note[200]; /* the first of mesh_build_note */
 } mesh_build;
 
 /** Adds a vertex. Like the next two functions, sets the message of b->in and returns false on
@@ -39,6 +40,9 @@ bool mesh_build_corner(mesh_build *b, int64_t vertex);
  *  Returns  true; false: fewer than three corners, too many triangles, out of memory.
  */
 bool mesh_build_polygon(mesh_build *b);
+
+/** Notes what is odd about a file that can be read; only the first note is kept. */
+void mesh_build_note(mesh_build *b, const char *format, ...) INPUT_PRINTF(2, 3);
 
 /* One reader per format. Each reads all of b->in into b; false: b->in has the message. */
 bool mesh_read_obj(mesh_build *b);

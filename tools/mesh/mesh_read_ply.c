@@ -45,6 +45,11 @@ typedef struct ply {
     mesh_build *b;
     bool ascii;
     bool big_endian;
+    /* of text: each row of an element has a line of its own, or more; so that values beyond those
+     * that the header declares can be told from the next row */
+    bool row_is_line;
+    bool row_is_one_line; /* no row has more than one */
+    int64_t longer_rows;  /* with such values */
     int n_elements;
     int n_properties;
     ply_element elements[PLY_MAX_ELEMENTS];
@@ -274,13 +279,62 @@ static bool read_value(ply *f, const ply_property *p, const char *element, int64
     return true;
 }
 
+/* Counts the lines that are not blank from the cursor on, up to `most`. */
+static int64_t count_lines(const input *in, int64_t most) {
+    input rest = *in;
+    int64_t count = 0;
+    while (count < most && input_more(&rest)) {
+        count++;
+        (void)input_next_line(&rest);
+    }
+    return count;
+}
+
+/* Decides how rows of text are separated: by lines, or not at all if there are fewer lines. */
+static void find_rows(ply *f) {
+    int64_t rows = 0;
+    for (int k = 0; k < f->n_elements; k++) {
+        const ply_element *e = &f->elements[k];
+        rows += e->past > e->first && e->count < INT64_MAX / PLY_MAX_ELEMENTS - 1 ? e->count : 0;
+    }
+    int64_t lines = count_lines(f->b->in, rows + 1);
+    f->row_is_line = lines >= rows;
+    f->row_is_one_line = lines == rows;
+}
+
+/* Ends a row of text that began in line `first`: skips values that the header does not declare. */
+static bool end_row(ply *f, const ply_element *e, int64_t number, int64_t first) {
+    input *in = f->b->in;
+    const int64_t last = in->line;
+    const bool longer = input_more_in_line(in);
+    if (last > first && (longer || f->row_is_one_line)) {
+        in->line = first;
+        return input_error(in, "%s %lld: fewer values in its line than the header declares",
+                           e->name, (long long)number);
+    }
+    f->longer_rows += longer;
+    if (f->longer_rows == 1 && longer) {
+        mesh_build_note(f->b,
+                        "line %lld: %s %lld has more values than the header declares; such "
+                        "values are ignored",
+                        (long long)last, e->name, (long long)number);
+    }
+    (void)input_next_line(in);
+    return true;
+}
+
 static bool read_instances(ply *f, const ply_element *e) {
+    input *in = f->b->in;
     bool vertex = strcmp(e->name, "vertex") == 0;
     bool face = strcmp(e->name, "face") == 0;
     /* without properties there is nothing to read, whatever count the header claims */
     int64_t count = e->past > e->first ? e->count : 0;
     for (int64_t number = 0; number < count; number++) {
         double xyz[3] = {0, 0, 0};
+        if (f->row_is_line) {
+            (void)input_more(in);
+        }
+        const int64_t line = in->line;
         for (int k = e->first; k < e->past; k++) {
             if (!read_value(f, &f->properties[k], e->name, number, xyz)) {
                 return false;
@@ -290,6 +344,9 @@ static bool read_instances(ply *f, const ply_element *e) {
             return false;
         }
         if (face && !mesh_build_polygon(f->b)) {
+            return false;
+        }
+        if (f->row_is_line && !end_row(f, e, number, line)) {
             return false;
         }
     }
@@ -303,7 +360,9 @@ bool mesh_read_ply(mesh_build *b) {
     if (!read_header(&f)) {
         return false;
     }
-    if (!f.ascii) {
+    if (f.ascii) {
+        find_rows(&f);
+    } else {
         b->in->line = 0;
     }
     for (int k = 0; k < f.n_elements; k++) {
