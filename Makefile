@@ -41,7 +41,9 @@ LINK = $(CC) $(OPT)
 DEPEND = -MMD -MP
 # The header needs no library by default; our own builds compile the orderings by METIS too.
 METIS = -DSL_METIS
-LIBS = -lmetis -lz -lm
+# zlib and cJSON read and write the files of the tools.
+FILE_LIBS = -lz -lcjson
+LIBS = -lmetis $(FILE_LIBS) -lm
 TEST_LIBS = -lcmocka
 
 PARTS := $(wildcard src/public/*.h src/impl/*/*.h)
@@ -124,8 +126,8 @@ check-promises: sparse_local.h build/deps.ok ## does the header hold each of its
 
 # ---- what others must give; Debian packages, installed where missing ----
 
-DEPS = metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev
-deps: build/deps.ok ## METIS, cmocka, zlib
+DEPS = metis.h=libmetis-dev cmocka.h=libcmocka-dev zlib.h=zlib1g-dev cjson/cJSON.h=libcjson-dev
+deps: build/deps.ok ## METIS, cmocka, zlib, cJSON
 	@tools/build/deps.sh $(DEPS)
 
 build/deps.ok: tools/build/deps.sh
@@ -255,7 +257,7 @@ test-cxx: deps deps-cxx sparse_local.h ## the header's tests, over bodies compil
 	@+$(SUB_MAKE) run-tests B=build/cxx TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/cxx/tests/%)' LINK='$(CXX) $(OPT)' IMPL_COMPILE='$(CXX) -x c++ $(CXX_FLAGS)'
 
 test-no-metis: deps sparse_local.h ## the header's tests, built without SL_METIS and not linked with METIS
-	@+$(SUB_MAKE) run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='-lz -lm'
+	@+$(SUB_MAKE) run-tests B=build/no_metis TEST_PROGRAMS='$(CORE_TESTS:tests/%.c=build/no_metis/tests/%)' METIS= LIBS='$(FILE_LIBS) -lm'
 
 NO_SIMD = test_solve test_plan test_interleaved test_supernodal test_selected
 
@@ -319,11 +321,11 @@ $(PLATFORMS:%=test-%): test-%: deps-% sparse_local.h
 	INCLUDES='-isystem build/$*/include' OPT='-O1 $(flags_$*)' LINK='$(cross_$*)gcc -static' \
 	IMPL_COMPILE='$$(CC) $$(C_FLAGS) -std=gnu99 -O2' METIS=$(if $(metis_$*),-DSL_METIS) \
 	TEST_PROGRAMS='$(patsubst tests/%.c,build/$*/tests/%,$(or $(full_$*),$(PLATFORM_TESTS)))' \
-	TEST_LIBS=build/$*/libcmocka.a LIBS='$(if $(metis_$*),build/$*/libmetis.a) build/$*/libz.a -lm'
+	TEST_LIBS=build/$*/libcmocka.a LIBS='$(if $(metis_$*),build/$*/libmetis.a) build/$*/libz.a build/$*/libcjson.a -lm'
 
 test-tcc: deps deps-tcc sparse_local.h
 	@+tools/build/platform.sh tcc tcc natively $(SUB_MAKE) run-tests B=build/tcc CC=tcc WARN= DEPEND= SL_DATA= METIS= \
-	TEST_PROGRAMS='$(PLATFORM_TESTS:tests/%.c=build/tcc/tests/%)' LIBS='-lz -lm'
+	TEST_PROGRAMS='$(PLATFORM_TESTS:tests/%.c=build/tcc/tests/%)' LIBS='$(FILE_LIBS) -lm'
 
 test-i386: ## the header's tests on 32-bit x86 with SSE2
 test-i386-x87: ## some of the tests on 32-bit x86 with the x87 unit and its excess precision
@@ -371,7 +373,7 @@ MSAN_TESTS ?= $(CORE_TESTS)
 # zlib is not instrumented: it only reads and writes the files of tests that the sanitizer does not see.
 test-msan: deps deps-clang sparse_local.h ## the header's tests under clang's memory sanitizer: no uninitialized value is used
 	@+tools/build/platform.sh msan 'clang -fsanitize=memory' natively \
-	$(SUB_MAKE) run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='-lz -lm' INCLUDES=-Itests/lib/cmocka \
+	$(SUB_MAKE) run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='$(FILE_LIBS) -lm' INCLUDES=-Itests/lib/cmocka \
 	OPT='-O1 -g -fno-omit-frame-pointer -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all' \
 	TEST_PROGRAMS='$(MSAN_TESTS:tests/%.c=build/msan/tests/%)'
 

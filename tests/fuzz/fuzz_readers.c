@@ -16,6 +16,7 @@
 #include "tools/geometry/laplacian.h"
 #include "tools/io/matrix_file.h"
 #include "tools/mesh/mesh.h"
+#include "tools/mesh/mesh_sink.h"
 #include "tools/mesh/mesh_stats.h"
 #include "tools/mesh/mesh_write.h"
 
@@ -25,14 +26,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* The first byte of an input selects the format, by its value modulo 8, and how the rest becomes a
  * file, by its value divided by 8 and modulo 4: the characters from space select RAW_GZ (the bytes
- * in a file named .gz), those from '(' COMPRESSED, and the digits PLAIN. */
-enum { FORMATS = 8, MESH_FORMATS = 4, MATRIX_MARKET = 4 };
+ * in a file named .gz), those from '(' COMPRESSED, and the digits PLAIN. The characters from '@',
+ * 'H' and 'P' do the same with the last three formats. */
+enum { FORMATS = 11, FIRST_FORMATS = 8, MATRIX_MARKET = 4, LATE_FIRST = 64, LATE_END = 96 };
 enum { RAW_GZ = 0, COMPRESSED = 1, PLAIN = 2 };
 enum { PATH_SIZE = 300, MESSAGE_SIZE = 300 };
 enum { ROUND_TRIP_ROWS = 300, ROUND_TRIP_ENTRIES = 2000 };
 
 static const char *const endings[FORMATS] = {".obj", ".off", ".ply",         ".stl",
-                                             ".mtx", ".rb",  "_csparse.txt", "_cholmod.txt"};
+                                             ".mtx", ".rb",  "_csparse.txt", "_cholmod.txt",
+                                             ".vtk", ".glb", ".gltf"};
+
+static bool is_mesh_format(int format) {
+    return format < MATRIX_MARKET || format >= FIRST_FORMATS;
+}
 
 static char folder[PATH_SIZE / 2];
 
@@ -81,8 +88,9 @@ static double *array(sl_int count) {
     return x;
 }
 
-/* A mesh that is written and read again is the same mesh. */
+/* A mesh that is written and read again is the same mesh; glTF rounds the coordinates. */
 static void check_round_trip(const mesh *m, const char *ending) {
+    const bool is_single = ending[1] == 'g';
     char path[PATH_SIZE], message[MESSAGE_SIZE];
     mesh again;
     file_path(path, "out", ending, "");
@@ -90,7 +98,7 @@ static void check_round_trip(const mesh *m, const char *ending) {
     PROMISE(mesh_read(&again, path, message, sizeof message));
     PROMISE(again.n_vertices == m->n_vertices && again.n_faces == m->n_faces);
     for (sl_int k = 0; k < 3 * m->n_vertices; k++) {
-        PROMISE(again.xyz[k] == m->xyz[k]);
+        PROMISE(again.xyz[k] == (is_single ? (double)(float)m->xyz[k] : m->xyz[k]));
     }
     for (sl_int k = 0; k < 3 * m->n_faces; k++) {
         PROMISE(again.faces[k] == m->faces[k]);
@@ -140,10 +148,13 @@ static void check_stats(const mesh *m) {
 static void read_mesh(const char *path) {
     char message[MESSAGE_SIZE];
     mesh m;
+    char note[MESSAGE_SIZE];
     memset(message, 'x', sizeof message);
+    memset(note, 'x', sizeof note);
     memset(&m, 1, sizeof m);
-    const bool is_read = mesh_read(&m, path, message, sizeof message);
+    const bool is_read = mesh_read_noting(&m, path, message, sizeof message, note, sizeof note);
     PROMISE(memchr(message, '\0', sizeof message) != NULL);
+    PROMISE(memchr(note, '\0', sizeof note) != NULL && (is_read || note[0] == '\0'));
     PROMISE(is_read == (message[0] == '\0'));
     if (!is_read) {
         PROMISE(m.n_vertices == 0 && m.n_faces == 0 && !m.xyz && !m.faces);
@@ -157,6 +168,11 @@ static void read_mesh(const char *path) {
     }
     if (m.n_vertices <= ROUND_TRIP_ROWS && m.n_faces <= 2 * ROUND_TRIP_ROWS) {
         check_round_trip(&m, ".ply");
+        check_round_trip(&m, ".vtk");
+        if (mesh_fits_gltf(&m) && m.n_faces > 0) { /* a mesh without faces becomes points */
+            check_round_trip(&m, ".glb");
+            check_round_trip(&m, ".gltf");
+        }
         if (m.n_vertices > 0) { /* the reader refuses an OBJ file without vertices */
             check_round_trip(&m, ".obj");
         }
@@ -227,7 +243,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (folder[0] == '\0') {
         create_folder();
     }
-    const int format = data[0] % FORMATS, packing = data[0] / FORMATS % 4;
+    const bool is_late = data[0] >= LATE_FIRST && data[0] < LATE_END;
+    const int format = is_late ? FIRST_FORMATS + data[0] % FIRST_FORMATS % (FORMATS - FIRST_FORMATS)
+                               : data[0] % FIRST_FORMATS;
+    const int packing = data[0] / FIRST_FORMATS % 4;
     /* compressed content is rarely valid: numbers in it are not searched */
     if (format == MATRIX_MARKET && (packing == RAW_GZ || asks_for_much(data + 1, size - 1))) {
         return 0;
@@ -238,7 +257,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     } else {
         write_plain(path, data + 1, size - 1);
     }
-    if (format < MESH_FORMATS) {
+    if (is_mesh_format(format)) {
         read_mesh(path);
     } else {
         read_matrix(path);

@@ -212,7 +212,7 @@ done
 gives 2 'at most 8000 pixels' adf sphere:1 --png "$dir/x.png" --size 4001x10 --scale 2
 gives 1 'cannot be written' adf sphere:1 --png "$dir/no/x.png"
 gives 1 'cannot be written' adf sphere:1 --csv "$dir/no/x.csv"
-gives 1 'must end in .obj or .ply' adf sphere:1 --out "$dir/x.off"
+gives 1 'must end in .obj, .ply' adf sphere:1 --out "$dir/x.off"
 gives 2 'a number from 1 to 42' adf sphere:1 --at random:43
 for option in time scaled-time area-time radius; do
     gives 2 'above 0' heat sphere:1 --$option 0
@@ -226,7 +226,7 @@ gives 2 'above 0' hks sphere:1 --first 0
 for command in adf heat hks geodesic param arap scp reach; do
     gives 1 'no/x.png: cannot be written' "$command" "$dir/no-such-file.obj" --png "$dir/no/x.png"
     gives 1 'Is a directory' "$command" "$dir/no-such-file.obj" --csv "$dir"
-    gives 1 'must end in .obj or .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"
+    gives 1 'must end in .obj, .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"
     gives 2 'such as 800x600' "$command" "$dir/no-such-file.obj" --size 8
     gives 2 'such as 30,20' "$command" "$dir/no-such-file.obj" --view 8
     gives 2 'expected x, y, z or auto' "$command" "$dir/no-such-file.obj" --up w

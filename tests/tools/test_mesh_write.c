@@ -23,7 +23,8 @@ static void assert_reads_back(const mesh *m, const char *name, const mesh_extra 
 
 static void coordinates_keep_their_bits(void **state) {
     (void)state;
-    static const char *const names[] = {"a.ply", "a.obj", "a.ply.gz", "a.obj.gz", "A.PLY"};
+    static const char *const names[] = {"a.ply", "a.obj", "a.ply.gz", "a.obj.gz",
+                                        "A.PLY", "a.vtk", "a.vtk.gz"};
     static const char *const surfaces[] = {"blob:2", "hills:7x5", "grid:1x1"};
     for (size_t s = 0; s < 3; s++) {
         mesh m;
@@ -40,7 +41,7 @@ static void coordinates_keep_their_bits(void **state) {
         const mesh_extra all = {uv, NULL, color, fields, 2},
                          corners = {NULL, corner_uv, NULL, fields, 1},
                          one = {NULL, NULL, NULL, fields, 1};
-        for (size_t k = 0; k < 5; k++) {
+        for (size_t k = 0; k < 7; k++) {
             assert_reads_back(&m, names[k], NULL);
             assert_reads_back(&m, names[k], &all);
             assert_reads_back(&m, names[k], &corners);

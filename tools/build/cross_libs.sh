@@ -1,18 +1,18 @@
 #!/bin/sh
-# cross_libs.sh: compiles cmocka, zlib and METIS for a platform (make test-s390x)
+# cross_libs.sh: compiles cmocka, zlib, cJSON and METIS for a platform (make test-s390x)
 #
 #     CC=COMPILER AR=ARCHIVER tools/build/cross_libs.sh FOLDER [metis]
 #
-# Compiles Debian's source packages, unmodified, with CC into FOLDER/libcmocka.a, libz.a and, if
-# asked, libmetis.a. Copies their headers to FOLDER/include. The sources are fetched once, by
-# apt-get into build/sources; that needs no rights and changes nothing in the system, because
-# apt-get gets its own list of repositories.
+# Compiles Debian's source packages, unmodified, with CC into FOLDER/libcmocka.a, libz.a,
+# libcjson.a and, if asked, libmetis.a. Copies their headers to FOLDER/include. The sources are
+# fetched once, by apt-get into build/sources; that needs no rights and changes nothing in the
+# system, because apt-get gets its own list of repositories.
 
 folder=$1 with_metis=$2
 sources=build/sources
 root=$PWD
 log=$folder/libs.log
-[ -e "$folder/libs.ok" ] && exit 0
+[ -e "$folder/all-libs.ok" ] && exit 0
 mkdir -p "$folder/include" $sources || exit 1
 
 fetch() {
@@ -22,7 +22,7 @@ fetch() {
     set -- -o "Dir::Etc::SourceList=$root/$sources/apt.list" -o Dir::Etc::SourceParts=/dev/null \
         -o "Dir::State::Lists=$root/$sources/lists"
     apt-get "$@" update &&
-        (cd $sources && apt-get "$@" source --download-only cmocka zlib metis) || return 1
+        (cd $sources && apt-get "$@" source --download-only cmocka zlib cjson metis) || return 1
     for archive in $sources/*.orig.tar.*; do
         case $archive in *.asc) continue ;; esac
         tar -xf "$archive" -C $sources || return 1
@@ -45,17 +45,20 @@ archive() {
 # GKlib is part of METIS.
 build() {
     cmocka=$(echo $sources/cmocka-*/) zlib=$(echo $sources/zlib-*/) metis=$(echo $sources/metis-*/)
+    cjson=$(echo $sources/c*JSON-*/)
     gklib=
     for part in b64 blas csr error evaluate fkvkselect fs getopt graph htable io itemsets mcore \
         memory omp pdb pqueue random rw seq sort string timers tokenizer util; do
         gklib="$gklib $metis/GKlib/$part.c"
     done
-    cp "$cmocka"/include/*.h "$zlib"/zlib.h "$zlib"/zconf.h "$metis"/include/metis.h \
+    mkdir -p "$folder/include/cjson" && cp "$cjson"/cJSON.h "$folder/include/cjson" &&
+        cp "$cmocka"/include/*.h "$zlib"/zlib.h "$zlib"/zconf.h "$metis"/include/metis.h \
         "$folder/include" &&
         archive cmocka "-DHAVE_SIGLONGJMP -DHAVE_STRSIGNAL -DHAVE_SIGNAL_H -DHAVE_MALLOC_H
             -DHAVE_INTTYPES_H -DHAVE_STRINGS_H -DHAVE_STRUCT_TIMESPEC -DHAVE_CLOCK_REALTIME
             -D_GNU_SOURCE -I$cmocka/include" "$cmocka"/src/cmocka.c &&
-        archive z "-DHAVE_UNISTD_H -D_LARGEFILE64_SOURCE=1" "$zlib"/*.c || return 1
+        archive z "-DHAVE_UNISTD_H -D_LARGEFILE64_SOURCE=1" "$zlib"/*.c &&
+        archive cjson "" "$cjson"/cJSON.c || return 1
     [ -z "$with_metis" ] ||
         archive metis "-std=gnu99 -DLINUX -DNDEBUG -DNDEBUG2 -D_FILE_OFFSET_BITS=64
             -I$metis/GKlib -I$metis/include -I$metis/libmetis" "$metis"/libmetis/*.c $gklib
@@ -64,8 +67,8 @@ build() {
 {
     { # one at a time, so that two targets do not fetch into the same folder
         if command -v flock >/dev/null 2>&1; then flock 9; fi
-        [ -e $sources/ok ] || { fetch && touch $sources/ok; }
-    } 9>$sources/lock && build && touch "$folder/libs.ok"
+        [ -e $sources/all.ok ] || { fetch && touch $sources/all.ok; }
+    } 9>$sources/lock && build && touch "$folder/all-libs.ok"
 } >"$log" 2>&1 && exit 0
 tail -n 20 "$log" >&2
 echo "fix: the messages above are those of $log" >&2

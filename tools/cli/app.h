@@ -72,7 +72,7 @@ void app_progress_end(void);
 
 /** Output files and the camera of the picture; all zero: no output, default camera. */
 typedef struct app_output {
-    const char *out;   /* mesh file with the results at its vertices: .ply, .obj, optional .gz */
+    const char *out;   /* mesh file with the results at its vertices (mesh_write.h) */
     const char *png;   /* picture */
     const char *csv;   /* table */
     const char *size;  /* of the picture: "800x600" */
@@ -89,7 +89,8 @@ typedef struct app_output {
 /** Rows of an option table for the fields of an app_output. */
 #define APP_OUTPUT_OPTIONS(o) \
     {OPTION_OUTPUT, "out", &(o)->out, "FILE", \
-     "write the mesh with the results at its vertices: .ply or .obj, optionally .gz"}, \
+     "write the mesh with the results at its vertices: .ply, .obj, .vtk, .glb or .gltf, " \
+     "optionally .gz"}, \
         {OPTION_OUTPUT, "csv", &(o)->csv, "FILE", "write the results as a table"}, \
         APP_PICTURE_OPTIONS(o)
 

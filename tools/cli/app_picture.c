@@ -73,10 +73,7 @@ void app_check_output(const app_output *o, const char *out) {
     render_view view;
     app_view(&view, o);
     if (out != NULL && !mesh_write_knows(out)) {
-        app_die(
-            "%s: unknown mesh format: the name must end in .obj or .ply, optionally followed by "
-            ".gz",
-            out);
+        app_die("%s: unknown mesh format: the name must end in %s", out, mesh_write_formats);
     }
 }
 

@@ -59,7 +59,8 @@ enum { LAYOUT_SIZE = 2000 };
          "initial layout of the boundary: on a circle by arc length, or unrolled with its own " \
          "edge lengths and angles as far as the Gaussian curvature inside permits (circle)"}, \
         {OPTION_OUTPUT, "out", &(c)->out, "FILE", \
-         "write the patch with texture coordinates scaled to the unit square: .obj or .ply"}, \
+         "write the patch with texture coordinates scaled to the unit square: .obj, .ply, " \
+         ".vtk, .glb or .gltf"}, \
         {OPTION_OUTPUT, "csv", &(c)->picture.csv, "FILE", \
          "write a table vertex,u,v of the layout, scaled to the area of the patch"}, \
         {OPTION_OUTPUT, "layout", &(c)->layout_png, "FILE", \

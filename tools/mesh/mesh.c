@@ -74,32 +74,59 @@ bool mesh_build_corner(mesh_build *b, int64_t vertex) {
     return true;
 }
 
-bool mesh_build_polygon(mesh_build *b) {
+/* Returns room for the triangles of the current polygon, NULL on error. */
+static sl_int *room_for_triangles(mesh_build *b) {
     if (b->n_corners < 3) {
-        return input_error(b->in, "face %lld has %d corners; 3 or more are needed",
-                           (long long)b->polygons, (int)b->n_corners);
+        (void)input_error(b->in, "face %lld has %d corners; 3 or more are needed",
+                          (long long)b->polygons, (int)b->n_corners);
+        return NULL;
     }
     size_t count = (size_t)b->result.n_faces;
     size_t more = b->n_corners - 2;
     if (more > (size_t)INT32_MAX - count) {
-        return input_error(b->in, "more than 2^31-1 triangles");
+        (void)input_error(b->in, "more than 2^31-1 triangles");
+        return NULL;
     }
     sl_int *faces =
         (sl_int *)grow_array(b->result.faces, &b->face_capacity, count, more, 3 * sizeof *faces);
     if (faces == NULL) {
-        return input_error(b->in, "out of memory");
+        (void)input_error(b->in, "out of memory");
+        return NULL;
     }
     b->result.faces = faces;
-    for (size_t k = 0; k < more; k++) {
-        sl_int *face = faces + 3 * (count + k);
-        face[0] = b->corners[0];
-        face[1] = b->corners[k + 1];
-        face[2] = b->corners[k + 2];
-    }
-    b->result.n_faces += (sl_int)more;
+    return faces + 3 * count;
+}
+
+/* Ends the current polygon, which has become `count` triangles. */
+static bool end_polygon(mesh_build *b, size_t count) {
+    b->result.n_faces += (sl_int)count;
     b->n_corners = 0;
     b->polygons++;
     return true;
+}
+
+bool mesh_build_polygon(mesh_build *b) {
+    sl_int *face = room_for_triangles(b);
+    for (size_t k = 2; face != NULL && k < b->n_corners; k++, face += 3) {
+        face[0] = b->corners[0];
+        face[1] = b->corners[k - 1];
+        face[2] = b->corners[k];
+    }
+    return face != NULL && end_polygon(b, b->n_corners - 2);
+}
+
+bool mesh_build_strip(mesh_build *b) {
+    size_t count = 0;
+    sl_int *face = room_for_triangles(b);
+    for (size_t k = 2; face != NULL && k < b->n_corners; k++) {
+        const sl_int *c = b->corners + k - 2;
+        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) {
+            face[3 * count] = c[k % 2];
+            face[3 * count + 1] = c[1 - k % 2];
+            face[3 * count++ + 2] = c[2];
+        }
+    }
+    return face != NULL && end_polygon(b, count);
 }
 
 void mesh_build_note(mesh_build *b, const char *format, ...) {
@@ -130,10 +157,9 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
     static const struct {
         const char *ending;
         bool (*read)(mesh_build *b);
-    } formats[] = {{".obj", mesh_read_obj},
-                   {".off", mesh_read_off},
-                   {".ply", mesh_read_ply},
-                   {".stl", mesh_read_stl}};
+    } formats[] = {{".obj", mesh_read_obj},  {".off", mesh_read_off}, {".ply", mesh_read_ply},
+                   {".stl", mesh_read_stl},  {".vtk", mesh_read_vtk}, {".glb", mesh_read_gltf},
+                   {".gltf", mesh_read_gltf}};
     memset(out, 0, sizeof *out);
     if (note_size > 0) {
         note[0] = '\0';
@@ -154,9 +180,8 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
     }
     if (!known) {
         in.line = 0;
-        (void)input_error(&in,
-                          "unknown mesh format: the name must end in .obj, .off, .ply or .stl, "
-                          "optionally followed by .gz");
+        (void)input_error(&in, "unknown mesh format: the name must end in .obj, .off, .ply, .stl, "
+                               ".vtk, .glb or .gltf, optionally followed by .gz");
     }
     free(b.corners);
     input_close(&in);

@@ -1,4 +1,4 @@
-/* mesh.h: triangle meshes in memory, and a reader for OBJ, OFF, PLY and STL files */
+/* mesh.h: triangle meshes in memory, and a reader for OBJ, OFF, PLY, STL, VTK and glTF files */
 #ifndef TOOLS_MESH_H
 #define TOOLS_MESH_H
 
@@ -7,8 +7,8 @@
 
 #include "sparse_local.h"
 
-/** A triangle mesh exactly as its file gives it. Nothing is merged (except STL corners), dropped,
- *  reordered or reoriented.
+/** A triangle mesh exactly as its file gives it. Nothing is merged (except STL corners and
+ *  vertices of glTF), dropped, reordered or reoriented.
  *
  *  Unused vertices, coincident vertices, faces of zero area, faces with a repeated vertex and edges
  *  with three or more faces are all kept. Code that computes on a mesh must handle them.
@@ -20,7 +20,8 @@ typedef struct mesh {
     sl_int *faces; /* 3 n_faces: corners of face 0, of face 1, ..., each in 0..n_vertices-1 */
 } mesh;
 
-/** Reads a triangle mesh. The file name selects the format: .obj .off .ply .stl, plain or .gz.
+/** Reads a triangle mesh. The file name selects the format: .obj .off .ply .stl .vtk .glb .gltf,
+ *  plain or .gz.
  *
  *  OBJ  v and f lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back from the
  *       latest vertex; a backslash continues a line. All other lines are ignored.
@@ -34,6 +35,15 @@ typedef struct mesh {
  *  STL  ASCII or binary; the file length decides which. Corners with equal coordinates become one
  *       vertex, numbered in order of first appearance. Normals and attributes are ignored.
  *
+ *  VTK  Legacy polygonal data, ASCII or binary, versions 1 to 5: polygons and triangle strips.
+ *       Lines, single vertices and data at points and cells are ignored.
+ *  glTF 2.0, as text (.gltf) with buffers in data URIs or in files of the same folder, or as a
+ *       container (.glb): all meshes of the scene, placed by their nodes; triangles, strips and
+ *       fans. Points and lines are ignored, which is noted. Vertices with equal coordinates in one
+ *       mesh become one, because files repeat them where normals or colors differ; this is noted,
+ *       too, and not done in files of mesh_write.
+ *
+ *  Triangles of a strip with a repeated vertex, which only join its parts, are left out.
  *  A polygon with k corners becomes a fan of k - 2 triangles around its first corner.
  *
  *  out           [out]  the mesh, release with mesh_free; all zero on error.
@@ -43,10 +53,12 @@ typedef struct mesh {
  *  Returns  true; false: no such file, unknown format, truncated file, index out of range, polygon
  *           with fewer than three corners, coordinate that is not finite, OBJ file without
  *           vertices, more than 2^31-1 vertices or faces, more than 2 GiB of content, out of
- *           memory.
+ *           memory; VTK: another kind of data; glTF: sparse accessors, compressed meshes, buffers
+ *           elsewhere, nodes that repeat meshes to more than 64 elements for each byte.
  *  Cost     O(file size) in time and memory. Memory grows with the data that is read, not with the
  *           counts that a header claims.
- *  Example  tests/tools/test_mesh_obj_off.c, test_mesh_ply.c, test_mesh_stl.c
+ *  Example  tests/tools/test_mesh_obj_off.c, test_mesh_ply.c, test_mesh_stl.c,
+ *           test_mesh_vtk.c, test_mesh_gltf.c
  */
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
 

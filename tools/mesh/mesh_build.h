@@ -41,6 +41,23 @@ bool mesh_build_corner(mesh_build *b, int64_t vertex);
  */
 bool mesh_build_polygon(mesh_build *b);
 
+/** Merges vertices with equal coordinates; the first of each keeps its rank in the order of the
+ *  file.
+ *
+ *  first_vertex, first_face  [in]  only vertices and faces from these on are concerned; no other
+ *                                  face uses these vertices, and all their corners are in range.
+ *  Returns  true; false: out of memory.
+ */
+bool mesh_build_weld(mesh_build *b, sl_int first_vertex, sl_int first_face);
+
+/** Adds a strip of triangles, given as the corners of the current polygon: each of the corners
+ *  from the third on makes one with the two before it, in alternating order. Triangles with a
+ *  repeated vertex, which join strips, are left out.
+ *
+ *  Returns  true; false: as mesh_build_polygon.
+ */
+bool mesh_build_strip(mesh_build *b);
+
 /** Notes what is odd about a file that can be read; only the first note is kept. */
 void mesh_build_note(mesh_build *b, const char *format, ...) INPUT_PRINTF(2, 3);
 
@@ -49,5 +66,7 @@ bool mesh_read_obj(mesh_build *b);
 bool mesh_read_off(mesh_build *b);
 bool mesh_read_ply(mesh_build *b);
 bool mesh_read_stl(mesh_build *b);
+bool mesh_read_vtk(mesh_build *b);
+bool mesh_read_gltf(mesh_build *b); /* .gltf and .glb */
 
 #endif

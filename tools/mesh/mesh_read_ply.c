@@ -2,35 +2,26 @@
 #include <string.h>
 
 #include "mesh_build.h"
+#include "tools/io/scalar.h"
 
 #define PLY_MAX_ELEMENTS 32
 #define PLY_MAX_PROPERTIES 256
 
-/* Scalar types, in the order of type_names and type_bytes. */
-typedef enum ply_type {
-    PLY_INT8,
-    PLY_UINT8,
-    PLY_INT16,
-    PLY_UINT16,
-    PLY_INT32,
-    PLY_UINT32,
-    PLY_FLOAT,
-    PLY_DOUBLE
-} ply_type;
-
+/* Names of the scalar types. */
 static const char *const type_names[2][8] = {
     {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
     {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"},
 };
-static const int type_bytes[8] = {1, 1, 2, 2, 4, 4, 4, 8};
+static const scalar_type types[8] = {SCALAR_INT8,  SCALAR_UINT8,  SCALAR_INT16, SCALAR_UINT16,
+                                     SCALAR_INT32, SCALAR_UINT32, SCALAR_FLOAT, SCALAR_DOUBLE};
 
 /* The role of a property in the mesh; 0, 1, 2 are the coordinates x, y, z. */
 enum { ROLE_NONE = -1, ROLE_CORNERS = 3 };
 
 typedef struct ply_property {
     bool list;
-    ply_type count_type; /* of a list's count */
-    ply_type type;
+    scalar_type count_type; /* of a list's count */
+    scalar_type type;
     int role;
 } ply_property;
 
@@ -56,12 +47,12 @@ typedef struct ply {
     ply_property properties[PLY_MAX_PROPERTIES];
 } ply;
 
-static bool read_type(input *in, ply_type *type) {
+static bool read_type(input *in, scalar_type *type) {
     char word[16];
     input_word(in, word, sizeof word);
     for (int k = 0; k < 8; k++) {
         if (strcmp(word, type_names[0][k]) == 0 || strcmp(word, type_names[1][k]) == 0) {
-            *type = (ply_type)k;
+            *type = types[k];
             return true;
         }
     }
@@ -116,7 +107,7 @@ static bool read_property(ply *f) {
     ply_element *e = &f->elements[f->n_elements - 1];
     ply_property *p = &f->properties[f->n_properties++];
     e->past = f->n_properties;
-    p->count_type = PLY_UINT8;
+    p->count_type = SCALAR_UINT8;
     p->list = input_more_in_line(in) && strncmp(in->at, "list", 4) == 0;
     char word[24];
     if (p->list) {
@@ -203,49 +194,17 @@ static bool read_header(ply *f) {
     return input_error(in, "truncated in the header");
 }
 
-/* Decodes one scalar. Every PLY type fits a double exactly. */
-static double decode(const ply *f, ply_type type, const char *at) {
-    int bytes = type_bytes[type];
-    uint64_t bits = 0;
-    for (int k = 0; k < bytes; k++) {
-        bits = bits << 8 | (unsigned char)at[f->big_endian ? k : bytes - 1 - k];
-    }
-    uint32_t low = (uint32_t)bits;
-    float single;
-    double result;
-    switch (type) {
-    case PLY_INT8:
-        return (int8_t)low;
-    case PLY_INT16:
-        return (int16_t)low;
-    case PLY_INT32:
-        return (int32_t)low;
-    case PLY_FLOAT:
-        memcpy(&single, &low, sizeof single);
-        return (double)single;
-    case PLY_DOUBLE:
-        memcpy(&result, &bits, sizeof result);
-        return result;
-    default:
-        return (double)low;
-    }
-}
-
-static bool read_scalar(ply *f, ply_type type, double *x) {
+static bool read_scalar(ply *f, scalar_type type, double *x) {
     input *in = f->b->in;
     if (f->ascii) {
         return input_more(in) && input_number(in, x) && input_at_word_end(in);
     }
-    if (in->end - in->at < type_bytes[type]) {
+    if (in->end - in->at < scalar_bytes(type)) {
         return false;
     }
-    *x = decode(f, type, in->at);
-    in->at += type_bytes[type];
+    *x = scalar_decode(type, f->big_endian, in->at);
+    in->at += scalar_bytes(type);
     return true;
-}
-
-static bool is_index(double x) {
-    return x >= 0 && x <= 4294967295.0 && x == (double)(int64_t)x;
 }
 
 /* Reads one property: coordinates into xyz, corners into the current polygon; others are
@@ -255,7 +214,7 @@ static bool read_value(ply *f, const ply_property *p, const char *element, int64
     input *in = f->b->in;
     double x = 0;
     double count = 1;
-    if (p->list && (!read_scalar(f, p->count_type, &count) || !is_index(count))) {
+    if (p->list && (!read_scalar(f, p->count_type, &count) || !scalar_is_index(count))) {
         return input_error(in, "%s %lld: truncated, or a list has no valid count", element,
                            (long long)number);
     }
@@ -265,7 +224,7 @@ static bool read_value(ply *f, const ply_property *p, const char *element, int64
                                (long long)number);
         }
         if (p->role == ROLE_CORNERS) {
-            if (!is_index(x)) {
+            if (!scalar_is_index(x)) {
                 return input_error(in, "%s %lld: %g is not a vertex index", element,
                                    (long long)number, x);
             }

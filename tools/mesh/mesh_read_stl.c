@@ -1,72 +1,12 @@
 /* mesh_read_stl.c: reads ASCII and binary STL files; merges corners with equal coordinates */
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "mesh_build.h"
+#include "tools/io/scalar.h"
 
 /* Bytes of a binary file. Header: 80 arbitrary bytes and the count of facets. Record: a normal and
  * three corners of 3 floats each, and 2 bytes of attributes. */
 enum { HEADER = 84, RECORD = 50 };
-
-typedef struct position {
-    double x[3];
-    sl_int vertex;
-} position;
-
-static bool same_position(const position *a, const position *b) {
-    return a->x[0] == b->x[0] && a->x[1] == b->x[1] && a->x[2] == b->x[2];
-}
-
-static int by_position(const void *a, const void *b) {
-    const position *p = (const position *)a, *q = (const position *)b;
-    for (int d = 0; d < 3; d++) {
-        if (p->x[d] != q->x[d]) {
-            return p->x[d] < q->x[d] ? -1 : 1;
-        }
-    }
-    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
-}
-
-/* Merges vertices with equal coordinates. The first of each keeps its rank in the order of the
- * file. */
-static bool weld(mesh_build *b) {
-    mesh *m = &b->result;
-    size_t n = (size_t)m->n_vertices;
-    position *points = (position *)malloc((n + 1) * sizeof *points);
-    sl_int *number = (sl_int *)malloc((n + 1) * sizeof *number);
-    if (points == NULL || number == NULL) {
-        free(points);
-        free(number);
-        return input_error(b->in, "out of memory");
-    }
-    for (size_t v = 0; v < n; v++) {
-        memcpy(points[v].x, m->xyz + 3 * v, sizeof points[v].x);
-        points[v].vertex = (sl_int)v;
-    }
-    qsort(points, n, sizeof *points, by_position);
-    for (size_t k = 0; k < n; k++) { /* number[v]: the first vertex at its position */
-        bool again = k > 0 && same_position(&points[k], &points[k - 1]);
-        number[points[k].vertex] = again ? number[points[k - 1].vertex] : points[k].vertex;
-    }
-    sl_int kept = 0;
-    for (size_t v = 0; v < n; v++) { /* renumber; a first vertex precedes its duplicates */
-        if (number[v] == (sl_int)v) {
-            memmove(m->xyz + 3 * (size_t)kept, m->xyz + 3 * v, 3 * sizeof *m->xyz);
-            number[v] = kept++;
-        } else {
-            number[v] = number[number[v]];
-        }
-    }
-    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
-        m->faces[k] = number[m->faces[k]];
-    }
-    m->n_vertices = kept;
-    b->largest = kept - 1; /* every vertex is a corner */
-    free(number);
-    free(points);
-    return true;
-}
 
 /* Adds a corner to the current facet. */
 static bool add_corner(mesh_build *b, const double x[3]) {
@@ -75,27 +15,13 @@ static bool add_corner(mesh_build *b, const double x[3]) {
            mesh_build_corner(b, b->result.n_vertices - 1);
 }
 
-/* Binary files are always little-endian. */
-static uint32_t word_at(const char *bytes) {
-    uint32_t word = 0;
-    for (int k = 3; k >= 0; k--) {
-        word = word << 8 | (unsigned char)bytes[k];
-    }
-    return word;
-}
-
-static double float_at(const char *bytes) {
-    uint32_t word = word_at(bytes);
-    float x;
-    memcpy(&x, &word, sizeof x);
-    return x;
-}
-
 static bool read_binary(mesh_build *b, uint32_t count) {
     for (uint32_t f = 0; f < count; f++) {
         const char *at = b->in->data + HEADER + (size_t)f * RECORD + 12; /* after the normal */
         for (int c = 0; c < 3; c++, at += 12) {
-            const double x[3] = {float_at(at), float_at(at + 4), float_at(at + 8)};
+            const double x[3] = {scalar_decode(SCALAR_FLOAT, false, at),
+                                 scalar_decode(SCALAR_FLOAT, false, at + 4),
+                                 scalar_decode(SCALAR_FLOAT, false, at + 8)};
             if (!add_corner(b, x)) {
                 return false;
             }
@@ -187,7 +113,10 @@ static bool begins_with_solid(input *in) {
 bool mesh_read_stl(mesh_build *b) {
     input *in = b->in;
     size_t length = (size_t)(in->end - in->data);
-    uint32_t count = length >= HEADER ? word_at(in->data + 80) : 0;
+    uint32_t count = 0;
+    if (length >= HEADER) {
+        count = (uint32_t)scalar_decode(SCALAR_UINT32, false, in->data + 80);
+    }
     bool ok;
     /* a binary file may begin with "solid" too, so the length decides */
     if (length >= HEADER && length == HEADER + (size_t)count * RECORD) {
@@ -204,5 +133,5 @@ bool mesh_read_stl(mesh_build *b) {
                                  "bytes",
                            (unsigned long)count, (unsigned long)length);
     }
-    return ok && weld(b);
+    return ok && mesh_build_weld(b, 0, 0);
 }

@@ -1,4 +1,4 @@
-/* mesh_write.h: writes triangle meshes with vertex values and colors as OBJ and PLY files */
+/* mesh_write.h: writes meshes with vertex values and colors as OBJ, PLY, VTK and glTF files */
 #ifndef TOOLS_MESH_WRITE_H
 #define TOOLS_MESH_WRITE_H
 
@@ -23,10 +23,14 @@ typedef struct mesh_extra {
     int n_fields;
 } mesh_extra;
 
+/** The endings of names for messages: ".obj, .ply, ...". */
+extern const char mesh_write_formats[];
+
 /** Whether the name of a file selects one of the formats of mesh_write. */
 bool mesh_write_knows(const char *path);
 
-/** Writes a mesh. The file name selects the format: .obj or .ply, plain or with .gz.
+/** Writes a mesh. The file name selects the format: .obj, .ply, .vtk, .glb or .gltf, plain or
+ *  with .gz.
  *
  *  OBJ  v lines, with r g b in 0..1 after x y z if there are colors; vt lines and f v/vt corners if
  *       there are texture coordinates. Without texture coordinates the first field is written as u,
@@ -34,11 +38,16 @@ bool mesh_write_knows(const char *path);
  *       "#f VALUE".
  *  PLY  binary little-endian: x y z as double, fields as double properties by name, s t for texture
  *       coordinates, red green blue.
+ *  VTK  legacy polygonal data, binary, version 3.0: fields as scalars of the points by name.
+ *  glTF 2.0, as a container (.glb) or as text with the numbers in base64 (.gltf): one mesh in
+ *       single precision; fields as attributes _NAME in capital letters, where values that are
+ *       not finite become 0; COLOR_0 and TEXCOORD_0. A mesh without faces becomes points.
  *
  *  path     [in]   the file; an existing one is replaced only by a complete one (output_open).
  *  extra    [in]   may be NULL.
  *  message  [out]  the reason on error, message_size bytes; may be NULL.
- *  Returns  true; false: unknown file name extension, or the file cannot be written.
+ *  Returns  true; false: unknown file name extension, the file cannot be written, or for glTF:
+ *           a coordinate is beyond the range of single precision.
  *  Example  tests/tools/test_mesh_write.c
  */
 bool mesh_write(const char *path, const mesh *m, const mesh_extra *extra, char *message,
