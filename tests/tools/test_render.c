@@ -60,8 +60,25 @@ static void a_triangle_fills_the_expected_pixels(void **state) {
     int half = count_color(&p, red);
     assert_true(abs(half - 46 * 46 / 2) < 60);
     picture_free(&p);
-    faces[1] = 2, faces[2] = 1; /* it looks the same from behind */
     view.zoom = 1;
+    const double box[6] = {0, -1, 0, 2, 1, 0}; /* with room for it: in the upper left quarter */
+    style.box = box;
+    for (int turn = 0; turn < 2; turn++) { /* also with perspective, which changes nothing here */
+        view.perspective = 3 * turn;
+        assert_true(render_mesh(&p, &m, &view, &style));
+        half = count_color(&p, red);
+        assert_true(abs(half - 46 * 46 / 2) < 60);
+        assert_true(is_color(pixel(&p, 10, 45), red) && is_color(pixel(&p, 10, 55), white));
+        picture_free(&p);
+    }
+    const double far[6] = {0, 0, 0, 1e200, 1, 1}; /* cannot be drawn, and is left out */
+    style.box = far;
+    assert_true(render_mesh(&p, &m, &view, &style));
+    assert_true(abs(count_color(&p, red) - 92 * 92 / 2) < 120);
+    picture_free(&p);
+    style.box = NULL;
+    view.perspective = 0;
+    faces[1] = 2, faces[2] = 1; /* it looks the same from behind */
     assert_true(render_mesh(&p, &m, &view, &style));
     assert_true(is_color(pixel(&p, 20, 80), red));
     picture_free(&p);

@@ -27,10 +27,12 @@ typedef struct scene {
     const render_style *style;
     render_shade shade;
     picture pixels;
-    double unit;    /* cells per unit of width */
-    double *depth;  /* width x height; larger is nearer */
-    double *screen; /* 3 n_vertices: x and y in pixels, depth; NaN: not drawable */
-    double *eye;    /* 3 n_vertices: camera coordinates (right, up, toward the camera) */
+    double unit;      /* cells per unit of width */
+    double *depth;    /* width x height; larger is nearer */
+    double *screen;   /* 3 n_vertices: x and y in pixels, depth; NaN: not drawable */
+    double *eye;      /* 3 n_vertices: camera coordinates (right, up, toward the camera) */
+    double box[8][3]; /* camera coordinates of the corners of style->box */
+    int n_box;        /* 8, or 0 without a box */
 } scene;
 
 static bool is_drawn(const scene *s, sl_int face) {
@@ -87,6 +89,18 @@ void render_look_from(render_view *view, const double direction[3]) {
     camera_angles(&view->azimuth, &view->elevation, view->up, direction);
 }
 
+/* Camera coordinates of the corners of the box; a box that is not drawable is left out. */
+static void place_box(scene *s, double axes[3][3]) {
+    const double *box = s->style->box;
+    s->n_box = box != NULL && is_drawable(box) && is_drawable(box + 3) ? 8 : 0;
+    for (int k = 0; k < s->n_box; k++) {
+        const double x[3] = {box[k & 1 ? 3 : 0], box[k & 2 ? 4 : 1], box[k & 4 ? 5 : 2]};
+        for (int d = 0; d < 3; d++) {
+            s->box[k][d] = axes[d][0] * x[0] + axes[d][1] * x[1] + axes[d][2] * x[2];
+        }
+    }
+}
+
 /* Computes camera coordinates centered on what is drawn; returns its radius. */
 static double center_eye(scene *s, double axes[3][3]) {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -109,6 +123,13 @@ static double center_eye(scene *s, double axes[3][3]) {
             }
         }
     }
+    place_box(s, axes);
+    for (int k = 0; k < s->n_box; k++) {
+        for (int d = 0; d < 3; d++) {
+            low[d] = fmin(low[d], s->box[k][d]);
+            high[d] = fmax(high[d], s->box[k][d]);
+        }
+    }
     double radius2 = 0;
     for (int d = 0; d < 3; d++) {
         double middle = low[d] <= high[d] ? 0.5 * low[d] + 0.5 * high[d] : 0;
@@ -117,8 +138,16 @@ static double center_eye(scene *s, double axes[3][3]) {
         for (size_t v = 0; v < n; v++) {
             s->eye[3 * v + (size_t)d] -= middle;
         }
+        for (int k = 0; k < s->n_box; k++) {
+            s->box[k][d] -= middle;
+        }
     }
     return sqrt(radius2);
+}
+
+/* How much perspective enlarges what is this far toward the camera; distance 0: not at all. */
+static double enlargement(double distance, double toward) {
+    return distance > 0 && distance > toward ? distance / (distance - toward) : 1;
 }
 
 /* Computes the screen positions, by parallel or perspective projection, and scales them to the
@@ -131,11 +160,11 @@ static void project(scene *s, const render_view *view) {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (sl_int v = 0; v < s->m->n_vertices; v++) {
         double *e = s->eye + 3 * (size_t)v, *p = s->screen + 3 * (size_t)v;
-        double shrink = distance > 0 && distance > e[2] ? distance / (distance - e[2]) : 1;
-        p[0] = e[0] * shrink;
-        p[1] = -e[1] * shrink;
+        double larger = enlargement(distance, e[2]);
+        p[0] = e[0] * larger;
+        p[1] = -e[1] * larger;
         /* As 1 / distance, it is linear on the screen. */
-        p[2] = distance > 0 ? distance * shrink : e[2];
+        p[2] = distance > 0 ? distance * larger : e[2];
     }
     for (sl_int f = 0; f < s->m->n_faces; f++) {
         for (size_t c = 0; c < 3 && is_drawn(s, f); c++) {
@@ -145,6 +174,13 @@ static void project(scene *s, const render_view *view) {
                 high[d] = fmax(high[d], p[d]);
             }
         }
+    }
+    for (int k = 0; k < s->n_box; k++) {
+        const double larger = enlargement(distance, s->box[k][2]);
+        low[0] = fmin(low[0], s->box[k][0] * larger);
+        high[0] = fmax(high[0], s->box[k][0] * larger);
+        low[1] = fmin(low[1], -s->box[k][1] * larger);
+        high[1] = fmax(high[1], -s->box[k][1] * larger);
     }
     double width = s->pixels.width, height = s->pixels.height;
     double room = 1 - 2 * margin;

@@ -64,6 +64,9 @@ typedef struct render_style {
     const rgb *vertex_color; /* n_vertices */
     bool nearest;            /* color of the nearest corner; false: interpolated */
     const rgb *face_color;   /* n_faces */
+    /* 6: the low and the high corner of a box that has room in the picture as well, so that the
+     * pictures of a sequence have one scale; NULL: none. */
+    const double *box;
     const unsigned char *hidden; /* n_faces: faces with 1 are not drawn; NULL: all are drawn */
     bool flat;                   /* one normal per face */
     bool unlit;                  /* no shading, as for layouts in the plane */
