@@ -173,7 +173,7 @@ static void systems_map_constants_to_masses_and_are_definite(void **state) {
         ones[i] = 1;
     }
     for (int k = 1; k <= POLYHARMONIC_MAX_ORDER; k++) {
-        sl_matrix *H = NULL;
+        sl_matrix *H = NULL, *E = NULL;
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         sl_stats stats;
@@ -191,6 +191,17 @@ static void systems_map_constants_to_masses_and_are_definite(void **state) {
         assert_int_equal(stats.factor.positive, m.n_vertices);
         sl_factor_free(F);
         sl_symbolic_free(S);
+        assert_true(polyharmonic_energy(&E, &m, k)); /* the rest of the system, without masses */
+        const sl_csc B = sl_matrix_view(E);
+        assert_int_equal(B.p[B.n_cols], A.p[A.n_cols]);
+        for (sl_int j = 0; j < A.n_cols; j++) {
+            for (sl_int p = A.p[j]; p < A.p[j + 1]; p++) {
+                const double want = A.x[p] - (A.i[p] == j ? mass[j] : 0);
+                const double size = A.x[A.p[j]]; /* the diagonal */
+                assert_true(B.i[p] == A.i[p] && fabs(t * B.x[p] - want) <= 8 * DBL_EPSILON * size);
+            }
+        }
+        sl_matrix_free(E);
         sl_matrix_free(H);
     }
     free(mass);
@@ -206,6 +217,8 @@ static void wrong_arguments_are_refused_and_empty_meshes_work(void **state) {
     mesh m = {3, 1, xyz, face};
     sl_matrix *M = (sl_matrix *)(void *)&m;
     assert_false(polyharmonic_system(&M, &m, 0, 1));
+    assert_false(polyharmonic_energy(&M, &m, 0));
+    assert_false(polyharmonic_energy(&M, &m, POLYHARMONIC_MAX_ORDER + 1));
     assert_null(M);
     assert_false(polyharmonic_system(&M, &m, POLYHARMONIC_MAX_ORDER + 1, 1));
     assert_false(polyharmonic_system(&M, &m, 2, -1));

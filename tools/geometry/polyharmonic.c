@@ -56,6 +56,35 @@ static bool power(sl_matrix **out, const mesh *m, int k, const double *mass) {
     return ok;
 }
 
+/* The lumped masses; NULL: a face index is out of range, or out of memory. */
+static double *masses_of(const mesh *m) {
+    double *mass = (double *)malloc(((size_t)m->n_vertices + 1) * sizeof *mass);
+    bool ok = mass != NULL;
+    for (size_t c = 0; c < 3 * (size_t)m->n_faces && ok; c++) {
+        ok = m->faces[c] >= 0 && m->faces[c] < m->n_vertices;
+    }
+    if (!ok) {
+        free(mass);
+        return NULL;
+    }
+    laplacian_mass(mass, m);
+    return mass;
+}
+
+bool polyharmonic_energy(sl_matrix **out, const mesh *m, int k) {
+    *out = NULL;
+    if (k < 1 || k > POLYHARMONIC_MAX_ORDER) {
+        return false;
+    }
+    if (k == 1) {
+        return laplacian_cotangent(out, m);
+    }
+    double *mass = masses_of(m);
+    bool ok = mass != NULL && power(out, m, k, mass);
+    free(mass);
+    return ok;
+}
+
 bool polyharmonic_system(sl_matrix **out, const mesh *m, int k, double t) {
     *out = NULL;
     if (k < 1 || k > POLYHARMONIC_MAX_ORDER || !(t >= 0 && t <= 1e200)) {
@@ -64,17 +93,10 @@ bool polyharmonic_system(sl_matrix **out, const mesh *m, int k, double t) {
     if (k == 1) {
         return laplacian_system(out, m, t);
     }
-    double *mass = (double *)malloc(((size_t)m->n_vertices + 1) * sizeof *mass);
+    double *mass = masses_of(m);
     sl_matrix *P = NULL;
     triplets list = {0, 0, NULL, NULL, NULL};
-    bool ok = mass != NULL;
-    for (size_t c = 0; c < 3 * (size_t)m->n_faces && ok; c++) {
-        ok = m->faces[c] >= 0 && m->faces[c] < m->n_vertices;
-    }
-    if (ok) {
-        laplacian_mass(mass, m);
-        ok = power(&P, m, k, mass);
-    }
+    bool ok = mass != NULL && power(&P, m, k, mass);
     const sl_csc A = sl_matrix_view(P);
     for (sl_int j = 0; j < A.n_cols && ok; j++) {
         ok = triplets_add(&list, j, j, mass[j]);

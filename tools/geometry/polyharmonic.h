@@ -27,4 +27,8 @@ enum { POLYHARMONIC_MAX_ORDER = 3 };
  */
 bool polyharmonic_system(sl_matrix **out, const mesh *m, int k, double t);
 
+/** Lower triangle of (L M^-1)^(k-1) L alone. It is semi-definite; its null vectors are constant on
+ *  each component. Arguments and errors as above. */
+bool polyharmonic_energy(sl_matrix **out, const mesh *m, int k);
+
 #endif
