@@ -1,0 +1,254 @@
+/* test_deformer.c: deformations by handles: exact answers, invariance, a new factor's positions */
+#include "tests/lib/test.h"
+
+#include "tools/geometry/deformer.h"
+#include "tools/mesh/surface_generator.h"
+
+static const char *const surfaces[] = {"star:3", "hills:15x12", "torus:18x9"};
+enum { N_SURFACES = sizeof surfaces / sizeof *surfaces, N_HANDLES = 7 };
+
+typedef struct scene_t {
+    mesh m;
+    deformer d;
+    sl_int handles[N_HANDLES];
+} scene_t;
+
+static void scene_make(scene_t *s, const char *surface, deform_method method) {
+    assert_true(surface_generate(&s->m, surface, NULL, 0));
+    SL_CHECK(deformer_create(&s->d, &s->m, method));
+    assert_int_equal(s->d.n_components, 1);
+    for (sl_int k = 0; k < N_HANDLES; k++) {
+        s->handles[k] = (sl_int)((long)(k + 1) * 7919 % s->m.n_vertices);
+        SL_CHECK(deformer_hold(&s->d, s->handles[k]));
+    }
+}
+
+static void scene_free(scene_t *s) {
+    deformer_free(&s->d);
+    mesh_free(&s->m);
+}
+
+/* Moves handle k by a rotation about the z axis and a shift. */
+static void move_rigidly(scene_t *s, int k, double angle, const double shift[3], double to[3]) {
+    const double *x = s->m.xyz + 3 * (size_t)s->handles[k];
+    to[0] = cos(angle) * x[0] - sin(angle) * x[1] + shift[0];
+    to[1] = sin(angle) * x[0] + cos(angle) * x[1] + shift[1];
+    to[2] = x[2] + shift[2];
+    deformer_move(&s->d, s->handles[k], to);
+}
+
+static void solve(scene_t *s, int iterations) {
+    for (int k = 0; k < iterations; k++) {
+        (void)deformer_rotations(&s->d);
+        SL_CHECK(deformer_solve(&s->d));
+    }
+}
+
+static void assert_agrees_with_new_factor(scene_t *s) {
+    double difference, seconds;
+    SL_CHECK(deformer_compare(&s->d, &difference, &seconds));
+    assert_true(difference < 1e-10 && seconds >= 0);
+}
+
+/* Held vertices are where they were moved, also those that stay; the others follow a translation
+ * of all handles exactly, and a rotation after many rounds if they are as rigid as possible. */
+static void rigid_motions_of_all_handles_move_everything(void **state) {
+    (void)state;
+    const double shift[3] = {0.3, -0.2, 0.5};
+    for (int k = 0; k < 2 * N_SURFACES; k++) {
+        const deform_method method = k % 2 ? DEFORM_BIHARMONIC : DEFORM_ARAP;
+        scene_t s;
+        scene_make(&s, surfaces[k / 2], method);
+        const size_t n = (size_t)s.m.n_vertices;
+        for (int turn = 0; turn < 2; turn++) {
+            const double angle = turn == 0 ? 0 : 0.5;
+            double to[3];
+            for (int h = 0; h < N_HANDLES; h++) {
+                move_rigidly(&s, h, angle, shift, to);
+            }
+            solve(&s, turn == 0 ? 1 : 1000);
+            for (size_t v = 0; v < n; v++) {
+                const double *x = s.m.xyz + 3 * v;
+                const double want[3] = {cos(angle) * x[0] - sin(angle) * x[1] + shift[0],
+                                        sin(angle) * x[0] + cos(angle) * x[1] + shift[1],
+                                        x[2] + shift[2]};
+                const double allowed = turn == 0 || s.d.is_held[v] ? 1e-11
+                                       : method == DEFORM_ARAP     ? 1e-2
+                                                                   : HUGE_VAL;
+                for (size_t c = 0; c < 3; c++) {
+                    assert_true(fabs(s.d.Y[c * n + v] - want[c]) < allowed);
+                }
+            }
+            assert_agrees_with_new_factor(&s);
+        }
+        scene_free(&s);
+    }
+}
+
+/* The energy never rises from round to round while the handles rest. */
+static void energies_fall(void **state) {
+    (void)state;
+    const double shift[3] = {0.5, 0.4, -0.3};
+    for (int k = 0; k < N_SURFACES; k++) {
+        scene_t s;
+        scene_make(&s, surfaces[k], DEFORM_ARAP);
+        double to[3], last = HUGE_VAL;
+        move_rigidly(&s, 1, 0, shift, to);
+        solve(&s, 1);
+        for (int round = 0; round < 60; round++) {
+            const double energy = deformer_rotations(&s.d);
+            assert_true(energy >= 0 && energy <= last * (1 + 1e-12));
+            last = energy;
+            SL_CHECK(deformer_solve(&s.d));
+        }
+        assert_agrees_with_new_factor(&s);
+        scene_free(&s);
+    }
+}
+
+/* Handles released and grabbed again, in any order, leave the same problem. */
+static void handles_come_and_go(void **state) {
+    (void)state;
+    const double shift[3] = {0.2, 0.1, 0.3};
+    for (int k = 0; k < 2 * N_SURFACES; k++) {
+        scene_t s;
+        scene_make(&s, surfaces[k / 2], k % 2 ? DEFORM_BIHARMONIC : DEFORM_ARAP);
+        const size_t n = (size_t)s.m.n_vertices;
+        double to[N_HANDLES][3];
+        for (int h = 0; h < N_HANDLES; h++) {
+            move_rigidly(&s, h, 0.1 * h, shift, to[h]);
+        }
+        solve(&s, 3);
+        double *before = test_reals(3 * n);
+        memcpy(before, s.d.Y, 3 * n * sizeof *before);
+        for (int h = 0; h < N_HANDLES; h += 2) {
+            SL_CHECK(deformer_release(&s.d, s.handles[h]));
+            SL_CHECK(deformer_release(&s.d, s.handles[h])); /* nothing */
+        }
+        SL_CHECK(deformer_hold(&s.d, s.handles[1])); /* held already */
+        assert_int_equal(sl_pins_count(s.d.pins), N_HANDLES / 2);
+        SL_CHECK(deformer_solve(&s.d)); /* with the same rotations */
+        assert_agrees_with_new_factor(&s);
+        for (int h = 0; h < N_HANDLES; h += 2) {
+            SL_CHECK(deformer_hold(&s.d, s.handles[h]));
+            deformer_move(&s.d, s.handles[h], to[h]);
+        }
+        SL_CHECK(deformer_solve(&s.d));
+        for (size_t v = 0; v < 3 * n; v++) {
+            assert_true(fabs(s.d.Y[v] - before[v]) < 1e-9);
+        }
+        for (int h = 0; h < N_HANDLES; h++) {
+            SL_CHECK(deformer_release(&s.d, s.handles[h]));
+        }
+        double mean[3] = {0}, after[3] = {0};
+        for (size_t v = 0; v < 3 * n; v++) {
+            mean[v / n] += (k % 2 ? s.d.rest[v] : s.d.Y[v]) / (double)n;
+        }
+        solve(&s, 1);
+        for (size_t v = 0; v < 3 * n; v++) {
+            after[v / n] += s.d.Y[v] / (double)n;
+        }
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs(after[c] - mean[c]) < 1e-9);
+        }
+        free(before);
+        scene_free(&s);
+    }
+}
+
+static void watched_vertices_are_those_of_the_surface(void **state) {
+    (void)state;
+    for (int k = 0; k < N_SURFACES; k++) {
+        scene_t s;
+        scene_make(&s, surfaces[k], DEFORM_BIHARMONIC);
+        const size_t n = (size_t)s.m.n_vertices;
+        const sl_int near[5] = {s.handles[2], 3, 90, 0, 17};
+        const double shift[3] = {0.2, 0.5, 0.3};
+        double Y[15], to[3];
+        SL_EXPECT(SL_ERR_ARGUMENT, deformer_watch(&s.d, &s.m.n_vertices, 1));
+        SL_CHECK(deformer_watch(&s.d, near, 5));
+        for (int h = 0; h < N_HANDLES; h++) {
+            move_rigidly(&s, h, 0.3 * h, shift, to);
+            SL_CHECK(deformer_solve_watched(&s.d, Y));
+            SL_CHECK(deformer_solve(&s.d));
+            for (size_t i = 0; i < 15; i++) {
+                assert_true(fabs(Y[i] - s.d.Y[i / 5 * n + (size_t)near[i % 5]]) < 1e-11);
+            }
+        }
+        for (int h = 0; h < N_HANDLES; h++) {
+            SL_CHECK(deformer_release(&s.d, s.handles[h]));
+        }
+        SL_CHECK(deformer_solve_watched(&s.d, Y));
+        for (size_t i = 0; i < 15; i++) {
+            assert_true(Y[i] == s.d.rest[i / 5 * n + (size_t)near[i % 5]]);
+        }
+        scene_free(&s);
+    }
+    scene_t s;
+    scene_make(&s, "star:2", DEFORM_ARAP);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, deformer_watch(&s.d, s.handles, 1));
+    scene_free(&s);
+}
+
+/* Two tetrahedra and a vertex without faces: what is not held stays, whatever is not joined. */
+static void components_move_by_themselves(void **state) {
+    (void)state;
+    static double xyz[27] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0,
+                             0, 6, 0, 0, 5, 1, 0, 5, 0, 1, 9, 9, 9};
+    static sl_int faces[24] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2,
+                               4, 6, 5, 4, 5, 7, 5, 6, 7, 4, 7, 6};
+    const mesh m = {9, 8, xyz, faces};
+    const double to[3] = {2, 2, 2};
+    for (int k = 0; k < 2; k++) {
+        deformer d;
+        SL_CHECK(deformer_create(&d, &m, k ? DEFORM_BIHARMONIC : DEFORM_ARAP));
+        assert_int_equal(d.n_components, 3);
+        SL_CHECK(deformer_hold(&d, 1));
+        deformer_move(&d, 1, to);
+        (void)deformer_rotations(&d);
+        SL_CHECK(deformer_solve(&d));
+        for (size_t v = 0; v < 27; v++) { /* one held vertex moves its component by itself */
+            const double shift[3] = {1, 2, 2};
+            const double want = xyz[v % 9 * 3 + v / 9] + (v % 9 < 4 ? shift[v / 9] : 0);
+            assert_true(fabs(d.Y[v] - want) < 1e-12);
+        }
+        SL_CHECK(deformer_hold(&d, 8));
+        deformer_move(&d, 8, to);
+        SL_CHECK(deformer_solve(&d));
+        assert_true(d.Y[8] == 2 && d.Y[17] == 2 && d.Y[26] == 2);
+        double difference, seconds;
+        SL_CHECK(deformer_compare(&d, &difference, &seconds));
+        assert_true(difference < 1e-14);
+        d.U[2] += 0.01; /* the comparison notices a wrong position */
+        SL_CHECK(deformer_compare(&d, &difference, &seconds));
+        assert_true(difference > 1e-4);
+        deformer_free(&d);
+    }
+}
+
+/* Positions beyond the range of numbers are an error and change nothing. */
+static void overflow_is_an_error(void **state) {
+    (void)state;
+    scene_t s;
+    scene_make(&s, "star:1", DEFORM_ARAP);
+    const double far[3] = {1e308, 0, 0}, back[3] = {-1e308, 0, 0};
+    deformer_move(&s.d, s.handles[0], far);
+    deformer_move(&s.d, s.handles[1], back);
+    SL_EXPECT(SL_ERR_NOT_FINITE, deformer_solve(&s.d));
+    for (sl_int v = 0; v < 3 * s.d.n; v++) {
+        assert_true(s.d.Y[v] == s.d.rest[v]);
+    }
+    scene_free(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rigid_motions_of_all_handles_move_everything),
+        cmocka_unit_test(energies_fall),
+        cmocka_unit_test(handles_come_and_go),
+        cmocka_unit_test(watched_vertices_are_those_of_the_surface),
+        cmocka_unit_test(components_move_by_themselves),
+        cmocka_unit_test(overflow_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

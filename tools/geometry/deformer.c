@@ -1,0 +1,395 @@
+/* deformer.c: deforms a mesh by handles, which are pins on one factor */
+#include "deformer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "laplacian.h"
+#include "polyharmonic.h"
+#include "tools/matrix/triplets.h"
+#include "tools/mesh/adjacency.h"
+
+void deformer_free(deformer *d) {
+    sl_plan_free(d->near);
+    sl_pins_free(d->pins);
+    sl_factor_free(d->F);
+    sl_symbolic_free(d->S);
+    sl_work_free(d->W);
+    sl_matrix_free(d->K);
+    arap_surface_free(&d->arap);
+    free(d->rest);
+    free(d->Y);
+    free(d->balance);
+    free(d->B);
+    free(d->U);
+    free(d->G);
+    free(d->held);
+    free(d->target);
+    free(d->is_held);
+    free(d->component);
+    free(d->n_held);
+    free(d->mean);
+    free(d->sizes);
+    free(d->watched);
+    memset(d, 0, sizeof *d);
+}
+
+/* ---- creation ---- */
+
+static double *reals(size_t count) {
+    return (double *)calloc(count + 1, sizeof(double));
+}
+
+static sl_int *integers(size_t count) {
+    return (sl_int *)calloc(count + 1, sizeof(sl_int));
+}
+
+static bool allocate(deformer *d) {
+    size_t n = (size_t)d->n;
+    d->rest = reals(3 * n);
+    d->Y = reals(3 * n);
+    d->balance = reals(3 * n);
+    d->B = reals(3 * n);
+    d->U = reals(3 * n);
+    d->G = reals(3 * n);
+    d->target = reals(3 * n);
+    d->held = integers(n);
+    d->component = integers(n);
+    d->is_held = (unsigned char *)calloc(n + 1, 1);
+    return d->rest != NULL && d->Y != NULL && d->balance != NULL && d->B != NULL && d->U != NULL &&
+           d->G != NULL && d->target != NULL && d->held != NULL && d->component != NULL &&
+           d->is_held != NULL;
+}
+
+/* The components of the nonzero entries of K, as the factor sees them. */
+static bool find_components(deformer *d) {
+    triplets list = {0, 0, NULL, NULL, NULL};
+    sl_matrix *nonzero = NULL;
+    adjacency graph;
+    const sl_csc K = sl_matrix_view(d->K);
+    bool ok = true;
+    for (sl_int j = 0; j < d->n && ok; j++) {
+        for (sl_int p = K.p[j]; p < K.p[j + 1] && ok; p++) {
+            ok = K.x[p] == 0 || triplets_add(&list, K.i[p], j, 1);
+        }
+    }
+    if (!ok || triplets_finish(&nonzero, d->n, d->n, &list, false) != SL_OK) {
+        triplets_free(&list);
+        return false;
+    }
+    const sl_csc pattern = sl_matrix_view(nonzero);
+    ok = adjacency_from_matrix(&graph, &pattern);
+    sl_matrix_free(nonzero);
+    d->sizes = integers((size_t)d->n);
+    if (ok && d->sizes != NULL) {
+        d->n_components = adjacency_components(d->component, d->sizes, &graph);
+        ok = d->n_components >= 0;
+    }
+    adjacency_free(&graph);
+    d->n_held = ok ? integers((size_t)d->n_components) : NULL;
+    d->mean = ok ? reals(3 * (size_t)d->n_components) : NULL;
+    return ok && d->sizes != NULL && d->n_held != NULL && d->mean != NULL;
+}
+
+static void measure(deformer *d) {
+    size_t n = (size_t)d->n;
+    double size[3] = {0, 0, 0};
+    for (size_t c = 0; c < 3; c++) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (size_t v = 0; v < n; v++) {
+            double x = d->m->xyz[3 * v + c];
+            d->rest[c * n + v] = d->Y[c * n + v] = x;
+            low = fmin(low, x);
+            high = fmax(high, x);
+        }
+        size[c] = high > low ? high - low : 0;
+    }
+    d->diameter = hypot(hypot(size[0], size[1]), size[2]);
+}
+
+static sl_status factor(deformer *d) {
+    size_t n = (size_t)d->n;
+    const sl_csc K = sl_matrix_view(d->K);
+    sl_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    /* forces are in balance to rounding, which is all that their sums are */
+    opt.consistency_tolerance = -1;
+    sl_status status = sl_symbolic_create(&d->S, &K, NULL, &d->stats);
+    if (status == SL_OK) {
+        status = sl_factor_create(&d->F, d->S, &K, &opt, &d->stats);
+    }
+    if (status == SL_OK) {
+        status = sl_pins_create(&d->pins, d->F, NULL);
+    }
+    if (status == SL_OK) {
+        status = sl_work_create(&d->W, NULL);
+    }
+    if (status == SL_OK && d->method == DEFORM_ARAP) {
+        status = sl_csc_multiply(&K, SL_AS_SYMMETRIC, d->balance, n, d->rest, n, 3);
+    }
+    return status;
+}
+
+sl_status deformer_create(deformer *out, const mesh *m, deform_method method) {
+    memset(out, 0, sizeof *out);
+    out->m = m;
+    out->method = method;
+    out->n = m->n_vertices;
+    bool ok = method == DEFORM_ARAP
+                  ? laplacian_cotangent(&out->K, m) && arap_surface_create(&out->arap, m)
+                  : polyharmonic_energy(&out->K, m, 2);
+    ok = ok && allocate(out) && find_components(out);
+    sl_status status = SL_ERR_MEMORY;
+    if (ok) {
+        measure(out);
+        status = factor(out);
+    }
+    if (status != SL_OK) {
+        sl_stats stats = out->stats;
+        deformer_free(out);
+        out->stats = stats;
+    }
+    return status;
+}
+
+/* ---- handles ---- */
+
+/* A vertex without faces, or whose faces have no area: its row of K is zero, and it has no pin. */
+static bool is_alone(const deformer *d, sl_int vertex) {
+    return d->sizes[d->component[vertex]] == 1;
+}
+
+sl_status deformer_hold(deformer *d, sl_int vertex) {
+    if (d->is_held[vertex]) {
+        return SL_OK;
+    }
+    sl_status status = is_alone(d, vertex) ? SL_OK : sl_pins_add(d->pins, vertex, NULL);
+    if (status == SL_OK) {
+        size_t n = (size_t)d->n, v = (size_t)vertex;
+        if (!is_alone(d, vertex)) {
+            d->held[sl_pins_count(d->pins) - 1] = vertex;
+        }
+        d->is_held[v] = 1;
+        d->n_held[d->component[v]]++;
+        for (size_t c = 0; c < 3; c++) {
+            d->target[3 * v + c] = d->Y[c * n + v];
+        }
+    }
+    return status;
+}
+
+void deformer_move(deformer *d, sl_int vertex, const double position[3]) {
+    if (d->is_held[vertex]) {
+        memcpy(d->target + 3 * (size_t)vertex, position, 3 * sizeof *position);
+    }
+}
+
+sl_status deformer_release(deformer *d, sl_int vertex) {
+    if (!d->is_held[vertex]) {
+        return SL_OK;
+    }
+    if (!is_alone(d, vertex)) {
+        sl_int count = sl_pins_count(d->pins), index = 0;
+        while (d->held[index] != vertex) {
+            index++;
+        }
+        sl_status status = sl_pins_release(d->pins, index);
+        if (status != SL_OK) {
+            return status;
+        }
+        memmove(d->held + index, d->held + index + 1,
+                (size_t)(count - 1 - index) * sizeof *d->held);
+    }
+    d->is_held[vertex] = 0;
+    d->n_held[d->component[vertex]]--;
+    return SL_OK;
+}
+
+/* ---- steps ---- */
+
+double deformer_rotations(deformer *d) {
+    return d->method == DEFORM_ARAP ? arap_surface_rotations(&d->arap, d->Y) : 0;
+}
+
+/* G(k, c) = displacement of pin k. */
+static void gather_pins(deformer *d) {
+    size_t n = (size_t)d->n, count = (size_t)sl_pins_count(d->pins);
+    for (size_t k = 0; k < count; k++) {
+        size_t v = (size_t)d->held[k];
+        for (size_t c = 0; c < 3; c++) {
+            d->G[c * n + k] = d->target[3 * v + c] - d->rest[c * n + v];
+        }
+    }
+}
+
+/* Moves components without held vertices so that their mean stays that of d->Y. */
+static void keep_means(deformer *d) {
+    size_t n = (size_t)d->n;
+    if (d->method != DEFORM_ARAP) {
+        return;
+    }
+    memset(d->mean, 0, 3 * (size_t)d->n_components * sizeof *d->mean);
+    for (size_t k = 0; k < 3 * n; k++) {
+        size_t part = (size_t)d->component[k % n];
+        d->mean[3 * part + k / n] += (d->Y[k] - d->rest[k] - d->U[k]) / (double)d->sizes[part];
+    }
+    for (size_t k = 0; k < 3 * n; k++) {
+        size_t part = (size_t)d->component[k % n];
+        d->U[k] += d->n_held[part] == 0 ? d->mean[3 * part + k / n] : 0;
+    }
+}
+
+/* The displacement of vertex v in direction c, of which a solve computed u. */
+static double displacement(const deformer *d, size_t v, size_t c, double u) {
+    return d->is_held[v] && is_alone(d, (sl_int)v)
+               ? d->target[3 * v + c] - d->rest[c * (size_t)d->n + v]
+               : u;
+}
+
+sl_status deformer_solve(deformer *d) {
+    size_t n = (size_t)d->n;
+    double range = 0;
+    if (d->method == DEFORM_ARAP) {
+        arap_surface_forces(&d->arap, d->B);
+        for (size_t k = 0; k < 3 * n; k++) {
+            d->B[k] -= d->balance[k];
+        }
+    }
+    gather_pins(d);
+    sl_status status = sl_pins_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
+    if (status != SL_OK) {
+        return status;
+    }
+    keep_means(d);
+    for (size_t k = 0; k < 3 * n; k++) {
+        d->U[k] = displacement(d, k % n, k / n, d->U[k]);
+        range += fabs(d->U[k]);
+    }
+    if (!isfinite(range)) {
+        return SL_ERR_NOT_FINITE;
+    }
+    for (size_t k = 0; k < 3 * n; k++) {
+        d->Y[k] = d->rest[k] + d->U[k];
+    }
+    return SL_OK;
+}
+
+sl_status deformer_watch(deformer *d, const sl_int *vertices, sl_int count) {
+    if (d->method != DEFORM_BIHARMONIC) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    sl_int *copy = integers((size_t)count);
+    sl_plan *plan = NULL;
+    sl_status status =
+        copy == NULL ? SL_ERR_MEMORY
+                     : sl_plan_create(&plan, d->S, vertices, 0, vertices, count, NULL, &d->stats);
+    if (status != SL_OK) {
+        free(copy);
+        return status;
+    }
+    memcpy(copy, vertices, (size_t)count * sizeof *copy);
+    free(d->watched);
+    sl_plan_free(d->near);
+    d->watched = copy;
+    d->n_watched = count;
+    d->near = plan;
+    return SL_OK;
+}
+
+sl_status deformer_solve_watched(deformer *d, double *Y) {
+    size_t n = (size_t)d->n, count = (size_t)d->n_watched;
+    gather_pins(d);
+    sl_status status = sl_pins_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
+    for (size_t k = 0; k < 3 * count && status == SL_OK; k++) {
+        size_t v = (size_t)d->watched[k % count], at = k / count * n + v;
+        bool is_free = d->n_held[d->component[v]] == 0;
+        Y[k] = d->rest[at] + displacement(d, v, k / count, is_free ? 0 : Y[k]);
+    }
+    return status;
+}
+
+/* ---- comparison with a new factor ---- */
+
+/* The free vertices are numbered: number[v], or -1. B becomes their right-hand side. Returns their
+ * matrix; NULL: out of memory. */
+static sl_matrix *free_system(const deformer *d, double *B, sl_int *number, sl_int n_free) {
+    triplets list = {0, 0, NULL, NULL, NULL};
+    sl_matrix *out = NULL;
+    size_t n = (size_t)d->n, nf = (size_t)n_free;
+    const sl_csc K = sl_matrix_view(d->K);
+    bool ok = true;
+    for (size_t v = 0; v < n; v++) {
+        for (size_t c = 0; c < 3 && number[v] >= 0; c++) {
+            B[c * nf + (size_t)number[v]] = d->B[c * n + v];
+        }
+    }
+    for (sl_int j = 0; j < d->n && ok; j++) {
+        for (sl_int p = K.p[j]; p < K.p[j + 1] && ok; p++) {
+            sl_int i = K.i[p];
+            if (number[i] >= 0 && number[j] >= 0) {
+                sl_int a = number[i], b = number[j];
+                ok = triplets_add(&list, a > b ? a : b, a > b ? b : a, K.x[p]);
+            } else if (number[i] >= 0 || number[j] >= 0) {
+                size_t to = (size_t)(number[i] >= 0 ? number[i] : number[j]);
+                size_t from = (size_t)(number[i] >= 0 ? j : i);
+                for (size_t c = 0; c < 3 && d->is_held[from]; c++) {
+                    double g = d->target[3 * from + c] - d->rest[c * n + from];
+                    B[c * nf + to] -= K.x[p] * g;
+                }
+            }
+        }
+    }
+    if (!ok || triplets_finish(&out, n_free, n_free, &list, true) != SL_OK) {
+        triplets_free(&list);
+        return NULL;
+    }
+    return out;
+}
+
+sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
+    size_t n = (size_t)d->n;
+    sl_int n_free = 0, *number = integers(n);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_matrix *A = NULL;
+    double *B = NULL;
+    *difference = *seconds = 0;
+    for (size_t v = 0; v < n && number != NULL; v++) {
+        bool is_free = !d->is_held[v] && d->n_held[d->component[v]] > 0;
+        number[v] = is_free ? n_free++ : -1;
+    }
+    B = number != NULL ? reals(3 * (size_t)n_free) : NULL;
+    A = B != NULL ? free_system(d, B, number, n_free) : NULL;
+    sl_status status = A == NULL ? SL_ERR_MEMORY : SL_OK;
+    const clock_t began = clock();
+    if (status == SL_OK) {
+        const sl_csc view = sl_matrix_view(A);
+        status = sl_symbolic_create(&S, &view, NULL, NULL);
+        if (status == SL_OK) {
+            status = sl_factor_create(&F, S, &view, NULL, &d->stats);
+        }
+    }
+    if (status == SL_OK) {
+        size_t nf = (size_t)n_free;
+        status = sl_factor_solve(F, B, nf, B, nf, 3, d->W);
+        *seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
+        for (size_t v = 0; v < n; v++) {
+            double distance = 0;
+            for (size_t c = 0; c < 3 && number[v] >= 0; c++) {
+                distance = hypot(distance, B[c * nf + (size_t)number[v]] - d->U[c * n + v]);
+            }
+            /* written so that a NaN counts */
+            *difference =
+                distance / d->diameter <= *difference ? *difference : distance / d->diameter;
+        }
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    sl_matrix_free(A);
+    free(B);
+    free(number);
+    return status;
+}
