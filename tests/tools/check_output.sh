@@ -47,6 +47,7 @@ record $? "there are commands"
 "$program" save sphere:2 --out "$dir/kept/sphere.slf" >/dev/null 2>"$dir/err"
 record $? "save writes a file"
 echo '0;1;1' >"$dir/kept/question" # b is 1 in row 0; x is wanted in row 1
+printf 'grab 0\ngrab 7\nmove 0 1 0 0\nframe\n' >"$dir/kept/moves"
 
 # run COMMAND: with operands that suit it.
 run() {
@@ -54,6 +55,7 @@ run() {
     save) "$program" save sphere:2 --out saved.slf ;;
     view) "$program" view sphere:2 --out page.html ;;
     query) "$program" query "$dir/kept/sphere.slf" <"$dir/kept/question" ;;
+    deform) "$program" deform sphere:2 --script "$dir/kept/moves" ;;
     *) "$program" "$1" sphere:2 ;;
     esac
 }
@@ -136,6 +138,7 @@ limited l.csv reach sphere:4 --csv l.csv
 limited l.csv param sphere:4 --patch 2000 --csv l.csv
 limited l.csv geodesic sphere:4 --csv l.csv
 limited l.csv geodesic sphere:4 --from 1,2,3 --each --csv l.csv
+limited l.csv deform sphere:4 --script "$dir/kept/moves" --csv l.csv
 limited l.ply adf sphere:4 --out l.ply
 limited l.obj adf sphere:4 --out l.obj
 limited l.ply.gz adf sphere:4 --out l.ply.gz

@@ -101,6 +101,14 @@ gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
     cmp -s "$dir/h1.csv" "$dir/h2.csv"
 record $? "hks gives the same numbers with one thread and with two"
 
+# Deformations (test_deform.c).
+
+printf 'grab 0,5\ngrab 100\nmove 1 0 0.2 0\nframe\nrelease 0\nframe\n' >"$dir/moves"
+gives 0 'pins       3 grabbed, .* ms each; 2 released' deform sphere:2 --script "$dir/moves" \
+    --check --steps "$dir/steps.csv" --frames "$dir/frame"
+[ "$(wc -l <"$dir/steps.csv")" -eq 7 ] && [ -s "$dir/frame0000.png" ] && [ -s "$dir/frame0001.png" ]
+record $? "deform writes a row per step and a picture per frame"
+
 # Pages for a browser (test_view.c, and check_view.sh in one).
 
 gives 0 'v.html: 162 vertices, 320 faces, 5 fields' view sphere:2 "$dir/h1.csv" "$dir/a.csv" \
@@ -223,7 +231,7 @@ gives 2 'above 0' hks sphere:1 --first 0
 
 # What is wrong with an output is found before the mesh is read.
 
-for command in adf heat hks geodesic param arap scp reach; do
+for command in adf heat hks geodesic param arap scp reach deform; do
     gives 1 'no/x.png: cannot be written' "$command" "$dir/no-such-file.obj" --png "$dir/no/x.png"
     gives 1 'Is a directory' "$command" "$dir/no-such-file.obj" --csv "$dir"
     gives 1 'must end in .obj, .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"

@@ -23,6 +23,7 @@ static const command commands[] = {
     {"arap", "planar layout of a patch, as rigid as possible", command_arap},
     {"scp", "planar layout of a patch, spectral conformal", command_scp},
     {"geodesic", "distances on the surface by the heat method, Voronoi cells", command_geodesic},
+    {"deform", "a mesh deformed by handles that are grabbed, moved, released", command_deform},
     {"save", "factors the Laplacian of a mesh and saves the factor in a file", command_save},
     {"view", "a page for a browser: the mesh and fields on it, to turn and to query", command_view},
     {"query", "answers local solves with a saved factor, from standard input", command_query},

@@ -1,0 +1,455 @@
+/* command_deform.c: deformations by handles that are grabbed, moved and released, on one factor */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "app.h"
+#include "command.h"
+#include "handle_script.h"
+#include "tools/geometry/deformer.h"
+#include "tools/io/output_file.h"
+
+static const options_usage usage = {
+    "deform", "MESH", 1, 1, "Deforms a mesh by handles that are grabbed, moved and released."};
+
+static const options_manual manual = {
+    "Vertices that handles hold are pins on the factor of a singular matrix, the Laplacian L "
+    "(arap) "
+    "or L M^-1 L (biharmonic), which is factored once. Grabbing a vertex is a forward sweep, "
+    "releasing it changes a small matrix only, and a frame takes full solves with three right-hand "
+    "sides. As-rigid-as-possible deformations alternate rotations of vertices with such solves. "
+    "Biharmonic displacements need one solve; --at computes them near the wanted vertices only. "
+    "A component without handles keeps its mean position (arap) or is at rest.\n"
+    "The script has a step per line; # starts a comment:\n"
+    "grab VERTICES [within R]: 3,17,100-200 and all vertices within the distance R of these; "
+    "handles are numbered 0, 1, ... in order of their grabs\n"
+    "move HANDLE DX DY DZ\n"
+    "turn HANDLE AX AY AZ DEGREES: about an axis through the mean of the handle\n"
+    "release HANDLE\n"
+    "frame: computes the surface, and draws it with --frames",
+    "Milliseconds of processor time: of the factor, of each pin, of each frame. --csv has the last "
+    "positions and displacements; with --at only those vertices, which are then all that is "
+    "computed. --steps has a row per step of the script. --check solves each frame again with a "
+    "new factor without the rows that are held; exit status 1 if positions differ by more than "
+    "--bound.",
+    "star:5 --script bend.txt --frames bend --out bent.ply\n"
+    "bunny.obj --script bend.txt --method biharmonic --check --steps steps.csv"};
+
+/* Milliseconds of a step of the script. */
+typedef struct step_times {
+    double pin, release, rotations, solve, fresh;
+    double energy;     /* before the last solve of a frame */
+    double difference; /* of --check */
+} step_times;
+
+typedef struct deform_command {
+    const char *script_path, *method, *frames, *steps, *at;
+    sl_int iterations;
+    bool check;
+    double bound;
+    app_output output;
+    mesh m;
+    deformer d;
+    handle_script script;
+    sl_int *watched, n_watched;
+    double *near_positions; /* n_watched x 3 */
+    double box[6];
+    FILE *table;
+    step_times total;
+    double worst; /* difference of --check */
+    sl_int pinned, released;
+} deform_command;
+
+/* Milliseconds of processor time. */
+static double now_ms(void) {
+    return 1e3 * (double)clock() / CLOCKS_PER_SEC;
+}
+
+/* ---- output ---- */
+
+/* The mesh in its present shape; release with free(m.xyz). */
+static mesh deformed(const deform_command *cmd) {
+    mesh m = cmd->m;
+    size_t n = (size_t)m.n_vertices;
+    m.xyz = app_alloc(3 * n, sizeof *m.xyz);
+    for (size_t k = 0; k < 3 * n; k++) {
+        m.xyz[k] = cmd->d.Y[k % 3 * n + k / 3];
+    }
+    return m;
+}
+
+/* Draws the present shape with its handles; writes the mesh too if `output` says so. */
+static void write_shape(const deform_command *cmd, const app_output *output) {
+    static const rgb moved = {0xd5, 0x2b, 0x1e}, still = {0x28, 0x50, 0xa0};
+    mesh m = deformed(cmd);
+    size_t n = (size_t)m.n_vertices, n_marks = (size_t)sl_pins_count(cmd->d.pins);
+    render_mark *marks = app_alloc(n_marks, sizeof *marks);
+    double *displacement = app_alloc(n, sizeof *displacement);
+    for (size_t v = 0; v < n; v++) {
+        for (size_t c = 0; c < 3; c++) {
+            displacement[v] = hypot(displacement[v], m.xyz[3 * v + c] - cmd->m.xyz[3 * v + c]);
+        }
+    }
+    for (size_t k = 0; k < n_marks; k++) {
+        const sl_int v = cmd->d.held[k];
+        marks[k].vertex = v;
+        marks[k].radius = 3;
+        marks[k].color = displacement[v] > 1e-6 * cmd->d.diameter ? moved : still;
+    }
+    const mesh_field field = {"displacement", displacement};
+    const mesh_extra extra = {.fields = &field, .n_fields = 1};
+    const render_style style = {.box = cmd->box, .marks = marks, .n_marks = (int)n_marks};
+    app_write(output, &m, &extra, &style);
+    free(displacement);
+    free(marks);
+    free(m.xyz);
+}
+
+static void write_frame(const deform_command *cmd, sl_int frame) {
+    size_t room = strlen(cmd->frames) + 32;
+    char *path = app_alloc(room, 1);
+    app_output one = cmd->output;
+    (void)snprintf(path, room, "%s%04d.png", cmd->frames, (int)frame);
+    one.out = NULL;
+    one.png = path;
+    write_shape(cmd, &one);
+    free(path);
+}
+
+static void write_csv(const deform_command *cmd) {
+    size_t n = (size_t)cmd->d.n, count = cmd->at != NULL ? (size_t)cmd->n_watched : n;
+    FILE *csv = app_create(cmd->output.csv);
+    fprintf(csv, "vertex,x,y,z,displacement\n");
+    for (size_t k = 0; k < count; k++) {
+        const size_t v = cmd->at != NULL ? (size_t)cmd->watched[k] : k;
+        double size = 0;
+        fprintf(csv, "%d", (int)v);
+        for (size_t c = 0; c < 3; c++) {
+            const double x =
+                cmd->at != NULL ? cmd->near_positions[c * count + k] : cmd->d.Y[c * n + v];
+            size = hypot(size, x - cmd->d.rest[c * n + v]);
+            fprintf(csv, ",%.17g", x);
+        }
+        fprintf(csv, ",%.17g\n", size);
+    }
+    app_close(csv);
+}
+
+/* A row of --steps. */
+static void report(deform_command *cmd, const script_step *step, const step_times *t) {
+    cmd->total.pin += t->pin;
+    cmd->total.release += t->release;
+    cmd->total.rotations += t->rotations;
+    cmd->total.solve += t->solve;
+    cmd->total.fresh += t->fresh;
+    cmd->worst = t->difference <= cmd->worst ? cmd->worst : t->difference; /* a NaN counts */
+    if (cmd->table != NULL) {
+        fprintf(cmd->table, "%ld,%s,%d,%d,%.3f,%.3f,%.3f,%.3f", step->line,
+                script_word(step->action), (int)step->handle, (int)sl_pins_count(cmd->d.pins),
+                t->pin, t->release, t->rotations, t->solve);
+        if (step->action == SCRIPT_FRAME) {
+            fprintf(cmd->table, ",%.17g", t->energy);
+        } else {
+            fprintf(cmd->table, ",");
+        }
+        if (step->action == SCRIPT_FRAME && cmd->check) {
+            fprintf(cmd->table, ",%.3f,%.3g\n", t->fresh, t->difference);
+        } else {
+            fprintf(cmd->table, ",,\n");
+        }
+    }
+}
+
+/* ---- steps of the script ---- */
+
+/* NULL: the step has none. */
+static const script_handle *handle_of(const deform_command *cmd, const script_step *step) {
+    return step->action == SCRIPT_FRAME ? NULL : &cmd->script.handles[step->handle];
+}
+
+static void grab(deform_command *cmd, const script_handle *h, const script_step *step,
+                 step_times *t) {
+    const double began = now_ms();
+    for (sl_int k = 0; k < h->count; k++) {
+        sl_status status = deformer_hold(&cmd->d, h->vertices[k]);
+        if (status != SL_OK) {
+            app_die("%s:%ld: vertex %d cannot be held: %s", cmd->script_path, step->line,
+                    (int)h->vertices[k], sl_status_string(status));
+        }
+    }
+    t->pin = now_ms() - began;
+    cmd->pinned += h->count;
+}
+
+static void release(deform_command *cmd, const script_handle *h, step_times *t) {
+    const double began = now_ms();
+    for (sl_int k = h->count - 1; k >= 0; k--) { /* the last pins are the cheapest to release */
+        app_must(deformer_release(&cmd->d, h->vertices[k]), "release", NULL);
+    }
+    t->release = now_ms() - began;
+    cmd->released += h->count;
+}
+
+static void move(deform_command *cmd, const script_handle *h, const script_step *step) {
+    double *points = app_alloc(3 * (size_t)h->count, sizeof *points);
+    for (sl_int k = 0; k < h->count; k++) {
+        memcpy(points + 3 * k, cmd->d.target + 3 * (size_t)h->vertices[k], 3 * sizeof *points);
+    }
+    script_step_apply(step, points, h->count);
+    for (sl_int k = 0; k < h->count; k++) {
+        deformer_move(&cmd->d, h->vertices[k], points + 3 * k);
+    }
+    free(points);
+}
+
+static void solve_frame(deform_command *cmd, step_times *t) {
+    if (cmd->at != NULL) {
+        const double began = now_ms();
+        app_must(deformer_solve_watched(&cmd->d, cmd->near_positions), "local solve", NULL);
+        t->solve = now_ms() - began;
+    }
+    /* with --at the full solve is the check */
+    const int steps = cmd->d.method == DEFORM_ARAP ? (int)cmd->iterations : 1;
+    for (int k = 0; k < steps && (cmd->at == NULL || cmd->check); k++) {
+        double began = now_ms();
+        t->energy = deformer_rotations(&cmd->d);
+        t->rotations += now_ms() - began;
+        began = now_ms();
+        app_must(deformer_solve(&cmd->d), "solve", NULL);
+        t->solve += cmd->at == NULL ? now_ms() - began : 0;
+    }
+}
+
+static void check_frame(deform_command *cmd, step_times *t) {
+    size_t n = (size_t)cmd->d.n, count = (size_t)cmd->n_watched;
+    app_must(deformer_compare(&cmd->d, &t->difference, &t->fresh), "new factor", &cmd->d.stats);
+    t->fresh *= 1e3;
+    for (size_t k = 0; k < count && cmd->at != NULL; k++) {
+        double distance = 0;
+        for (size_t c = 0; c < 3; c++) {
+            distance = hypot(distance, cmd->near_positions[c * count + k] -
+                                           cmd->d.Y[c * n + (size_t)cmd->watched[k]]);
+        }
+        distance /= cmd->d.diameter;
+        t->difference = distance <= t->difference ? t->difference : distance;
+    }
+}
+
+static void run_script(deform_command *cmd) {
+    for (size_t k = 0; k < cmd->script.n_steps; k++) {
+        const script_step *step = &cmd->script.steps[k];
+        const script_handle *h = handle_of(cmd, step);
+        step_times t;
+        memset(&t, 0, sizeof t);
+        switch (step->action) {
+        case SCRIPT_GRAB:
+            grab(cmd, h, step, &t);
+            break;
+        case SCRIPT_RELEASE:
+            release(cmd, h, &t);
+            break;
+        case SCRIPT_MOVE:
+        case SCRIPT_TURN:
+            move(cmd, h, step);
+            break;
+        case SCRIPT_FRAME:
+            solve_frame(cmd, &t);
+            if (cmd->check) {
+                check_frame(cmd, &t);
+            }
+            if (cmd->frames != NULL) {
+                write_frame(cmd, step->handle);
+            }
+            break;
+        }
+        report(cmd, step, &t);
+        app_progress("script", (double)(k + 1) / (double)cmd->script.n_steps);
+    }
+    app_progress_end();
+}
+
+/* ---- preparation ---- */
+
+static void extend_box(deform_command *cmd, const double *points, size_t count) {
+    for (size_t k = 0; k < 3 * count; k++) {
+        cmd->box[k % 3] = fmin(cmd->box[k % 3], points[k]);
+        cmd->box[3 + k % 3] = fmax(cmd->box[3 + k % 3], points[k]);
+    }
+}
+
+/* The box of the pictures: the mesh at rest, and where handles go that are grabbed there. */
+static void find_box(deform_command *cmd) {
+    const size_t n = (size_t)cmd->m.n_vertices;
+    double *target = app_alloc(3 * n, sizeof *target);
+    memcpy(target, cmd->m.xyz, 3 * n * sizeof *target);
+    for (int c = 0; c < 3; c++) {
+        cmd->box[c] = INFINITY;
+        cmd->box[3 + c] = -INFINITY;
+    }
+    extend_box(cmd, target, n);
+    for (size_t s = 0; s < cmd->script.n_steps; s++) {
+        const script_step *step = &cmd->script.steps[s];
+        const script_handle *h = handle_of(cmd, step);
+        const sl_int count = h != NULL ? h->count : 0;
+        double *points = app_alloc(3 * (size_t)count, sizeof *points);
+        for (sl_int k = 0; k < count; k++) {
+            memcpy(points + 3 * k, target + 3 * (size_t)h->vertices[k], 3 * sizeof *points);
+        }
+        script_step_apply(step, points, count);
+        for (sl_int k = 0; k < count; k++) {
+            memcpy(target + 3 * (size_t)h->vertices[k], points + 3 * k, 3 * sizeof *points);
+        }
+        extend_box(cmd, points, (size_t)count);
+        free(points);
+    }
+    free(target);
+}
+
+static void check_options(const deform_command *cmd) {
+    char message[512];
+    if (strcmp(cmd->method, "arap") != 0 && strcmp(cmd->method, "biharmonic") != 0) {
+        app_die_usage("--method %s: expected arap or biharmonic", cmd->method);
+    }
+    if (cmd->iterations < 1 || cmd->iterations > 1000000) {
+        app_die_usage("--iterations: expected 1 to 1000000");
+    }
+    if (cmd->at != NULL && strcmp(cmd->method, "biharmonic") != 0) {
+        app_die_usage("--at: only with --method biharmonic; rotations need all vertices");
+    }
+    if (cmd->at != NULL &&
+        (cmd->frames != NULL || cmd->output.out != NULL || cmd->output.png != NULL)) {
+        app_die_usage("--at: computes no surface for --frames, --out and --png");
+    }
+    app_check_output(&cmd->output, cmd->output.out);
+    if (cmd->frames != NULL && !output_is_possible(cmd->frames, message, sizeof message)) {
+        app_die("%s", message);
+    }
+}
+
+static void open_command(deform_command *cmd, const char *operand) {
+    char message[512];
+    app_mesh(&cmd->m, operand, true);
+    if (cmd->script_path == NULL) {
+        app_die_usage("deform: --script FILE is missing");
+    }
+    if (!handle_script_read(&cmd->script, cmd->script_path, &cmd->m, message, sizeof message)) {
+        app_die("%s", message);
+    }
+    find_box(cmd);
+    app_stage("factoring");
+    const double began = now_ms();
+    const bool is_arap = strcmp(cmd->method, "arap") == 0;
+    app_must(deformer_create(&cmd->d, &cmd->m, is_arap ? DEFORM_ARAP : DEFORM_BIHARMONIC), "factor",
+             &cmd->d.stats);
+    const double spent = now_ms() - began;
+    app_progress_end();
+    if (!(cmd->d.diameter > 0) || !isfinite(cmd->d.diameter)) {
+        app_die("%s: all vertices are at one point, or too far apart", operand);
+    }
+    const sl_stats *s = &cmd->d.stats;
+    printf("mesh       %d vertices, %d faces, %d components; %s; prepared in %.1f ms\n",
+           (int)cmd->m.n_vertices, (int)cmd->m.n_faces, (int)cmd->d.n_components, cmd->method,
+           spent);
+    printf("factor     order and analyze %.1f ms, factor %.1f ms, %.3g entries of L\n",
+           1e3 * (s->symbolic.seconds_order + s->symbolic.seconds_analyze), 1e3 * s->factor.seconds,
+           (double)s->symbolic.nnz_panels);
+    if (s->factor.weak > 0) {
+        app_warn("%d pivots are within rounding of 0: parts of the mesh are joined weakly",
+                 (int)s->factor.weak);
+    }
+    if (cmd->at != NULL) {
+        cmd->watched = app_vertices("at", cmd->at, cmd->m.n_vertices, 1, &cmd->n_watched);
+        cmd->n_watched = app_distinct(cmd->watched, cmd->n_watched, cmd->m.n_vertices);
+        cmd->near_positions = app_alloc(3 * (size_t)cmd->n_watched, sizeof *cmd->near_positions);
+        app_must(deformer_watch(&cmd->d, cmd->watched, cmd->n_watched), "plan", &cmd->d.stats);
+        app_print_reads("local", &cmd->d.stats);
+        for (size_t k = 0; k < 3 * (size_t)cmd->n_watched; k++) {
+            const size_t count = (size_t)cmd->n_watched, n = (size_t)cmd->d.n;
+            cmd->near_positions[k] = cmd->d.Y[k / count * n + (size_t)cmd->watched[k % count]];
+        }
+    }
+    if (cmd->output.view == NULL) {
+        cmd->output.view = "30,20"; /* for all frames, also where the mesh is flat at rest */
+    }
+}
+
+static void print_summary(const deform_command *cmd) {
+    const double frames = cmd->script.n_frames > 0 ? (double)cmd->script.n_frames : 1;
+    if (cmd->pinned > 0) {
+        printf("pins       %d grabbed, %.4f ms each", (int)cmd->pinned,
+               cmd->total.pin / (double)cmd->pinned);
+        if (cmd->released > 0) {
+            printf("; %d released, %.4f ms each", (int)cmd->released,
+                   cmd->total.release / (double)cmd->released);
+        }
+        printf("\n");
+    }
+    printf("frames     %d", (int)cmd->script.n_frames);
+    if (cmd->d.method == DEFORM_ARAP) {
+        printf(" of %d iterations: rotations %.3f ms, solve %.3f ms per iteration\n",
+               (int)cmd->iterations, cmd->total.rotations / frames / (double)cmd->iterations,
+               cmd->total.solve / frames / (double)cmd->iterations);
+    } else {
+        printf(": solve %.3f ms%s\n", cmd->total.solve / frames,
+               cmd->at != NULL ? " at the wanted vertices" : "");
+    }
+    if (cmd->check && cmd->script.n_frames > 0) {
+        printf("check      a new factor and its solve take %.3f ms per frame; positions differ by "
+               "at most %.3g diameters, bound %.3g\n",
+               cmd->total.fresh / frames, cmd->worst, cmd->bound);
+    }
+}
+
+int command_deform(int argc, char **argv) {
+    deform_command cmd;
+    const char *operand = NULL;
+    memset(&cmd, 0, sizeof cmd);
+    cmd.method = "arap";
+    cmd.iterations = 10;
+    cmd.bound = 1e-6;
+    const option options[] = {
+        {OPTION_TEXT, "script", &cmd.script_path, "FILE", "steps of the handles: required"},
+        {OPTION_TEXT, "method", &cmd.method, "arap|biharmonic",
+         "as rigid as possible, or biharmonic displacements (arap)"},
+        {OPTION_COUNT, "iterations", &cmd.iterations, "N",
+         "rotations and solves per frame, arap only (10)"},
+        {OPTION_TEXT, "at", &cmd.at, "VERTICES",
+         "compute positions of these vertices only, by local solves, biharmonic only: "
+         "3,17,100-200"},
+        {OPTION_FLAG, "check", &cmd.check, NULL, "solve each frame again with a new factor"},
+        {OPTION_ABOVE_0, "bound", &cmd.bound, "D",
+         "largest difference that --check accepts, in diagonals of the bounding box (1e-6)"},
+        {OPTION_OUTPUT, "steps", &cmd.steps, "FILE", "write the times of each step as a table"},
+        {OPTION_TEXT, "frames", &cmd.frames, "PREFIX",
+         "draw each frame: PREFIX0000.png, PREFIX0001.png, ..."},
+        APP_OUTPUT_OPTIONS(&cmd.output),
+        {OPTION_END, NULL, NULL, NULL, NULL}};
+    options_read(&usage, &manual, options, argc, argv, &operand);
+    check_options(&cmd);
+    open_command(&cmd, operand);
+    if (cmd.steps != NULL) {
+        cmd.table = app_create(cmd.steps);
+        fprintf(cmd.table, "line,action,handle,pins,pin_ms,release_ms,rotations_ms,solve_ms,energy,"
+                           "fresh_ms,difference\n");
+    }
+    run_script(&cmd);
+    if (cmd.table != NULL) {
+        app_close(cmd.table);
+    }
+    print_summary(&cmd);
+    if (cmd.output.csv != NULL) {
+        write_csv(&cmd);
+    }
+    write_shape(&cmd, &cmd.output);
+    const bool failed = cmd.check && !(cmd.worst <= cmd.bound);
+    if (failed) {
+        app_warn("positions differ from those of a new factor by more than --bound");
+    }
+    handle_script_free(&cmd.script);
+    deformer_free(&cmd.d);
+    free(cmd.near_positions);
+    free(cmd.watched);
+    mesh_free(&cmd.m);
+    return failed;
+}
