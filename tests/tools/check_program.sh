@@ -109,6 +109,13 @@ gives 0 'pins       3 grabbed, .* ms each; 2 released' deform sphere:2 --script 
 [ "$(wc -l <"$dir/steps.csv")" -eq 7 ] && [ -s "$dir/frame0000.png" ] && [ -s "$dir/frame0001.png" ]
 record $? "deform writes a row per step and a picture per frame"
 
+# Edits (test_edit.c).
+
+gives 0 '^  weight .* [0-9]' edit hills:30x30 --edits 50 --csv "$dir/edits.csv" \
+    --svg "$dir/edits.svg"
+[ "$(grep -c '^[0-9]*,check,' "$dir/edits.csv")" -eq 1 ] && grep -q '</svg>' "$dir/edits.svg"
+record $? "edit writes a table and a plot"
+
 # Pages for a browser (test_view.c, and check_view.sh in one).
 
 gives 0 'v.html: 162 vertices, 320 faces, 5 fields' view sphere:2 "$dir/h1.csv" "$dir/a.csv" \

@@ -85,6 +85,10 @@ double app_now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+double app_processor_ms(void) {
+    return 1e3 * (double)clock() / CLOCKS_PER_SEC;
+}
+
 void app_progress(const char *what, double fraction) {
     static double shown_at, next_line;
     double now = app_now();

@@ -54,6 +54,9 @@ void app_print_region(const char *name, const sl_stats *region, double seconds);
 /** Seconds of a monotonic clock. */
 double app_now(void);
 
+/** Milliseconds of processor time of this process. */
+double app_processor_ms(void);
+
 /** Shows the progress of a long computation and the time that is left on standard error: on a
  *  terminal once a second has passed since the first call, elsewhere in lines of their own after
  *  10, 20, 40, ... seconds. fraction: 0..1. */

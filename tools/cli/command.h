@@ -18,5 +18,6 @@ int command_save(int argc, char **argv);
 int command_view(int argc, char **argv);
 int command_query(int argc, char **argv);
 int command_deform(int argc, char **argv);
+int command_edit(int argc, char **argv);
 
 #endif

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "app.h"
 #include "command.h"
@@ -60,11 +59,6 @@ typedef struct deform_command {
     double worst; /* difference of --check */
     sl_int pinned, released;
 } deform_command;
-
-/* Milliseconds of processor time. */
-static double now_ms(void) {
-    return 1e3 * (double)clock() / CLOCKS_PER_SEC;
-}
 
 /* ---- output ---- */
 
@@ -163,14 +157,9 @@ static void report(deform_command *cmd, const script_step *step, const step_time
 
 /* ---- steps of the script ---- */
 
-/* NULL: the step has none. */
-static const script_handle *handle_of(const deform_command *cmd, const script_step *step) {
-    return step->action == SCRIPT_FRAME ? NULL : &cmd->script.handles[step->handle];
-}
-
 static void grab(deform_command *cmd, const script_handle *h, const script_step *step,
                  step_times *t) {
-    const double began = now_ms();
+    const double began = app_processor_ms();
     for (sl_int k = 0; k < h->count; k++) {
         sl_status status = deformer_hold(&cmd->d, h->vertices[k]);
         if (status != SL_OK) {
@@ -178,16 +167,16 @@ static void grab(deform_command *cmd, const script_handle *h, const script_step 
                     (int)h->vertices[k], sl_status_string(status));
         }
     }
-    t->pin = now_ms() - began;
+    t->pin = app_processor_ms() - began;
     cmd->pinned += h->count;
 }
 
 static void release(deform_command *cmd, const script_handle *h, step_times *t) {
-    const double began = now_ms();
+    const double began = app_processor_ms();
     for (sl_int k = h->count - 1; k >= 0; k--) { /* the last pins are the cheapest to release */
         app_must(deformer_release(&cmd->d, h->vertices[k]), "release", NULL);
     }
-    t->release = now_ms() - began;
+    t->release = app_processor_ms() - began;
     cmd->released += h->count;
 }
 
@@ -205,19 +194,19 @@ static void move(deform_command *cmd, const script_handle *h, const script_step 
 
 static void solve_frame(deform_command *cmd, step_times *t) {
     if (cmd->at != NULL) {
-        const double began = now_ms();
+        const double began = app_processor_ms();
         app_must(deformer_solve_watched(&cmd->d, cmd->near_positions), "local solve", NULL);
-        t->solve = now_ms() - began;
+        t->solve = app_processor_ms() - began;
     }
     /* with --at the full solve is the check */
     const int steps = cmd->d.method == DEFORM_ARAP ? (int)cmd->iterations : 1;
     for (int k = 0; k < steps && (cmd->at == NULL || cmd->check); k++) {
-        double began = now_ms();
+        double began = app_processor_ms();
         t->energy = deformer_rotations(&cmd->d);
-        t->rotations += now_ms() - began;
-        began = now_ms();
+        t->rotations += app_processor_ms() - began;
+        began = app_processor_ms();
         app_must(deformer_solve(&cmd->d), "solve", NULL);
-        t->solve += cmd->at == NULL ? now_ms() - began : 0;
+        t->solve += cmd->at == NULL ? app_processor_ms() - began : 0;
     }
 }
 
@@ -239,7 +228,7 @@ static void check_frame(deform_command *cmd, step_times *t) {
 static void run_script(deform_command *cmd) {
     for (size_t k = 0; k < cmd->script.n_steps; k++) {
         const script_step *step = &cmd->script.steps[k];
-        const script_handle *h = handle_of(cmd, step);
+        const script_handle *h = script_step_handle(&cmd->script, step);
         step_times t;
         memset(&t, 0, sizeof t);
         switch (step->action) {
@@ -271,41 +260,6 @@ static void run_script(deform_command *cmd) {
 
 /* ---- preparation ---- */
 
-static void extend_box(deform_command *cmd, const double *points, size_t count) {
-    for (size_t k = 0; k < 3 * count; k++) {
-        cmd->box[k % 3] = fmin(cmd->box[k % 3], points[k]);
-        cmd->box[3 + k % 3] = fmax(cmd->box[3 + k % 3], points[k]);
-    }
-}
-
-/* The box of the pictures: the mesh at rest, and where handles go that are grabbed there. */
-static void find_box(deform_command *cmd) {
-    const size_t n = (size_t)cmd->m.n_vertices;
-    double *target = app_alloc(3 * n, sizeof *target);
-    memcpy(target, cmd->m.xyz, 3 * n * sizeof *target);
-    for (int c = 0; c < 3; c++) {
-        cmd->box[c] = INFINITY;
-        cmd->box[3 + c] = -INFINITY;
-    }
-    extend_box(cmd, target, n);
-    for (size_t s = 0; s < cmd->script.n_steps; s++) {
-        const script_step *step = &cmd->script.steps[s];
-        const script_handle *h = handle_of(cmd, step);
-        const sl_int count = h != NULL ? h->count : 0;
-        double *points = app_alloc(3 * (size_t)count, sizeof *points);
-        for (sl_int k = 0; k < count; k++) {
-            memcpy(points + 3 * k, target + 3 * (size_t)h->vertices[k], 3 * sizeof *points);
-        }
-        script_step_apply(step, points, count);
-        for (sl_int k = 0; k < count; k++) {
-            memcpy(target + 3 * (size_t)h->vertices[k], points + 3 * k, 3 * sizeof *points);
-        }
-        extend_box(cmd, points, (size_t)count);
-        free(points);
-    }
-    free(target);
-}
-
 static void check_options(const deform_command *cmd) {
     char message[512];
     if (strcmp(cmd->method, "arap") != 0 && strcmp(cmd->method, "biharmonic") != 0) {
@@ -336,13 +290,15 @@ static void open_command(deform_command *cmd, const char *operand) {
     if (!handle_script_read(&cmd->script, cmd->script_path, &cmd->m, message, sizeof message)) {
         app_die("%s", message);
     }
-    find_box(cmd);
+    if (!handle_script_box(cmd->box, &cmd->script, &cmd->m)) {
+        app_die("out of memory");
+    }
     app_stage("factoring");
-    const double began = now_ms();
+    const double began = app_processor_ms();
     const bool is_arap = strcmp(cmd->method, "arap") == 0;
     app_must(deformer_create(&cmd->d, &cmd->m, is_arap ? DEFORM_ARAP : DEFORM_BIHARMONIC), "factor",
              &cmd->d.stats);
-    const double spent = now_ms() - began;
+    const double spent = app_processor_ms() - began;
     app_progress_end();
     if (!(cmd->d.diameter > 0) || !isfinite(cmd->d.diameter)) {
         app_die("%s: all vertices are at one point, or too far apart", operand);

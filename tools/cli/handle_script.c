@@ -291,3 +291,46 @@ void script_step_apply(const script_step *step, double *points, sl_int count) {
         }
     }
 }
+
+const script_handle *script_step_handle(const handle_script *s, const script_step *step) {
+    return step->action == SCRIPT_FRAME ? NULL : &s->handles[step->handle];
+}
+
+static void extend_box(double box[6], const double *points, size_t count) {
+    for (size_t k = 0; k < 3 * count; k++) {
+        box[k % 3] = fmin(box[k % 3], points[k]);
+        box[3 + k % 3] = fmax(box[3 + k % 3], points[k]);
+    }
+}
+
+bool handle_script_box(double box[6], const handle_script *s, const mesh *m) {
+    const size_t n = (size_t)m->n_vertices;
+    double *target = (double *)malloc((3 * n + 1) * sizeof *target);
+    double *points = (double *)malloc((3 * n + 1) * sizeof *points);
+    if (target == NULL || points == NULL) {
+        free(target);
+        free(points);
+        return false;
+    }
+    memcpy(target, m->xyz, 3 * n * sizeof *target);
+    for (int c = 0; c < 3; c++) {
+        box[c] = HUGE_VAL;
+        box[3 + c] = -HUGE_VAL;
+    }
+    extend_box(box, target, n);
+    for (size_t k = 0; k < s->n_steps; k++) {
+        const script_handle *h = script_step_handle(s, &s->steps[k]);
+        const sl_int count = h != NULL ? h->count : 0;
+        for (sl_int v = 0; v < count; v++) {
+            memcpy(points + 3 * v, target + 3 * (size_t)h->vertices[v], 3 * sizeof *points);
+        }
+        script_step_apply(&s->steps[k], points, count);
+        for (sl_int v = 0; v < count; v++) {
+            memcpy(target + 3 * (size_t)h->vertices[v], points + 3 * v, 3 * sizeof *points);
+        }
+        extend_box(box, points, (size_t)count);
+    }
+    free(target);
+    free(points);
+    return true;
+}

@@ -68,6 +68,16 @@ bool handle_script_read(handle_script *out, const char *path, const mesh *m, cha
 /** Releases the script and makes it empty. */
 void handle_script_free(handle_script *s);
 
+/** The handle of a step; NULL for SCRIPT_FRAME. */
+const script_handle *script_step_handle(const handle_script *s, const script_step *step);
+
+/** A box around the mesh at rest and all places to which the script moves vertices from there.
+ *
+ *  box  [out]  the low corner, then the high one.
+ *  Returns  true; false: out of memory.
+ */
+bool handle_script_box(double box[6], const handle_script *s, const mesh *m);
+
 /** Moves or turns `count` points (x y z each) as a step says. */
 void script_step_apply(const script_step *step, double *points, sl_int count);
 

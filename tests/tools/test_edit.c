@@ -1,0 +1,165 @@
+/* test_edit.c: the command edit, and the system behind it: every edit is followed exactly */
+#define _POSIX_C_SOURCE 200809L
+#include "tests/lib/run_command.h"
+
+#include "tools/cli/edit_system.h"
+#include "tools/geometry/laplacian.h"
+#include "tools/mesh/surface_generator.h"
+
+/* After each edit the factor solves with the present matrix. What the matrix is follows from the
+ * mesh: without springs and pins it is M + t L of the flipped faces. */
+static void every_edit_is_followed(void **state) {
+    (void)state;
+    static const char *const surfaces[] = {"hills:14x13", "sphere:2"};
+    for (int k = 0; k < 2 * EDIT_KINDS; k++) {
+        const edit_kind kind = (edit_kind)(k / 2);
+        mesh m;
+        edit_system e;
+        int ways[EDIT_WAYS] = {0}, edits = 0;
+        assert_true(surface_generate(&m, surfaces[k % 2], NULL, 0));
+        const double edge = mesh_mean_edge_length(&m);
+        edit_system_create(&e, &m, edge * edge, 20, 5);
+        for (int turn = 0; turn < 150; turn++) {
+            entry_changes changes;
+            if (edit_system_edit(&e, kind, &changes)) {
+                ways[edit_system_follow(&e, &changes)]++;
+                edits++;
+                const edit_check check = edit_system_check(&e);
+                assert_true(check.difference < 1e-12 && check.backward_error < 1e-14);
+                assert_true(check.anew_ms >= 0 && check.refactor_ms >= 0);
+            }
+            triplets_free(&changes);
+        }
+        assert_true(edits > 100);
+        assert_int_equal(ways[EDIT_ANEW] > 0, kind == EDIT_FLIP);
+        /* on so small a mesh a pin changes a good part of the factor */
+        assert_true(ways[kind == EDIT_FLIP     ? EDIT_OUTSIDE
+                         : kind == EDIT_WEIGHT ? EDIT_UPDATE
+                                               : EDIT_REACH] > edits / 4);
+        if (kind == EDIT_FLIP) {
+            sl_matrix *want = NULL;
+            assert_true(laplacian_system(&want, &e.faces.m, edge * edge));
+            const sl_csc A = sl_matrix_view(want);
+            for (sl_int j = 0; j < A.n_cols; j++) {
+                for (sl_int p = A.p[j]; p < A.p[j + 1]; p++) {
+                    assert_true(fabs(edited_matrix_get(&e.A, A.i[p], j) - A.x[p]) <
+                                1e-12 * A.x[A.p[j]]);
+                }
+            }
+            sl_matrix_free(want);
+        }
+        edit_system_free(&e);
+        mesh_free(&m);
+    }
+}
+
+/* A change that the factor does not follow is noticed. */
+static void a_missed_edit_is_noticed(void **state) {
+    (void)state;
+    mesh m;
+    edit_system e;
+    entry_changes changes;
+    assert_true(surface_generate(&m, "sphere:2", NULL, 0));
+    edit_system_create(&e, &m, 0.01, 20, 5);
+    assert_true(edit_system_check(&e).difference < 1e-13);
+    assert_true(edit_system_edit(&e, EDIT_WEIGHT, &changes));
+    triplets_free(&changes);
+    assert_true(edit_system_check(&e).difference > 1e-6);
+    edit_system_free(&e);
+    mesh_free(&m);
+}
+
+/* Pins and springs that all went leave the first matrix. */
+static void pins_and_springs_come_and_go(void **state) {
+    (void)state;
+    mesh m;
+    edit_system e;
+    sl_matrix *want = NULL;
+    assert_true(surface_generate(&m, "hills:14x13", NULL, 0));
+    edit_system_create(&e, &m, 0.01, 20, 9);
+    assert_true(laplacian_system(&want, &m, 0.01));
+    const sl_csc A = sl_matrix_view(want);
+    int met = 0;
+    for (int turn = 0; turn < 4000 && met < 10; turn++) {
+        entry_changes changes;
+        const bool is_pin = e.n_pins > 0 || (e.springs.count > 0 && turn % 10 == 0);
+        const edit_kind kind = is_pin ? EDIT_PIN : EDIT_WEIGHT;
+        assert_true(edit_system_edit(&e, kind, &changes));
+        (void)edit_system_follow(&e, &changes);
+        triplets_free(&changes);
+        for (sl_int k = 0; k < e.n_pins; k++) { /* the row of a pin is its diagonal */
+            triplets row = {0, 0, NULL, NULL, NULL};
+            assert_true(edited_matrix_row(&e.A, e.pins[k].vertex, &row) && row.count == 0);
+            triplets_free(&row);
+        }
+        if (e.n_pins == 0 && e.springs.count == 0) {
+            met++;
+            for (sl_int j = 0; j < A.n_cols; j++) {
+                for (sl_int p = A.p[j]; p < A.p[j + 1]; p++) {
+                    assert_true(fabs(edited_matrix_get(&e.A, A.i[p], j) - A.x[p]) <
+                                1e-11 * A.x[A.p[j]]);
+                }
+            }
+        }
+    }
+    assert_true(met == 10);
+    sl_matrix_free(want);
+    edit_system_free(&e);
+    mesh_free(&m);
+}
+
+static void tables_and_plots_are_written(void **state) {
+    (void)state;
+    char words[1300];
+    int status, rows = 0;
+    size_t length;
+    (void)snprintf(words, sizeof words,
+                   "edit hills:15x15 --edits 40 --every 15 --kinds weight,patch,pin,flip --patch 9 "
+                   "--csv %s/e.csv --svg %s/e.svg",
+                   files_folder, files_folder);
+    char *output = run_command(command_edit, words, &status);
+    assert_int_equal(status, 0);
+    assert_non_null(strstr(output, "check      3 new factors"));
+    assert_true(number_after(output, "differ by at most ") < 1e-12);
+    assert_true(number_after(output, "drift at most ") > 0);
+    free(output);
+    char *text = files_get(files_path("e.csv"), &length);
+    for (const char *at = text; *at != '\0'; at++) {
+        rows += *at == '\n';
+    }
+    assert_int_equal(rows, 1 + 40 + 3);
+    assert_non_null(strstr(text, "\n40,check,"));
+    free(text);
+    text = files_get(files_path("e.svg"), &length);
+    assert_true(strncmp(text, "<svg", 4) == 0 && strstr(text, "</svg>\n") != NULL);
+    assert_non_null(strstr(text, "refactorization"));
+    free(text);
+}
+
+static void options_are_checked(void **state) {
+    (void)state;
+    command_says(command_edit, "edit sphere:1 --kinds split", 2, "expected some of weight");
+    command_says(command_edit, "edit sphere:1 --kinds weight,pin,flip,patch,pin", 2, "each once");
+    command_says(command_edit, "edit sphere:1 --kinds weight,,pin", 2, "expected some of weight");
+    command_says(command_edit, "edit sphere:1 --patch 1", 2, "2 or more");
+    command_says(command_edit, "edit sphere:1 --edits 0", 0, "edits      0 in");
+    command_says(command_edit, "edit sphere:2 --every 0", 0, "growth ");
+    command_says(command_edit, "edit sphere:2 --bound 1e-300", 1, "by more than --bound");
+    /* one face: neither flips nor vertices beside the only pin */
+    files_put_text("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    char words[800];
+    (void)snprintf(words, sizeof words, "edit --kinds flip,pin,weight,patch %s",
+                   files_path("one.obj"));
+    command_says(command_edit, words, 0, "no place   for");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_edit_is_followed),
+        cmocka_unit_test(a_missed_edit_is_noticed),
+        cmocka_unit_test(pins_and_springs_come_and_go),
+        cmocka_unit_test(tables_and_plots_are_written),
+        cmocka_unit_test(options_are_checked),
+    };
+    return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
+}
