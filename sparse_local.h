@@ -1,76 +1,78 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5fc0d45c01ea9592
+ * FNV-1a of the lines after this comment, without the license: 6223c11f5aff5378
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     78 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    146 config.h     macros that a user may define before the include, the version, and the integer types
- *    225 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    371 options.h    options of all calls, threads, and the allocator
- *    500 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    642 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    814 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    940 factor.h     the numerical factorization P A P' = L D L'
- *   1143 solve.h      full solves, and the workspace of all solves
- *   1253 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1347 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1459 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1568 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1704 batch.h      many independent solves by one call, distributed over threads
- *   1754 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1932 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2051 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2154 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2289 change.h     a factor that follows small changes of its matrix
- *   2376 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2466 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *     80 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    148 config.h     macros that a user may define before the include, the version, and the integer types
+ *    227 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    373 options.h    options of all calls, threads, and the allocator
+ *    502 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    644 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    816 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    942 factor.h     the numerical factorization P A P' = L D L'
+ *   1145 solve.h      full solves, and the workspace of all solves
+ *   1255 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1349 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1461 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1570 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1706 batch.h      many independent solves by one call, distributed over threads
+ *   1756 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1934 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2053 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2156 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2295 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2413 change.h     a factor that follows small changes of its matrix
+ *   2500 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2590 complex.h    complex Hermitian systems, solved as real ones of twice the size
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2601 base.h   2826 status.h   2887 options.h   2944 alloc.h   3054 hash.h   3184 file_map.h
- *   3280 sort.h   3344 parallel.h
+ *   2725 base.h   2950 status.h   3011 options.h   3068 alloc.h   3178 hash.h   3308 file_map.h
+ *   3404 sort.h   3468 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3377 panel.h   3399 step.h   3435 pivot_rule.h   3502 front.h   3546 pairs.h
- *   3753 inverse_front.h   3825 table.h   3850 simd.h   3891 simd_scalar.h   4009 simd_avx2.h
- *   4193 simd_avx512.h   4295 simd_neon.h   4473 dispatch.h
+ *   3501 panel.h   3523 step.h   3559 pivot_rule.h   3626 front.h   3670 pairs.h
+ *   3877 inverse_front.h   3949 table.h   3974 simd.h   4015 simd_scalar.h   4133 simd_avx2.h
+ *   4317 simd_avx512.h   4419 simd_neon.h   4597 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4553 csc.h   4667 csc_build.h   4801 csc64.h   4872 csc_triangle.h   4938 csc_products.h
- *   5055 permute.h   5121 sum.h   5203 output_file.h   5412 matrix_market.h
+ *   4677 csc.h   4791 csc_build.h   4925 csc64.h   4996 csc_triangle.h   5062 csc_products.h
+ *   5179 permute.h   5245 sum.h   5327 output_file.h   5536 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5858 graph.h   6007 coarsen.h   6256 labels.h   6450 subgraph.h   6645 heap.h   6705 bisect.h
- *   6935 separator.h   7197 mindeg.h   7380 dissect.h   7694 levelset.h   7809 geometric.h
- *   7999 septree.h   8059 metis.h   8208 metis_refined.h   8322 nd.h   8514 compress.h
- *   8635 quotient.h   9049 order.h
+ *   5982 graph.h   6131 coarsen.h   6380 labels.h   6574 subgraph.h   6769 heap.h   6829 bisect.h
+ *   7059 separator.h   7321 mindeg.h   7504 dissect.h   7818 levelset.h   7933 geometric.h
+ *   8123 septree.h   8183 metis.h   8332 metis_refined.h   8446 nd.h   8638 compress.h
+ *   8759 quotient.h   9173 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9297 symbolic_types.h   9333 etree.h   9406 counts.h   9463 supernodes.h   9685 structure.h
- *   9806 schedule.h   9995 symbolic.h  10358 reach.h
+ *   9421 symbolic_types.h   9457 etree.h   9530 counts.h   9587 supernodes.h   9809 structure.h
+ *   9930 schedule.h  10119 symbolic.h  10482 reach.h
  * (factor: the numbers of L and D)
- *  10629 factor_types.h  10943 pivot_search.h  11289 pivoted.h  11357 scatter.h  11515 uplooking.h
- *  11587 null_vectors.h  11911 multifrontal.h  12146 nullspace.h  12332 growth.h
- *  12406 factor_setup.h  12658 factor.h  12858 leftlooking.h  13033 factor_query.h
- *  13166 combination.h
+ *  10753 factor_types.h  11067 pivot_search.h  11413 pivoted.h  11481 scatter.h  11639 uplooking.h
+ *  11711 null_vectors.h  12035 multifrontal.h  12270 nullspace.h  12456 growth.h
+ *  12530 factor_setup.h  12782 factor.h  12982 leftlooking.h  13157 factor_query.h
+ *  13290 combination.h
  * (solve: full and local solves)
- *  13227 region_types.h  13325 work.h  13422 query.h  13596 singular.h  13811 backward.h
- *  13841 sweep.h  14016 compile.h  14209 plan.h  14316 local.h  14466 parts.h  14753 refine.h
- *  14928 refine_local.h  15143 rcond.h  15300 defects.h
+ *  13351 region_types.h  13455 work.h  13552 query.h  13726 singular.h  13941 backward.h
+ *  13971 sweep.h  14146 compile.h  14339 plan.h  14446 local.h  14596 parts.h  14883 refine.h
+ *  15058 refine_local.h  15273 rcond.h  15430 defects.h
  * (inverse: entries of the inverse, regions)
- *  15354 traversal.h  15596 traversal_run.h  15759 row_sets.h  15786 unit_vectors.h
- *  16012 bilinear.h  16189 entries.h  16470 block.h  16710 reserve.h  16900 selected.h
- *  17104 selected_query.h  17206 region_choose.h  17432 region.h
+ *  15484 traversal.h  15726 traversal_run.h  15889 row_sets.h  15916 unit_vectors.h
+ *  16142 bilinear.h  16319 entries.h  16600 block.h  16840 reserve.h  17030 selected.h
+ *  17237 selected_query.h  17339 region_choose.h  17566 region.h
  * (change: a factor that follows changes of its matrix)
- *  17671 update.h  18020 rank.h  18345 edges.h  18499 choose.h  18686 pins.h
+ *  17814 update.h  18163 rank.h  18488 edges.h  18642 choose.h  18829 pins.h
  * (save: factors in files)
- *  19258 format.h  19459 decode.h  19601 check.h  19933 write.h  20134 load.h
+ *  19401 format.h  19688 decode.h  19830 check.h  20162 write.h  20459 load.h  20724 load_inverse.h
+ *  21060 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  20474 batch_solve.h  20683 batch_factor.h  20884 batch_diagonal.h
+ *  21259 batch_solve.h  21468 batch_factor.h  21669 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  21024 hermitian.h  21169 complex_rows.h
+ *  21809 hermitian.h  21954 complex_rows.h
  * (last: undefine every internal macro)
- *  21337 undef.h
+ *  22122 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  21475 multi_rhs.inl.h  21831 kernel_set.inl.h  21833 unit_triangle.inl.h  21866 two_rhs.inl.h
- *  22032 product.inl.h  22160 front.inl.h  22374 inverse_front.inl.h  22659 small_supernode.inl.h
- *  22816 single_rhs.inl.h  23065 change.inl.h
+ *  22260 multi_rhs.inl.h  22616 kernel_set.inl.h  22618 unit_triangle.inl.h  22651 two_rhs.inl.h
+ *  22817 product.inl.h  22945 front.inl.h  23159 inverse_front.inl.h  23444 small_supernode.inl.h
+ *  23601 single_rhs.inl.h  23850 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1970,8 +1972,8 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or a factor of another analysis;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or
+ *           Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.
  *  Threads  exclusive use of Z; runs on the threads that Z was made with.
@@ -2108,9 +2110,9 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or Z
- *           is not of the present F; SL_ERR_UNSUPPORTED: as sl_region_create; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
+ *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED: as sl_region_create;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  *  Example  tests/core/test_region.c
@@ -2164,6 +2166,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_regi
  * with it. A plan of another analysis is refused (SL_ERR_STATE), also if both were loaded from one
  * file.
  *
+ * Calls of saved_set.h save selected inverses and regions too. The calls below read their files and
+ * leave those out.
+ *
  * A loaded factor can be refactored; the first refactorization allocates the memory of its fronts.
  * A mapped one is immutable, so that refactorizations give SL_ERR_STATE. */
 
@@ -2176,7 +2181,8 @@ typedef enum sl_load_checks {
     /* nothing else is checked: for files that nobody else can write. A forged or damaged file may
      * crash later calls */
     SL_LOAD_TRUSTED,
-    /* as SL_LOAD_CHECKED, and the checksums of all sections: no byte has changed by accident */
+    /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
+     * by accident */
     SL_LOAD_VERIFIED
 } sl_load_checks;
 
@@ -2285,6 +2291,124 @@ SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, co
  */
 SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
                                             sl_load_checks checks, const sl_options *opt);
+
+/* src/public/saved_set.h: a factor with its selected inverse and regions in one file or block of memory */
+
+/* Regions and selected inverses take longer to make than to read. The calls below save them
+ * together with their factor. Without them, the file is the same as that of sl_save_file. */
+
+/** What one file holds. The caller fills one in to save his objects; a load fills in new ones,
+ *  which sl_saved_set_free releases. */
+typedef struct sl_saved_set {
+    sl_symbolic *symbolic;
+    sl_factor *factor;     /* over symbolic; NULL: none */
+    sl_selected *selected; /* of the present numbers of factor, or alone; NULL: none */
+    sl_region **regions;   /* n_regions, of the present numbers of factor; NULL if n_regions is 0 */
+    sl_int n_regions;
+    sl_allocator allocator; /* of the array regions; set by loads, not read by saves */
+} sl_saved_set;
+
+/** The bytes that a set takes when it is saved.
+ *
+ *  bytes  [out]  a multiple of 64.
+ *  set    [in]   a selected inverse may be saved without a factor; regions may not. The same region
+ *                may be given more than once.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
+ *           SL_ERR_STATE: as sl_save_bytes, or a selected inverse or region that is of another
+ *           analysis or not of the present numbers of factor; SL_ERR_TOO_LARGE.
+ *  Cost     O(1 + n_regions).
+ *  Threads  reads the objects.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set);
+
+/** Saves a set in the caller's memory. The same objects give the same bytes.
+ *
+ *  memory, bytes  [out]  as in sl_save_memory, at least what sl_save_set_bytes gives.
+ *  set            [in]   as in sl_save_set_bytes.
+ *  Returns  as sl_save_set_bytes; SL_ERR_ARGUMENT: also if memory is too small.
+ *  Cost     reads the objects twice.
+ *  Threads  reads the objects.
+ *  Example  tests/core/test_saved_set.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_save_set_memory(void *memory, size_t bytes,
+                                                   const sl_saved_set *set);
+
+/** Saves a set in a file, which is replaced as by sl_save_file.
+ *
+ *  path  [in]  the name of the file.
+ *  set   [in]  as in sl_save_set_bytes.
+ *  opt   [in]  allocator; may be NULL.
+ *  Returns  as sl_save_set_bytes; SL_ERR_IO; SL_ERR_MEMORY.
+ *  Cost     reads the objects twice; waits until the file is on its device.
+ *  Threads  reads the objects.
+ *  Example  tests/core/test_saved_set.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
+                                                 const sl_options *opt);
+
+/** Creates all objects that memory holds, as copies.
+ *
+ *  Selected inverse and regions are those of the loaded factor: they have the bits of the saved
+ *  ones, and plans in the regions solve with it. They can be refactored with it. A selected inverse
+ *  that was saved without a factor answers queries and can be refactored; sl_region_create refuses
+ *  it.
+ *
+ *  set     [out]  the objects; all zero on error. Release with sl_saved_set_free.
+ *  memory, bytes, checks  [in]  as in sl_load_memory.
+ *  opt     [in]   allocator, threads, isa; may be NULL. threads are those of refactorizations.
+ *  Returns  as sl_load_memory.
+ *  Cost     the copy, and checks as in sl_load_memory, in O(supernodes) for the selected inverse
+ *           and in O(roots and rows of the boundary, log n each, and rows below the roots) for the
+ *           regions. Never allocates more than 8 times `bytes`, whatever the memory contains.
+ *  Threads  any number of calls at once.
+ *  Example  tests/core/test_saved_set.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_load_set_memory(sl_saved_set *set, const void *memory,
+                                                   size_t bytes, sl_load_checks checks,
+                                                   const sl_options *opt);
+
+/** sl_load_set_memory from a file, which is closed when the call returns.
+ *
+ *  path  [in]  the file.
+ *  Arguments, status, cost and threads otherwise as in sl_load_set_memory; SL_ERR_IO: also if the
+ *  file cannot be read.
+ *  Example  tests/core/test_saved_set.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_load_set_file(sl_saved_set *set, const char *path,
+                                                 sl_load_checks checks, const sl_options *opt);
+
+/** Creates objects whose numbers are those in memory, without a copy.
+ *
+ *  All of them are immutable: sl_selected_refactor and sl_region_refactor give SL_ERR_STATE, as
+ *  refactorizations do.
+ *
+ *  memory  [in]  as in sl_map_memory: borrowed, aligned to 64 bytes.
+ *  set, bytes, checks, opt  as in sl_load_set_memory; isa only, threads are those of the inverse.
+ *  Returns  as sl_map_memory.
+ *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
+ *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
+ *           the boundary and each subtree.
+ *  Threads  any number of calls at once.
+ *  Example  tests/core/test_saved_set.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_map_set_memory(sl_saved_set *set, const void *memory,
+                                                  size_t bytes, sl_load_checks checks,
+                                                  const sl_options *opt);
+
+/** sl_map_set_memory of a file that is mapped into memory as by sl_map_file. The file is unmapped
+ *  when the analysis is released.
+ *
+ *  path  [in]  the file.
+ *  Arguments, status, cost and threads otherwise as in sl_map_set_memory; SL_ERR_IO and
+ *  SL_ERR_UNSUPPORTED also as in sl_map_file.
+ *  Example  tests/core/test_saved_set.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_map_set_file(sl_saved_set *set, const char *path,
+                                                sl_load_checks checks, const sl_options *opt);
+
+/** Releases the objects of a set that a load filled in, then sets it to all zero. Objects that the
+ *  caller keeps he takes out before, by setting their pointers to NULL. NULL is allowed. */
+SL_API void sl_saved_set_free(sl_saved_set *set);
 
 /* src/public/change.h: a factor that follows small changes of its matrix */
 
@@ -13240,6 +13364,8 @@ struct sl_region {
   sl_off *begin;
   double *Z;
   int is_copied;
+  int is_mapped;
+  int is_immutable;
   double seconds;
   size_t bytes;
 };
@@ -13262,20 +13388,24 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
   return step;
 }
 
-static void sli_region_layout(sl_region *R, sli_block *b) {
-  const sl_int rows = R->extent.n_rows;
+static sl_off sli_region_entries(sl_int rows) {
   sl_off size = 0;
   sl_int first;
+  for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+    size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+  }
+  return size;
+}
+
+static void sli_region_layout(sl_region *R, sli_block *b) {
+  const sl_int rows = R->extent.n_rows;
   (void)sli_take(b, 1, sizeof(sl_region));
   R->roots = SLI_TAKE(b, sl_int, R->extent.n_roots);
   R->rows = SLI_TAKE(b, sl_int, rows);
   R->requested = SLI_TAKE(b, sl_int, rows);
   R->relative = SLI_TAKE(b, sl_int, rows);
   R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
-  for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-    size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
-  }
-  R->Z = SLI_TAKE(b, double, size);
+  R->Z = R->is_mapped ? R->Z : SLI_TAKE(b, double, sli_region_entries(rows));
   R->bytes = b->used;
 }
 
@@ -16907,6 +17037,8 @@ struct sl_selected {
   sli_traversal traversal;
   sl_off *begin;
   double *Z;
+  int is_mapped;
+  int is_immutable;
   double seconds;
   size_t bytes;
 };
@@ -17078,9 +17210,10 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
   if (Z == NULL || F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  return F->is_valid && sli_factor_is_over(F, Z->traversal.S, Z->analysis)
-         ? sli_selected_fill(Z, F, W)
-         : SL_ERR_STATE;
+  if (!F->is_valid || !sli_factor_is_over(F, Z->traversal.S, Z->analysis) || Z->is_immutable) {
+    return SL_ERR_STATE;
+  }
+  return sli_selected_fill(Z, F, W);
 }
 
 SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
@@ -17096,7 +17229,7 @@ SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
 SL_API void sl_selected_free(sl_selected *Z) {
   if (Z != NULL) {
     const sl_allocator a = Z->allocator;
-    sli_free(&a, Z->Z);
+    sli_free(&a, Z->is_mapped ? NULL : Z->Z);
     sli_free(&a, Z);
   }
 }
@@ -17238,6 +17371,7 @@ SLI_INLINE double sli_choice_cost(const sli_choice *c) {
 static int sli_region_bytes_fit(sl_int boundary, sl_int n_roots, size_t bytes_max) {
   sli_block b = {NULL, 0, 0};
   sl_region R;
+  memset(&R, 0, sizeof R);
   if (boundary == 0 || bytes_max == 0) {
     return 1;
   }
@@ -17431,33 +17565,20 @@ static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *sta
 
 /* src/impl/inverse/region.h: regions: creation, and their part of the inverse by sweeps or a selected inverse */
 
-static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
-  const sl_symbolic *S = c->S;
+static void sli_region_index(sl_region *R) {
+  const sl_symbolic *S = R->S;
   const sl_int n = R->extent.n_rows;
-  sl_int k, i, n_roots = 0, n_rows = 0;
-  R->inside = 0;
-  for (k = 0; k < c->reach.count; k++) {
-    const sli_step *step = &c->steps[k];
-    const sl_int s = S->super_of[step->column];
-    if (c->is_inside[k]) {
-      if (step->up == -1 || !c->is_inside[step->up]) {
-        R->roots[n_roots++] = s;
-        R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
-      }
-      continue;
-    }
-    for (i = 0; i < sli_step_columns(step); i++) {
-      if (c->needed[step->base + i] > 0) {
-        R->rows[n_rows++] = step->column + i;
-      }
-    }
-  }
-  SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == n);
+  sl_int k;
   R->extent.roots = R->roots;
   R->extent.rows = R->rows;
   R->analysis = S->identity;
-  R->identity = sli_hash_ints(R->analysis, R->roots, n_roots);
-  R->identity = sli_hash_ints(R->identity, R->rows, n_rows);
+  R->identity = sli_hash_ints(R->analysis, R->roots, R->extent.n_roots);
+  R->identity = sli_hash_ints(R->identity, R->rows, n);
+  R->inside = 0;
+  for (k = 0; k < R->extent.n_roots; k++) {
+    const sl_int s = R->roots[k];
+    R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
+  }
   R->begin[0] = 0;
   for (k = 0; k < n; k++) {
     R->requested[k] = S->perm[R->rows[k]];
@@ -17468,7 +17589,29 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
     const sl_int width = sli_min(SLI_REGION_COLUMNS, n - k);
     begin[1] = begin[0] + sli_panel_size(width, n - k);
   }
-  memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n)] * sizeof *R->Z);
+}
+
+static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
+  const sl_symbolic *S = c->S;
+  sl_int k, i, n_roots = 0, n_rows = 0;
+  for (k = 0; k < c->reach.count; k++) {
+    const sli_step *step = &c->steps[k];
+    const sl_int s = S->super_of[step->column];
+    if (c->is_inside[k]) {
+      if (step->up == -1 || !c->is_inside[step->up]) {
+        R->roots[n_roots++] = s;
+      }
+      continue;
+    }
+    for (i = 0; i < sli_step_columns(step); i++) {
+      if (c->needed[step->base + i] > 0) {
+        R->rows[n_rows++] = step->column + i;
+      }
+    }
+  }
+  SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == R->extent.n_rows);
+  sli_region_index(R);
+  memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n_rows)] * sizeof *R->Z);
 }
 
 static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_int *set,
@@ -17616,7 +17759,7 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
   if (R == NULL || F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  if (!sli_factor_is_over(F, R->S, R->analysis)) {
+  if (!sli_factor_is_over(F, R->S, R->analysis) || R->is_immutable) {
     return SL_ERR_STATE;
   }
   status = sli_region_check_factor(F, Z);
@@ -19258,7 +19401,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
 #define SLI_READ_VERSION 1
-#define SLI_WRITE_VERSION 1
+#define SLI_WRITE_VERSION 2
+#define SLI_WRITE_VERSION_PLAIN 1
 #define SLI_ORDER_MARK 0x01020304u
 #define SLI_ORDER_MARK_SWAPPED 0x04030201u
 #define SLI_SECTIONS_MAX 64
@@ -19283,8 +19427,19 @@ enum {
   SLI_SECTION_FACTOR = 2,
   SLI_SECTION_PERM = 16,
   SLI_SECTION_D = 64,
-  SLI_FACTOR_SECTIONS = 17
+  SLI_FACTOR_SECTIONS = 17,
+  SLI_SECTION_REGIONS = 96,
+  SLI_SECTION_REGION_LIST,
+  SLI_SECTION_REGION_ROOTS,
+  SLI_SECTION_REGION_ROWS,
+  SLI_SECTION_REGION_Z,
+  SLI_REGION_SECTIONS = 5,
+  SLI_SECTION_SELECTED = 104,
+  SLI_SELECTED_SECTIONS = 4
 };
+
+static const uint32_t sli_region_words[SLI_REGION_SECTIONS] = {8, 8, 4, 4, 8};
+static const uint32_t sli_selected_words[SLI_SELECTED_SECTIONS] = {8, 4, 8, 8};
 
 typedef struct sli_saved_analysis {
   int64_t n, supers, nodes, nnz_input, rows, entries, panels;
@@ -19304,11 +19459,24 @@ typedef struct sli_saved_factor {
   uint64_t reserved[7];
 } sli_saved_factor;
 
+typedef struct sli_saved_part {
+  int64_t count;
+  uint64_t identity[2];
+  int64_t reserved[5];
+} sli_saved_part;
+
+typedef struct sli_saved_region {
+  int64_t roots, rows, is_copied;
+  int64_t reserved[5];
+} sli_saved_region;
+
 typedef struct sli_saved {
   sli_saved_header header;
   sli_section table[SLI_SECTIONS_MAX];
   sli_saved_analysis analysis;
   sli_saved_factor factor;
+  sli_saved_part regions, selected;
+  const sl_saved_set *set;
   const void *data[SLI_SECTIONS_MAX];
   uint64_t used[SLI_SECTIONS_MAX];
   sl_int first_array;
@@ -19400,10 +19568,66 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
 #undef SLI_ADD
 }
 
-static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *F, int has_factor) {
-  const uint64_t limit = UINT64_C(1) << 62;
-  uint64_t at;
-  uint32_t k;
+static void sli_saved_region_bytes(const sli_saved_region *record, uint64_t *bytes) {
+  bytes[0] = sizeof *record;
+  bytes[1] = sli_round_up(4 * (uint64_t)record->roots);
+  bytes[2] = sli_round_up(4 * (uint64_t)record->rows);
+  bytes[3] = 8 * (uint64_t)sli_region_entries((sl_int)record->rows);
+}
+
+static sli_saved_region sli_saved_region_of(const sl_region *R) {
+  sli_saved_region record;
+  memset(&record, 0, sizeof record);
+  record.roots = R->extent.n_roots;
+  record.rows = R->extent.n_rows;
+  record.is_copied = R->is_copied;
+  return record;
+}
+
+static int sli_saved_add_regions(sli_saved *f, const sl_saved_set *set) {
+  const uint32_t first = f->header.sections + 1;
+  sl_int k;
+  int m;
+  f->regions.count = set->n_regions;
+  f->set = set;
+  for (m = 0; m < SLI_REGION_SECTIONS; m++) {
+    sli_saved_add(f, (uint32_t)SLI_SECTION_REGIONS + (uint32_t)m, sli_region_words[m],
+            m == 0 ? &f->regions : NULL, m == 0 ? sizeof f->regions / 8 : 0,
+            m == 0 ? sizeof f->regions / 8 : 0);
+  }
+  for (k = 0; k < set->n_regions; k++) {
+    const sli_saved_region record = sli_saved_region_of(set->regions[k]);
+    uint64_t bytes[SLI_REGION_SECTIONS - 1];
+    sli_saved_region_bytes(&record, bytes);
+    for (m = 0; m < SLI_REGION_SECTIONS - 1; m++) {
+      f->table[first + (uint32_t)m].bytes += bytes[m];
+    }
+    if (f->table[first + 3].bytes >> 62 != 0) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
+  const uint64_t count = (uint64_t)Z->traversal.forest.count, entries = (uint64_t)Z->begin[count];
+  const uint64_t counts[SLI_SELECTED_SECTIONS] = {sizeof f->selected / 8, count, count + 1,
+                          entries};
+  const void *data[SLI_SELECTED_SECTIONS];
+  int m;
+  f->selected.count = (int64_t)count;
+  data[0] = &f->selected;
+  data[1] = Z->traversal.supers;
+  data[2] = Z->begin;
+  data[3] = Z->Z;
+  for (m = 0; m < SLI_SELECTED_SECTIONS; m++) {
+    sli_saved_add(f, (uint32_t)SLI_SECTION_SELECTED + (uint32_t)m, sli_selected_words[m],
+            data[m], counts[m], counts[m]);
+  }
+}
+
+static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
+                 int has_factor) {
   f->header.sections = 0;
   sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
           sizeof f->analysis / 8);
@@ -19411,7 +19635,12 @@ static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *
           has_factor ? sizeof f->factor / 8 : 0);
   sli_saved_add_analysis(f, S);
   sli_saved_add_factor(f, F, has_factor);
-  at = sli_saved_prefix(f);
+}
+
+static int sli_saved_place(sli_saved *f) {
+  const uint64_t limit = UINT64_C(1) << 62;
+  uint64_t at = sli_saved_prefix(f);
+  uint32_t k;
   for (k = 0; k < f->header.sections; k++) {
     f->table[k].offset = at;
     at += sli_round_up(f->table[k].bytes);
@@ -19930,7 +20159,7 @@ static int sli_check_factor(const sl_factor *F) {
        info->positive - positive + (info->negative - negative) <= blocks;
 }
 
-/* src/impl/save/write.h: sl_save_bytes, sl_save_memory, sl_save_file */
+/* src/impl/save/write.h: saves objects in memory or in a file */
 
 static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
   const sl_symbolic_info *info = &S->stats.symbolic;
@@ -20032,27 +20261,99 @@ static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, ui
   }
 }
 
-static sl_status sli_save_prepare(sli_saved *f, const sl_symbolic *S, const sl_factor *F) {
-  sl_factor none;
-  memset(f, 0, sizeof *f);
-  memset(&none, 0, sizeof none);
-  if (S == NULL) {
+static void sli_put_piece(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
+  if (to == NULL) {
+    sli_checksum_add(sum, data, (size_t)bytes);
+  } else {
+    sli_put_filled(to, NULL, data, bytes, sli_round_up(bytes));
+  }
+}
+
+static void sli_put_regions(const sli_saved *f, uint32_t id, sli_sink *to, sli_checksum *sum) {
+  sl_int k;
+  for (k = 0; k < f->set->n_regions; k++) {
+    const sl_region *R = f->set->regions[k];
+    const sli_saved_region record = sli_saved_region_of(R);
+    if (id == SLI_SECTION_REGION_LIST) {
+      sli_put_piece(to, sum, &record, sizeof record);
+    } else if (id == SLI_SECTION_REGION_Z) {
+      sli_put_piece(to, sum, R->Z, 8 * (uint64_t)sli_region_entries(R->extent.n_rows));
+    } else {
+      const int is_roots = id == SLI_SECTION_REGION_ROOTS;
+      sli_put_piece(to, sum, is_roots ? R->extent.roots : R->extent.rows,
+              4 * (uint64_t)(is_roots ? R->extent.n_roots : R->extent.n_rows));
+    }
+  }
+}
+
+static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to, sli_checksum *sum) {
+  const uint32_t id = f->table[k].id;
+  if (id > SLI_SECTION_REGIONS && id < SLI_SECTION_SELECTED) {
+    sli_put_regions(f, id, to, sum);
+  } else {
+    sli_put_filled(to, sum, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+  }
+}
+
+static sl_status sli_save_check(const sl_saved_set *set) {
+  const sl_symbolic *S = set->symbolic;
+  const sl_factor *F = set->factor;
+  const sl_selected *Z = set->selected;
+  sl_int k;
+  if (S == NULL || set->n_regions < 0 ||
+    (set->n_regions > 0 && (F == NULL || set->regions == NULL))) {
     return SL_ERR_ARGUMENT;
   }
-  if (S->is_partial || (F != NULL && (!F->is_valid || !sli_factor_is_over(F, S, S->identity)))) {
+  for (k = 0; k < set->n_regions; k++) {
+    if (set->regions[k] == NULL) {
+      return SL_ERR_ARGUMENT;
+    }
+  }
+  if (S->is_partial || (F != NULL && (!F->is_valid || !sli_factor_is_over(F, S, S->identity))) ||
+    (Z != NULL && (Z->traversal.S != S || !sli_hash_equals(Z->analysis, S->identity) ||
+             (F != NULL && !sli_numbers_are_of(&Z->numbers, F))))) {
     return SL_ERR_STATE;
+  }
+  for (k = 0; k < set->n_regions; k++) {
+    const sl_region *R = set->regions[k];
+    if (R->S != S || !sli_hash_equals(R->analysis, S->identity) || !sli_region_fits(R, F)) {
+      return SL_ERR_STATE;
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
+  const sl_factor *F = set->factor;
+  const sl_status status = sli_save_check(set);
+  sl_factor none;
+  int fits = 1;
+  memset(f, 0, sizeof *f);
+  memset(&none, 0, sizeof none);
+  if (status != SL_OK) {
+    return status;
   }
   memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
   f->header.order_mark = SLI_ORDER_MARK;
   f->header.read_version = SLI_READ_VERSION;
-  f->header.write_version = SLI_WRITE_VERSION;
-  f->analysis = sli_saved_analysis_of(S);
+  f->header.write_version = SLI_WRITE_VERSION_PLAIN;
+  f->analysis = sli_saved_analysis_of(set->symbolic);
   if (F != NULL) {
     f->factor = sli_saved_factor_of(F);
   }
-  return sli_saved_table(f, S, F != NULL ? F : &none, F != NULL) && f->header.bytes <= SIZE_MAX
-         ? SL_OK
-         : SL_ERR_TOO_LARGE;
+  sli_saved_add_base(f, set->symbolic, F != NULL ? F : &none, F != NULL);
+  if (set->n_regions > 0) {
+    f->header.write_version = SLI_WRITE_VERSION;
+    memcpy(f->regions.identity, f->factor.identity, sizeof f->regions.identity);
+    fits = sli_saved_add_regions(f, set);
+  }
+  if (set->selected != NULL) {
+    f->header.write_version = SLI_WRITE_VERSION;
+    f->selected.identity[0] = set->selected->numbers.identity.a;
+    f->selected.identity[1] = set->selected->numbers.identity.b;
+    sli_saved_add_selected(f, set->selected);
+  }
+  return fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX ? SL_OK : SL_ERR_TOO_LARGE;
 }
 
 static void sli_save_write(sli_saved *f, sli_sink *to) {
@@ -20061,7 +20362,7 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
   uint32_t k;
   for (k = 0; k < f->header.sections; k++) {
     sli_checksum sum = sli_checksum_begin();
-    sli_put_filled(NULL, &sum, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+    sli_put_section(f, k, NULL, &sum);
     f->table[k].checksum = sli_checksum_end(&sum);
   }
   memset(prefix, 0, sizeof prefix);
@@ -20071,28 +20372,27 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
   memcpy(prefix, &f->header, sizeof f->header);
   sli_put(to, prefix, size);
   for (k = 0; k < f->header.sections; k++) {
-    sli_put_filled(to, NULL, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+    sli_put_section(f, k, to, NULL);
   }
 }
 
-SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
+SL_API sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set) {
   sli_saved f;
   sl_status status;
-  if (bytes == NULL) {
+  if (bytes == NULL || set == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_save_prepare(&f, S, F);
+  status = sli_save_prepare(&f, set);
   if (status == SL_OK) {
     *bytes = (size_t)f.header.bytes;
   }
   return status;
 }
 
-SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
-                const sl_factor *F) {
+SL_API sl_status sl_save_set_memory(void *memory, size_t bytes, const sl_saved_set *set) {
   sli_saved f;
   sli_sink to;
-  sl_status status = sli_save_prepare(&f, S, F);
+  sl_status status = set == NULL ? SL_ERR_ARGUMENT : sli_save_prepare(&f, set);
   if (status == SL_OK && (memory == NULL || bytes < f.header.bytes)) {
     status = SL_ERR_ARGUMENT;
   }
@@ -20105,18 +20405,18 @@ SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S
   return status;
 }
 
-SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
-                const sl_options *opt) {
+SL_API sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
+                  const sl_options *opt) {
   const int saved = errno;
   const sl_allocator a = sli_allocator(opt);
   sli_output output;
   sli_saved f;
   sli_sink to;
   sl_status status;
-  if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+  if (path == NULL || set == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_save_prepare(&f, S, F);
+  status = sli_save_prepare(&f, set);
   status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
   if (status == SL_OK) {
     int complete;
@@ -20131,7 +20431,32 @@ SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_f
   return status;
 }
 
-/* src/impl/save/load.h: creates an analysis and a factor from saved bytes, as copies or in place */
+static sl_saved_set sli_saved_pair(const sl_symbolic *S, const sl_factor *F) {
+  sl_saved_set set;
+  memset(&set, 0, sizeof set);
+  set.symbolic = (sl_symbolic *)(uintptr_t)S;
+  set.factor = (sl_factor *)(uintptr_t)F;
+  return set;
+}
+
+SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
+  const sl_saved_set set = sli_saved_pair(S, F);
+  return sl_save_set_bytes(bytes, &set);
+}
+
+SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
+                const sl_factor *F) {
+  const sl_saved_set set = sli_saved_pair(S, F);
+  return sl_save_set_memory(memory, bytes, &set);
+}
+
+SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
+                const sl_options *opt) {
+  const sl_saved_set set = sli_saved_pair(S, F);
+  return sl_save_set_file(path, &set, opt);
+}
+
+/* src/impl/save/load.h: reads the table, an analysis and a factor from saved bytes, as copies or in place */
 
 typedef struct sli_reading {
   const unsigned char *memory;
@@ -20146,6 +20471,7 @@ typedef struct sli_reading {
   sl_symbolic S;
   sl_factor F;
   int has_factor;
+  uint32_t first_region, first_selected;
 } sli_reading;
 
 static sl_status sli_get(sli_reading *r, void *to, uint64_t bytes) {
@@ -20188,12 +20514,26 @@ static sl_status sli_read_table(sli_reading *r) {
   return SL_OK;
 }
 
-static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) {
-  const uint32_t known = expected->header.sections;
+static int sli_sections_are(const sli_saved *f, uint32_t k, uint32_t id, const uint32_t *words,
+              uint32_t count) {
+  uint32_t m;
+  if (f->header.sections - k < count) {
+    return 0;
+  }
+  for (m = 0; m < count; m++) {
+    if (f->table[k + m].id != id + m || f->table[k + m].word != words[m]) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
+                 uint32_t *first_region, uint32_t *first_selected) {
+  uint32_t k, known = expected->header.sections;
   uint64_t at = sli_saved_prefix(f);
-  uint32_t k;
-  if (f->header.sections < known ||
-    (f->header.sections > known && f->header.write_version <= SLI_WRITE_VERSION)) {
+  *first_region = *first_selected = 0;
+  if (f->header.sections < known) {
     return 0;
   }
   for (k = 0; k < f->header.sections; k++) {
@@ -20207,7 +20547,20 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) 
       return 0;
     }
   }
-  return at == f->header.bytes;
+  if (f->header.write_version > SLI_WRITE_VERSION_PLAIN) {
+    if (sli_sections_are(f, known, SLI_SECTION_REGIONS, sli_region_words,
+               SLI_REGION_SECTIONS)) {
+      *first_region = known;
+      known += SLI_REGION_SECTIONS;
+    }
+    if (sli_sections_are(f, known, SLI_SECTION_SELECTED, sli_selected_words,
+               SLI_SELECTED_SECTIONS)) {
+      *first_selected = known;
+      known += SLI_SELECTED_SECTIONS;
+    }
+  }
+  return at == f->header.bytes &&
+       (f->header.sections == known || f->header.write_version > SLI_WRITE_VERSION);
 }
 
 static int sli_section_accept(const sli_reading *r, sl_int k, void *data, int always) {
@@ -20254,8 +20607,9 @@ static sl_status sli_read_front(sli_reading *r) {
   memset(&expected, 0, sizeof expected);
   expected.analysis = f->analysis;
   expected.factor = f->factor;
-  if (!sli_saved_table(&expected, &r->S, &r->F, r->has_factor) ||
-    !sli_table_is_expected(f, &expected)) {
+  sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
+  if (!sli_saved_place(&expected) ||
+    !sli_table_is_expected(f, &expected, &r->first_region, &r->first_selected)) {
     return SL_ERR_IO;
   }
   f->first_array = expected.first_array;
@@ -20367,107 +20721,538 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   return SL_OK;
 }
 
-static sl_status sli_read(sli_reading *r, sl_symbolic **S, sl_factor **F) {
-  sl_symbolic *found = NULL;
+/* src/impl/save/load_inverse.h: reads and checks a saved selected inverse and saved regions */
+
+static sl_status sli_read_section(sli_reading *r, uint32_t k, void **data) {
+  const uint64_t bytes = sli_round_up(r->saved.table[k].bytes);
+  sl_status status = SL_OK;
+  SLI_ASSERT(r->at == r->saved.table[k].offset);
+  if (r->is_mapped) {
+    *data = (void *)(uintptr_t)(r->memory + r->at);
+    r->at += bytes;
+  } else if (bytes > 0) {
+    status = sli_get(r, *data, bytes);
+  }
+  return status == SL_OK && !sli_section_accept(r, (sl_int)k, *data, 0) ? SL_ERR_IO : status;
+}
+
+static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S, const sl_factor *F,
+                 int64_t most, sli_saved_part *part) {
+  const sl_status status = sli_read_numbers(r, (sl_int)k, part, sizeof *part);
+  if (status != SL_OK) {
+    return status;
+  }
+  return S->n_pairs == 0 && sli_count_is_valid(part->count, most) &&
+           (F == NULL || (part->identity[0] == F->identity.a &&
+                  part->identity[1] == F->identity.b))
+         ? SL_OK
+         : SL_ERR_IO;
+}
+
+static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const sl_off *begin,
+                sl_int count) {
+  sl_int k;
+  if (!sli_check_columns(supers, count, S->n_supers) || begin[0] != 0) {
+    return 0;
+  }
+  for (k = 0; k < count; k++) {
+    const sl_int s = supers[k], up = S->super_parent[s];
+    const sl_int at = up == -1 ? k : sli_lower_bound(supers, count, up);
+    if (at == count || (up != -1 && supers[at] != up) ||
+      begin[k + 1] - begin[k] != S->panel_begin[s + 1] - S->panel_begin[s]) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static sl_status sli_selected_of_list(sl_selected **out, sl_selected *draft, const sl_int *supers,
+                    uint64_t *seeds) {
+  const sl_symbolic *S = draft->traversal.S;
+  const sl_int count = draft->traversal.forest.count;
+  sl_status status;
+  sl_int k;
+  for (k = 0; k < count; k++) {
+    seeds[k] = sli_keyed(S->super_first[supers[k]], 0);
+  }
+  status = sli_selected_plan(out, draft, count < S->n_supers ? seeds : NULL, count);
+  if (status == SL_OK) {
+    status = sli_selected_alloc_values(*out);
+  }
+  return status;
+}
+
+static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, sl_int *supers,
+                    sl_off *begin) {
+  draft->traversal.supers = supers;
+  draft->begin = begin;
+  draft->is_mapped = 1;
+  draft->bytes = sizeof *draft + sizeof(double) * (size_t)begin[draft->traversal.forest.count];
+  *out = (sl_selected *)sli_alloc(&draft->allocator, sizeof *draft);
+  if (*out == NULL) {
+    return SL_ERR_MEMORY;
+  }
+  **out = *draft;
+  return SL_OK;
+}
+
+static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_selected *draft,
+                      sli_block *lists) {
+  const uint32_t k = r->first_selected;
+  const sl_int count = draft->traversal.forest.count;
+  const uint64_t bytes = r->saved.table[k + 3].bytes;
+  void *supers = lists == NULL ? NULL : SLI_TAKE(lists, sl_int, count);
+  void *begin = lists == NULL ? NULL : SLI_TAKE(lists, sl_off, (uint64_t)count + 1);
+  uint64_t *seeds = lists == NULL ? NULL : SLI_TAKE(lists, uint64_t, count);
+  const sl_off *ends;
+  void *values = NULL;
+  sl_status status = sli_read_section(r, k + 1, &supers);
+  status = status == SL_OK ? sli_read_section(r, k + 2, &begin) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  ends = (const sl_off *)begin;
+  if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
+    (r->checks != SL_LOAD_TRUSTED &&
+     !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
+    return SL_ERR_IO;
+  }
+  status = r->is_mapped
+         ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
+         : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
+  if (status == SL_OK) {
+    values = (*out)->Z;
+    status = sli_read_section(r, k + 3, &values);
+    (*out)->Z = (double *)values;
+  }
+  return status;
+}
+
+static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const sl_factor *F,
+                   sl_selected **out) {
+  const sli_section *table = &r->saved.table[r->first_selected];
+  sli_block lists = {NULL, 0, 0};
+  sli_saved_part part;
+  sl_selected draft;
+  sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
+  int pass;
+  if (status != SL_OK || table[1].bytes != 4 * (uint64_t)part.count ||
+    table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
+    return status != SL_OK ? status : SL_ERR_IO;
+  }
+  memset(&draft, 0, sizeof draft);
+  draft.allocator = r->allocator;
+  draft.analysis = S->identity;
+  draft.is_immutable = r->is_mapped || S->is_partial;
+  if (r->opt != NULL) {
+    draft.threads = r->opt->threads;
+  }
+  if (F != NULL) {
+    draft.numbers = sli_numbers_of(F);
+  } else {
+    draft.numbers.identity.a = part.identity[0];
+    draft.numbers.identity.b = part.identity[1];
+  }
+  draft.traversal = sli_traversal_of(S, (sl_int)part.count, sli_workers(&draft.threads));
+  if (r->is_mapped) {
+    return sli_read_selected_arrays(r, out, &draft, NULL);
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    if (pass == 0) {
+      (void)SLI_TAKE(&lists, sl_int, part.count);
+      (void)SLI_TAKE(&lists, sl_off, (uint64_t)part.count + 1);
+      (void)SLI_TAKE(&lists, uint64_t, part.count);
+      status = sli_block_alloc(&lists, &r->allocator);
+    } else {
+      status = sli_read_selected_arrays(r, out, &draft, &lists);
+    }
+  }
+  sli_free(&r->allocator, lists.base);
+  return status;
+}
+
+typedef struct sli_saved_regions {
+  sl_int count;
+  void *list, *roots, *rows;
+} sli_saved_regions;
+
+static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
+               const sli_saved_regions *q) {
+  const sli_section *table = &r->saved.table[r->first_region];
+  const sli_saved_region *record = (const sli_saved_region *)q->list;
+  uint64_t left[SLI_REGION_SECTIONS - 1], bytes[SLI_REGION_SECTIONS - 1];
+  sl_int k;
+  int m;
+  for (m = 0; m < SLI_REGION_SECTIONS - 1; m++) {
+    left[m] = table[m + 1].bytes;
+  }
+  for (k = 0; k < q->count; k++, record++) {
+    if (!sli_count_is_valid(record->roots, S->n_supers) ||
+      !sli_count_is_valid(record->rows, S->n) || !sli_count_is_valid(record->is_copied, 1) ||
+      4 * (uint64_t)record->rows > left[2]) {
+      return 0;
+    }
+    sli_saved_region_bytes(record, bytes);
+    for (m = 0; m < SLI_REGION_SECTIONS - 1; m++) {
+      if (bytes[m] > left[m]) {
+        return 0;
+      }
+      left[m] -= bytes[m];
+    }
+  }
+  return left[0] == 0 && left[1] == 0 && left[2] == 0 && left[3] == 0;
+}
+
+static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *extent) {
+  sl_int k, i;
+  if (!sli_check_columns(extent->roots, extent->n_roots, S->n_supers) ||
+    !sli_check_columns(extent->rows, extent->n_rows, S->n)) {
+    return 0;
+  }
+  for (k = 0; k < extent->n_rows; k++) {
+    if (sli_extent_find(S, extent, S->super_of[extent->rows[k]]) != -1) {
+      return 0;
+    }
+  }
+  for (k = 0; k < extent->n_roots; k++) {
+    const sl_int s = extent->roots[k], *below = S->rows + S->rows_begin[s];
+    if (k > 0 && S->first_descendant[s] <= extent->roots[k - 1]) {
+      return 0;
+    }
+    for (i = 0; i < S->steps[s].below; i++) {
+      if (sli_extent_boundary(extent, below[i]) == -1) {
+        return 0;
+      }
+    }
+  }
+  return 1;
+}
+
+static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
+                   const sli_saved_region *record, const sl_int *roots,
+                   const sl_int *rows, sl_region **out) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_region draft;
+  int pass;
+  memset(&draft, 0, sizeof draft);
+  draft.allocator = r->allocator;
+  draft.S = F->S;
+  draft.numbers = sli_numbers_of(F);
+  draft.extent.n_roots = (sl_int)record->roots;
+  draft.extent.n_rows = (sl_int)record->rows;
+  draft.extent.roots = roots;
+  draft.extent.rows = rows;
+  draft.is_copied = (int)record->is_copied;
+  draft.is_mapped = r->is_mapped;
+  draft.is_immutable = r->is_mapped || F->S->is_partial;
+  if (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent)) {
+    return SL_ERR_IO;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_region_layout(&draft, &b);
+    status = pass == 0 ? sli_block_alloc(&b, &r->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    memcpy(draft.roots, roots, (size_t)draft.extent.n_roots * sizeof *roots);
+    memcpy(draft.rows, rows, (size_t)draft.extent.n_rows * sizeof *rows);
+    sli_region_index(&draft);
+    *out = (sl_region *)(void *)b.base;
+    **out = draft;
+  }
+  return status;
+}
+
+static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *set) {
+  const uint32_t k = r->first_region + SLI_REGION_SECTIONS - 1;
+  const sli_section *section = &r->saved.table[k];
+  const int verifies = r->checks == SL_LOAD_VERIFIED;
+  sli_checksum sum = sli_checksum_begin();
+  sl_int m;
+  for (m = 0; m < set->n_regions; m++) {
+    sl_region *R = set->regions[m];
+    const size_t bytes =
+      sizeof(double) * (size_t)R->begin[sli_region_chunks(R->extent.n_rows)];
+    if (r->is_mapped) {
+      R->Z = (double *)(uintptr_t)(r->memory + r->at);
+      R->bytes += bytes;
+      r->at += bytes;
+    } else if (bytes > 0) {
+      const sl_status status = sli_get(r, R->Z, bytes);
+      if (status != SL_OK) {
+        return status;
+      }
+    }
+    if (verifies) {
+      sli_checksum_add(&sum, R->Z, bytes);
+    }
+    if (r->swapped) {
+      sli_swap_words(R->Z, section->word, bytes);
+    }
+  }
+  return verifies && sli_checksum_end(&sum) != section->checksum ? SL_ERR_IO : SL_OK;
+}
+
+static sl_status sli_read_regions_lists(sli_reading *r, const sl_factor *F, sli_saved_regions *q,
+                    sl_saved_set *set) {
+  const uint32_t first = r->first_region;
+  const sli_saved_region *record;
+  const sl_int *roots, *rows;
+  sl_status status = sli_read_section(r, first + 1, &q->list);
+  sl_int k;
+  status = status == SL_OK ? sli_read_section(r, first + 2, &q->roots) : status;
+  status = status == SL_OK ? sli_read_section(r, first + 3, &q->rows) : status;
+  if (status != SL_OK || !sli_check_records(r, F->S, q)) {
+    return status != SL_OK ? status : SL_ERR_IO;
+  }
+  set->regions = (sl_region **)sli_alloc(&r->allocator, (size_t)q->count * sizeof *set->regions);
+  if (set->regions == NULL) {
+    return SL_ERR_MEMORY;
+  }
+  set->allocator = r->allocator;
+  record = (const sli_saved_region *)q->list;
+  roots = (const sl_int *)q->roots;
+  rows = (const sl_int *)q->rows;
+  for (k = 0; k < q->count && status == SL_OK; k++, record++) {
+    uint64_t bytes[SLI_REGION_SECTIONS - 1];
+    sli_saved_region_bytes(record, bytes);
+    status = sli_region_of_lists(r, F, record, roots, rows, &set->regions[k]);
+    set->n_regions += status == SL_OK;
+    roots += bytes[1] / sizeof *roots;
+    rows += bytes[2] / sizeof *rows;
+  }
+  return status;
+}
+
+static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_set *set) {
+  const sli_section *table = &r->saved.table[r->first_region];
+  sli_block lists = {NULL, 0, 0};
+  sli_saved_regions q;
+  sli_saved_part part;
+  sl_status status;
+  int pass;
+  memset(&q, 0, sizeof q);
+  if (F == NULL || F->is_centered) {
+    return SL_ERR_IO;
+  }
+  status = sli_read_part(r, r->first_region, F->S, F, INT32_MAX, &part);
+  if (status != SL_OK || part.count == 0 ||
+    table[1].bytes != sizeof(sli_saved_region) * (uint64_t)part.count) {
+    return status != SL_OK ? status : SL_ERR_IO;
+  }
+  q.count = (sl_int)part.count;
+  for (pass = 0; pass < 2 && status == SL_OK && !r->is_mapped; pass++) {
+    q.list = SLI_TAKE(&lists, unsigned char, table[1].bytes);
+    q.roots = SLI_TAKE(&lists, unsigned char, table[2].bytes);
+    q.rows = SLI_TAKE(&lists, unsigned char, table[3].bytes);
+    status = pass == 0 ? sli_block_alloc(&lists, &r->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    status = sli_read_regions_lists(r, F, &q, set);
+  }
+  if (status == SL_OK) {
+    status = sli_read_regions_numbers(r, set);
+  }
+  sli_free(&r->allocator, lists.base);
+  return status;
+}
+
+/* src/impl/save/load_calls.h: loads and maps from memory and files, a factor or a set; sl_saved_set_free */
+
+typedef enum sli_wanted { SLI_WANTS_ANALYSIS, SLI_WANTS_FACTOR, SLI_WANTS_ALL } sli_wanted;
+
+SL_API void sl_saved_set_free(sl_saved_set *set) {
+  sl_int k;
+  if (set == NULL) {
+    return;
+  }
+  for (k = 0; k < set->n_regions && set->regions != NULL; k++) {
+    sl_region_free(set->regions[k]);
+  }
+  if (set->regions != NULL) {
+    sli_free(&set->allocator, set->regions);
+  }
+  sl_selected_free(set->selected);
+  sl_factor_free(set->factor);
+  sl_symbolic_free(set->symbolic);
+  memset(set, 0, sizeof *set);
+}
+
+static sl_status sli_read(sli_reading *r, sl_saved_set *set, sli_wanted wanted) {
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {
     return SL_ERR_UNSUPPORTED;
   }
-  status = status == SL_OK ? sli_read_analysis(r, &found) : status;
-  if (status == SL_OK && F != NULL && r->has_factor) {
-    status = sli_read_factor(r, found, F);
+  status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
+  if (status == SL_OK && wanted >= SLI_WANTS_FACTOR && r->has_factor) {
+    status = sli_read_factor(r, set->symbolic, &set->factor);
   }
-  if (status == SL_OK) {
-    *S = found;
-  } else {
-    sl_symbolic_free(found);
+  if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_region > 0) {
+    status = sli_read_regions(r, set->factor, set);
+  }
+  if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_selected > 0) {
+    status = sli_read_selected(r, set->symbolic, set->factor, &set->selected);
+  }
+  if (status != SL_OK) {
+    sl_saved_set_free(set);
   }
   return status;
 }
 
-static sl_status sli_read_begin(sli_reading *r, sl_symbolic **S, sl_factor **F,
-                sl_load_checks checks, const sl_options *opt) {
-  memset(r, 0, sizeof *r);
-  if (F != NULL) {
-    *F = NULL;
-  }
-  if (S == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *S = NULL;
-  if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
-    !sli_options_are_valid(opt, SLI_READS_ISA)) {
-    return SL_ERR_ARGUMENT;
-  }
-  r->checks = checks;
-  r->opt = opt;
-  r->allocator = sli_allocator(opt);
-  return SL_OK;
-}
+typedef struct sli_origin {
+  const void *memory;
+  size_t bytes;
+  const char *path;
+  int is_mapped;
+} sli_origin;
 
-static sl_status sli_read_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
-                 sl_load_checks checks, const sl_options *opt, int is_mapped) {
-  sli_reading r;
-  const sl_status status = sli_read_begin(&r, S, F, checks, opt);
-  if (status != SL_OK || memory == NULL || (is_mapped && (uintptr_t)memory % SLI_ALIGN != 0)) {
-    return SL_ERR_ARGUMENT;
+static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set,
+                 sli_wanted wanted) {
+  sl_status status = SL_ERR_IO;
+  r->file = fopen(path, "rb");
+  if (r->file != NULL) {
+    r->size = sli_file_size(r->file);
+    status = sli_read(r, set, wanted);
+    fclose(r->file);
   }
-  r.memory = (const unsigned char *)memory;
-  r.size = bytes;
-  r.is_mapped = is_mapped;
-  return sli_read(&r, S, F);
-}
-
-SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
-                sl_load_checks checks, const sl_options *opt) {
-  return sli_read_memory(S, F, memory, bytes, checks, opt, 0);
-}
-
-SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
-                 sl_load_checks checks, const sl_options *opt) {
-  return sli_read_memory(S, F, memory, bytes, checks, opt, 1);
-}
-
-SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
-                sl_load_checks checks, const sl_options *opt) {
-  const int saved = errno;
-  sli_reading r;
-  sl_status status = sli_read_begin(&r, S, F, checks, opt);
-  if (status != SL_OK || path == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  r.file = fopen(path, "rb");
-  if (r.file == NULL) {
-    status = SL_ERR_IO;
-  } else {
-    r.size = sli_file_size(r.file);
-    status = sli_read(&r, S, F);
-    fclose(r.file);
-  }
-  errno = saved;
   return status;
 }
 
-SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
-               sl_load_checks checks, const sl_options *opt) {
-  const int saved = errno;
+static sl_status sli_read_memory(sli_reading *r, const void *memory, size_t bytes,
+                 sl_saved_set *set, sli_wanted wanted) {
+  r->memory = (const unsigned char *)memory;
+  r->size = bytes;
+  return sli_read(r, set, wanted);
+}
+
+static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *set,
+                sli_wanted wanted) {
   sli_mapping map;
-  sli_reading r;
-  sl_status status = sli_read_begin(&r, S, F, checks, opt);
-  if (status != SL_OK || path == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_map(path, &map);
+  sl_status status = sli_map(path, &map);
   if (status == SL_OK) {
-    status = sli_read_memory(S, F, map.bytes, map.size, checks, opt, 1);
+    status = sli_read_memory(r, map.bytes, map.size, set, wanted);
     if (status == SL_OK) {
-      (*S)->mapping = map;
+      set->symbolic->mapping = map;
     } else {
       sli_unmap(&map);
     }
   }
+  return status;
+}
+
+static sl_status sli_read_from(const sli_origin *from, sl_saved_set *set, sli_wanted wanted,
+                 sl_load_checks checks, const sl_options *opt) {
+  const int saved = errno;
+  const int is_file = from->path != NULL;
+  sli_reading r;
+  sl_status status;
+  if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
+    !sli_options_are_valid(opt, SLI_READS_ISA) || (!is_file && from->memory == NULL) ||
+    (!is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0)) {
+    return SL_ERR_ARGUMENT;
+  }
+  memset(&r, 0, sizeof r);
+  r.checks = checks;
+  r.opt = opt;
+  r.allocator = sli_allocator(opt);
+  r.is_mapped = from->is_mapped;
+  if (!is_file) {
+    status = sli_read_memory(&r, from->memory, from->bytes, set, wanted);
+  } else if (from->is_mapped) {
+    status = sli_map_path(&r, from->path, set, wanted);
+  } else {
+    status = sli_read_path(&r, from->path, set, wanted);
+  }
   errno = saved;
   return status;
+}
+
+static sli_origin sli_origin_in_memory(const void *memory, size_t bytes, int is_mapped) {
+  sli_origin from;
+  from.memory = memory;
+  from.bytes = bytes;
+  from.path = NULL;
+  from.is_mapped = is_mapped;
+  return from;
+}
+
+static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
+  sli_origin from = sli_origin_in_memory(NULL, 0, is_mapped);
+  from.path = path;
+  return from;
+}
+
+static sl_status sli_read_pair(const sli_origin *from, sl_symbolic **S, sl_factor **F,
+                 sl_load_checks checks, const sl_options *opt) {
+  const sli_wanted wanted = F != NULL ? SLI_WANTS_FACTOR : SLI_WANTS_ANALYSIS;
+  sl_saved_set set;
+  sl_status status = SL_ERR_ARGUMENT;
+  memset(&set, 0, sizeof set);
+  if (S != NULL) {
+    status = sli_read_from(from, &set, wanted, checks, opt);
+    *S = set.symbolic;
+  }
+  if (F != NULL) {
+    *F = set.factor;
+  }
+  return status;
+}
+
+SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                sl_load_checks checks, const sl_options *opt) {
+  const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
+  return sli_read_pair(&from, S, F, checks, opt);
+}
+
+SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                 sl_load_checks checks, const sl_options *opt) {
+  const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
+  return sli_read_pair(&from, S, F, checks, opt);
+}
+
+SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+                sl_load_checks checks, const sl_options *opt) {
+  const sli_origin from = sli_origin_in_file(path, 0);
+  return sli_read_pair(&from, S, F, checks, opt);
+}
+
+SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+               sl_load_checks checks, const sl_options *opt) {
+  const sli_origin from = sli_origin_in_file(path, 1);
+  return sli_read_pair(&from, S, F, checks, opt);
+}
+
+static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
+                const sl_options *opt) {
+  if (set == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  memset(set, 0, sizeof *set);
+  return sli_read_from(from, set, SLI_WANTS_ALL, checks, opt);
+}
+
+SL_API sl_status sl_load_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                  sl_load_checks checks, const sl_options *opt) {
+  const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
+  return sli_read_set(&from, set, checks, opt);
+}
+
+SL_API sl_status sl_map_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                   sl_load_checks checks, const sl_options *opt) {
+  const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
+  return sli_read_set(&from, set, checks, opt);
+}
+
+SL_API sl_status sl_load_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
+                  const sl_options *opt) {
+  const sli_origin from = sli_origin_in_file(path, 0);
+  return sli_read_set(&from, set, checks, opt);
+}
+
+SL_API sl_status sl_map_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
+                 const sl_options *opt) {
+  const sli_origin from = sli_origin_in_file(path, 1);
+  return sli_read_set(&from, set, checks, opt);
 }
 
 /* batch: many solves, factors and diagonals by one call */

@@ -23,6 +23,7 @@ extern "C" {
 #include "public/selected.h"
 #include "public/region.h"
 #include "public/save.h"
+#include "public/saved_set.h"
 #include "public/change.h"
 #include "public/pins.h"
 #include "public/complex.h"
@@ -151,6 +152,8 @@ extern "C" {
 #include "impl/save/check.h"
 #include "impl/save/write.h"
 #include "impl/save/load.h"
+#include "impl/save/load_inverse.h"
+#include "impl/save/load_calls.h"
 /* batch: many solves, factors and diagonals by one call */
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"

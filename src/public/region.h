@@ -63,9 +63,9 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or Z
- *           is not of the present F; SL_ERR_UNSUPPORTED: as sl_region_create; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
+ *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED: as sl_region_create;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  *  Example  tests/core/test_region.c

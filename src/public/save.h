@@ -15,6 +15,9 @@
  * with it. A plan of another analysis is refused (SL_ERR_STATE), also if both were loaded from one
  * file.
  *
+ * Calls of saved_set.h save selected inverses and regions too. The calls below read their files and
+ * leave those out.
+ *
  * A loaded factor can be refactored; the first refactorization allocates the memory of its fronts.
  * A mapped one is immutable, so that refactorizations give SL_ERR_STATE. */
 
@@ -27,7 +30,8 @@ typedef enum sl_load_checks {
     /* nothing else is checked: for files that nobody else can write. A forged or damaged file may
      * crash later calls */
     SL_LOAD_TRUSTED,
-    /* as SL_LOAD_CHECKED, and the checksums of all sections: no byte has changed by accident */
+    /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
+     * by accident */
     SL_LOAD_VERIFIED
 } sl_load_checks;
 

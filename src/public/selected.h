@@ -44,8 +44,8 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_f
  *  Z      [in,out]  unchanged on error.
  *  F      [in]      a factor over the analysis that Z was made for.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or a factor of another analysis;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or
+ *           Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
  *           memory is mapped already.
  *  Threads  exclusive use of Z; runs on the threads that Z was made with.

@@ -116,6 +116,26 @@ static sl_status save_memory(arguments_t *a) {
     return status == SL_OK ? saved : status;
 }
 
+/* The set of an analysis and a factor of the arguments. */
+static sl_saved_set saved_set(arguments_t *a) {
+    sl_saved_set set;
+    memset(&set, 0, sizeof set);
+    set.symbolic = (sl_symbolic *)(uintptr_t)a->S;
+    set.factor = a->F;
+    return set;
+}
+
+static sl_status save_set_bytes(arguments_t *a) {
+    const sl_saved_set set = saved_set(a);
+    size_t bytes = 0;
+    return sl_save_set_bytes(&bytes, &set);
+}
+
+static sl_status save_set_file(arguments_t *a) {
+    const sl_saved_set set = saved_set(a);
+    return sl_save_set_file(NOWHERE, &set, NULL);
+}
+
 static sl_status batch_diagonal(arguments_t *a) {
     const sl_factor *F = a->F;
     return sl_batch_diagonal(&F, 1, a->X, a->ldx, a->xset, a->nx, NULL, NULL, NULL, &a->stats);
@@ -212,6 +232,8 @@ static const struct {
     {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
+    {"sl_save_set_bytes", save_set_bytes, S_ | FAILED_ | OTHER_},
+    {"sl_save_set_file", save_set_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
     {"sl_batch_diagonal", batch_diagonal, F_ | FAILED_ | X_ | LDX_ | XSET_},
     {"sl_work_reserve_factor", reserve_factor, W_ | F_ | NRHS_},

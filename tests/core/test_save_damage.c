@@ -190,7 +190,7 @@ static saved_t later_file(const saved_t *m) {
     saved_put32(entry + SAVED_WORD, 1);
     saved_put64(entry + SAVED_OFFSET, m->size + moved);
     saved_put64(entry + SAVED_LENGTH, 100);
-    saved_put32(k.bytes + SAVED_WRITE, 2);
+    saved_put32(k.bytes + SAVED_WRITE, SAVED_LATER);
     saved_put32(k.bytes + SAVED_SECTIONS, SAVED_KNOWN + 1);
     saved_put64(k.bytes + SAVED_BYTES, k.size);
     saved_repair(k.bytes, k.size);
@@ -213,9 +213,11 @@ static void later_versions_are_read_only_or_refused(void **state) {
         sl_factor_free(F);
         sl_symbolic_free(S);
     }
-    saved_put32(k.bytes + SAVED_WRITE, 1); /* this version has no such section */
-    saved_repair(k.bytes, k.size);
-    assert_int_equal(attempt(sl_load_memory, &k, k.size, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
+    for (uint32_t version = 0; version < SAVED_LATER; version++) { /* have no such section */
+        saved_put32(k.bytes + SAVED_WRITE, version);
+        saved_repair(k.bytes, k.size);
+        assert_int_equal(attempt(sl_load_memory, &k, k.size, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
+    }
     for (uint32_t version = 0; version < 4; version++) {
         saved_put32(m.bytes + SAVED_READ, version);
         saved_repair(m.bytes, m.size);

@@ -118,6 +118,23 @@ static inline sl_status option_load(option_fixture_t *f, const sl_options *opt) 
     return status == SL_ERR_UNSUPPORTED ? SL_OK : status;
 }
 
+static inline sl_status option_load_set(option_fixture_t *f, const sl_options *opt) {
+    static const char nothing[64];
+    sl_saved_set set;
+    set.symbolic = OPTION_GARBAGE(sl_symbolic);
+    const sl_status status = sl_load_set_memory(&set, nothing, 64, SL_LOAD_CHECKED, opt);
+    assert_null(set.symbolic);
+    return status == SL_ERR_UNSUPPORTED ? SL_OK : status;
+}
+
+static inline sl_status option_save_set(option_fixture_t *f, const sl_options *opt) {
+    sl_saved_set set;
+    memset(&set, 0, sizeof set);
+    set.symbolic = f->pair.S;
+    set.factor = f->F;
+    return sl_save_set_file(NOWHERE, &set, opt);
+}
+
 static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) {
     return sl_save_file(NOWHERE, f->pair.S, f->F, opt);
 }
@@ -197,6 +214,8 @@ static const struct {
     {"sl_batch_factor", option_batch_factor, READS_FACTOR | READS_ISA},
     {"sl_load_memory", option_load, READS_ISA},
     {"sl_save_file", option_save, READS_NOTHING},
+    {"sl_load_set_memory", option_load_set, READS_ISA},
+    {"sl_save_set_file", option_save_set, READS_NOTHING},
     {"sl_batch_solve", option_batch_solve, READS_NOTHING},
     {"sl_batch_solve_interleaved", option_batch_interleaved, READS_NOTHING},
     {"sl_batch_refactor", option_batch_refactor, READS_NOTHING},

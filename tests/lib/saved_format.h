@@ -7,6 +7,11 @@
 
 enum { SAVED_HEADER = 64, SAVED_ENTRY = 32, SAVED_KNOWN = 39 };
 
+enum { SAVED_LATER = 3 }; /* a write version that the library does not know */
+
+/* Ids of the first sections of regions and of a selected inverse. */
+enum { SAVED_REGIONS = 96, SAVED_SELECTED = 104 };
+
 /* Bytes of the sections with numbers. */
 enum { SAVED_ANALYSIS_BYTES = 192, SAVED_FACTOR_BYTES = 256 };
 

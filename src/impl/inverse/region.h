@@ -6,34 +6,21 @@
 #include "region_choose.h"
 #include "selected_query.h"
 
-/* Fills the allocated object from the choice, all but its numbers. */
-static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
-    const sl_symbolic *S = c->S;
+/* Fills what follows from the roots and the rows of the boundary: everything but the numbers. */
+static void sli_region_index(sl_region *R) {
+    const sl_symbolic *S = R->S;
     const sl_int n = R->extent.n_rows;
-    sl_int k, i, n_roots = 0, n_rows = 0;
-    R->inside = 0;
-    for (k = 0; k < c->reach.count; k++) {
-        const sli_step *step = &c->steps[k];
-        const sl_int s = S->super_of[step->column];
-        if (c->is_inside[k]) {
-            if (step->up == -1 || !c->is_inside[step->up]) {
-                R->roots[n_roots++] = s;
-                R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
-            }
-            continue;
-        }
-        for (i = 0; i < sli_step_columns(step); i++) {
-            if (c->needed[step->base + i] > 0) {
-                R->rows[n_rows++] = step->column + i;
-            }
-        }
-    }
-    SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == n);
+    sl_int k;
     R->extent.roots = R->roots;
     R->extent.rows = R->rows;
     R->analysis = S->identity;
-    R->identity = sli_hash_ints(R->analysis, R->roots, n_roots);
-    R->identity = sli_hash_ints(R->identity, R->rows, n_rows);
+    R->identity = sli_hash_ints(R->analysis, R->roots, R->extent.n_roots);
+    R->identity = sli_hash_ints(R->identity, R->rows, n);
+    R->inside = 0;
+    for (k = 0; k < R->extent.n_roots; k++) {
+        const sl_int s = R->roots[k];
+        R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
+    }
     R->begin[0] = 0;
     for (k = 0; k < n; k++) {
         R->requested[k] = S->perm[R->rows[k]];
@@ -44,7 +31,30 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
         const sl_int width = sli_min(SLI_REGION_COLUMNS, n - k);
         begin[1] = begin[0] + sli_panel_size(width, n - k);
     }
-    memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n)] * sizeof *R->Z);
+}
+
+/* Fills the allocated object from the choice, all but its numbers. */
+static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
+    const sl_symbolic *S = c->S;
+    sl_int k, i, n_roots = 0, n_rows = 0;
+    for (k = 0; k < c->reach.count; k++) {
+        const sli_step *step = &c->steps[k];
+        const sl_int s = S->super_of[step->column];
+        if (c->is_inside[k]) {
+            if (step->up == -1 || !c->is_inside[step->up]) {
+                R->roots[n_roots++] = s;
+            }
+            continue;
+        }
+        for (i = 0; i < sli_step_columns(step); i++) {
+            if (c->needed[step->base + i] > 0) {
+                R->rows[n_rows++] = step->column + i;
+            }
+        }
+    }
+    SLI_ASSERT(n_roots == R->extent.n_roots && n_rows == R->extent.n_rows);
+    sli_region_index(R);
+    memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n_rows)] * sizeof *R->Z);
 }
 
 /* Chooses and makes the object, without its numbers. may_copy: there is a selected inverse. */
@@ -199,7 +209,7 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
     if (R == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!sli_factor_is_over(F, R->S, R->analysis)) {
+    if (!sli_factor_is_over(F, R->S, R->analysis) || R->is_immutable) {
         return SL_ERR_STATE;
     }
     status = sli_region_check_factor(F, Z);

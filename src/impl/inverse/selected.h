@@ -16,6 +16,8 @@ struct sl_selected {
     sli_traversal traversal; /* of the supernodes that are kept */
     sl_off *begin;           /* count + 1: offsets of the panels, in doubles */
     double *Z;
+    int is_mapped;    /* begin, Z and the list of supernodes are in mapped memory */
+    int is_immutable; /* mapped, or of a file that this version reads in part */
     double seconds; /* of the last computation, and of sl_selected_create its whole */
     size_t bytes;
 };
@@ -194,9 +196,10 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
     if (Z == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    return F->is_valid && sli_factor_is_over(F, Z->traversal.S, Z->analysis)
-               ? sli_selected_fill(Z, F, W)
-               : SL_ERR_STATE;
+    if (!F->is_valid || !sli_factor_is_over(F, Z->traversal.S, Z->analysis) || Z->is_immutable) {
+        return SL_ERR_STATE;
+    }
+    return sli_selected_fill(Z, F, W);
 }
 
 SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
@@ -212,7 +215,7 @@ SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
 SL_API void sl_selected_free(sl_selected *Z) {
     if (Z != NULL) {
         const sl_allocator a = Z->allocator;
-        sli_free(&a, Z->Z);
+        sli_free(&a, Z->is_mapped ? NULL : Z->Z);
         sli_free(&a, Z);
     }
 }

@@ -2,14 +2,17 @@
 #ifndef SLI_SAVE_FORMAT_H
 #define SLI_SAVE_FORMAT_H
 
-#include "../../public/save.h"
+#include "../../public/saved_set.h"
 #include "../analysis/symbolic.h"
 #include "../factor/factor_setup.h"
+#include "../inverse/selected.h"
+#include "../solve/region_types.h"
 
 /* src/FORMAT.md specifies the format. A change of it changes SLI_READ_VERSION if older libraries
  * must not read the new files, and SLI_WRITE_VERSION in any case. */
 #define SLI_READ_VERSION 1
-#define SLI_WRITE_VERSION 1
+#define SLI_WRITE_VERSION 2
+#define SLI_WRITE_VERSION_PLAIN 1 /* of files without regions and selected inverse */
 #define SLI_ORDER_MARK 0x01020304u
 #define SLI_ORDER_MARK_SWAPPED 0x04030201u
 #define SLI_SECTIONS_MAX 64 /* of a file of a later version */
@@ -36,8 +39,20 @@ enum {
     SLI_SECTION_FACTOR = 2,
     SLI_SECTION_PERM = 16, /* arrays of an analysis, in the order of sli_symbolic_layout */
     SLI_SECTION_D = 64,    /* arrays of a factor, in the order of sli_factor_layout */
-    SLI_FACTOR_SECTIONS = 17
+    SLI_FACTOR_SECTIONS = 17,
+    SLI_SECTION_REGIONS = 96, /* the numbers of sli_saved_part, and the following: */
+    SLI_SECTION_REGION_LIST,  /* an sli_saved_region for each region */
+    SLI_SECTION_REGION_ROOTS, /* in these three, each region begins at a multiple of 64 bytes */
+    SLI_SECTION_REGION_ROWS,
+    SLI_SECTION_REGION_Z,
+    SLI_REGION_SECTIONS = 5,
+    SLI_SECTION_SELECTED = 104, /* the numbers of sli_saved_part; supers; begin; Z */
+    SLI_SELECTED_SECTIONS = 4
 };
+
+/* Words of the sections of regions and of a selected inverse. */
+static const uint32_t sli_region_words[SLI_REGION_SECTIONS] = {8, 8, 4, 4, 8};
+static const uint32_t sli_selected_words[SLI_SELECTED_SECTIONS] = {8, 4, 8, 8};
 
 /* Words of 8 bytes only, so that any reader can change their byte order. */
 typedef struct sli_saved_analysis {
@@ -58,12 +73,26 @@ typedef struct sli_saved_factor {
     uint64_t reserved[7];
 } sli_saved_factor;
 
+/* Regions or a selected inverse: how many regions or supernodes, and the identity of the factor. */
+typedef struct sli_saved_part {
+    int64_t count;
+    uint64_t identity[2];
+    int64_t reserved[5];
+} sli_saved_part;
+
+typedef struct sli_saved_region {
+    int64_t roots, rows, is_copied;
+    int64_t reserved[5];
+} sli_saved_region;
+
 /* A file in progress: the header, the table, and where the contents of each section are. */
 typedef struct sli_saved {
     sli_saved_header header;
     sli_section table[SLI_SECTIONS_MAX];
     sli_saved_analysis analysis;
     sli_saved_factor factor;
+    sli_saved_part regions, selected;
+    const sl_saved_set *set; /* whose regions are written */
     /* the first `used` bytes of each section, the others are 0; NULL while only sizes are known */
     const void *data[SLI_SECTIONS_MAX];
     uint64_t used[SLI_SECTIONS_MAX];
@@ -159,12 +188,72 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
 #undef SLI_ADD
 }
 
-/* Fills the table from the numbers of both objects and, where they are known, their arrays.
- * Returns 0 if the sizes overflow. */
-static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *F, int has_factor) {
-    const uint64_t limit = UINT64_C(1) << 62;
-    uint64_t at;
-    uint32_t k;
+/* The bytes that a region takes in each of its sections. */
+static void sli_saved_region_bytes(const sli_saved_region *record, uint64_t *bytes) {
+    bytes[0] = sizeof *record;
+    bytes[1] = sli_round_up(4 * (uint64_t)record->roots);
+    bytes[2] = sli_round_up(4 * (uint64_t)record->rows);
+    bytes[3] = 8 * (uint64_t)sli_region_entries((sl_int)record->rows);
+}
+
+static sli_saved_region sli_saved_region_of(const sl_region *R) {
+    sli_saved_region record;
+    memset(&record, 0, sizeof record);
+    record.roots = R->extent.n_roots;
+    record.rows = R->extent.n_rows;
+    record.is_copied = R->is_copied;
+    return record;
+}
+
+/* Appends the sections of regions, which are written one after the other; returns 0 if their size
+ * is out of range. */
+static int sli_saved_add_regions(sli_saved *f, const sl_saved_set *set) {
+    const uint32_t first = f->header.sections + 1;
+    sl_int k;
+    int m;
+    f->regions.count = set->n_regions;
+    f->set = set;
+    for (m = 0; m < SLI_REGION_SECTIONS; m++) {
+        sli_saved_add(f, (uint32_t)SLI_SECTION_REGIONS + (uint32_t)m, sli_region_words[m],
+                      m == 0 ? &f->regions : NULL, m == 0 ? sizeof f->regions / 8 : 0,
+                      m == 0 ? sizeof f->regions / 8 : 0);
+    }
+    for (k = 0; k < set->n_regions; k++) {
+        const sli_saved_region record = sli_saved_region_of(set->regions[k]);
+        uint64_t bytes[SLI_REGION_SECTIONS - 1];
+        sli_saved_region_bytes(&record, bytes);
+        for (m = 0; m < SLI_REGION_SECTIONS - 1; m++) {
+            f->table[first + (uint32_t)m].bytes += bytes[m];
+        }
+        if (f->table[first + 3].bytes >> 62 != 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Appends the sections of a selected inverse. */
+static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
+    const uint64_t count = (uint64_t)Z->traversal.forest.count, entries = (uint64_t)Z->begin[count];
+    const uint64_t counts[SLI_SELECTED_SECTIONS] = {sizeof f->selected / 8, count, count + 1,
+                                                    entries};
+    const void *data[SLI_SELECTED_SECTIONS];
+    int m;
+    f->selected.count = (int64_t)count;
+    data[0] = &f->selected;
+    data[1] = Z->traversal.supers;
+    data[2] = Z->begin;
+    data[3] = Z->Z;
+    for (m = 0; m < SLI_SELECTED_SECTIONS; m++) {
+        sli_saved_add(f, (uint32_t)SLI_SECTION_SELECTED + (uint32_t)m, sli_selected_words[m],
+                      data[m], counts[m], counts[m]);
+    }
+}
+
+/* Appends the sections of an analysis and a factor to the empty table, from their numbers and,
+ * where they are known, their arrays. */
+static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
+                               int has_factor) {
     f->header.sections = 0;
     sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
                   sizeof f->analysis / 8);
@@ -172,7 +261,13 @@ static int sli_saved_table(sli_saved *f, const sl_symbolic *S, const sl_factor *
                   has_factor ? sizeof f->factor / 8 : 0);
     sli_saved_add_analysis(f, S);
     sli_saved_add_factor(f, F, has_factor);
-    at = sli_saved_prefix(f);
+}
+
+/* Places the sections of the table in the file. Returns 0 if the sizes overflow. */
+static int sli_saved_place(sli_saved *f) {
+    const uint64_t limit = UINT64_C(1) << 62;
+    uint64_t at = sli_saved_prefix(f);
+    uint32_t k;
     for (k = 0; k < f->header.sections; k++) {
         f->table[k].offset = at;
         at += sli_round_up(f->table[k].bytes);

@@ -1,4 +1,4 @@
-/* load.h: creates an analysis and a factor from saved bytes, as copies or in place */
+/* load.h: reads the table, an analysis and a factor from saved bytes, as copies or in place */
 #ifndef SLI_SAVE_LOAD_H
 #define SLI_SAVE_LOAD_H
 
@@ -19,6 +19,7 @@ typedef struct sli_reading {
     sl_symbolic S;   /* drafts of the objects */
     sl_factor F;
     int has_factor;
+    uint32_t first_region, first_selected; /* sections; 0: none */
 } sli_reading;
 
 /* Copies the next bytes. */
@@ -63,14 +64,31 @@ static sl_status sli_read_table(sli_reading *r) {
     return SL_OK;
 }
 
-/* Is the table the one that objects of these sizes have? All sections follow each other. Those of
- * a later version come last. */
-static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) {
-    const uint32_t known = expected->header.sections;
+/* Do the sections from k on have these ids and words? Their lengths are checked when they are
+ * read. */
+static int sli_sections_are(const sli_saved *f, uint32_t k, uint32_t id, const uint32_t *words,
+                            uint32_t count) {
+    uint32_t m;
+    if (f->header.sections - k < count) {
+        return 0;
+    }
+    for (m = 0; m < count; m++) {
+        if (f->table[k + m].id != id + m || f->table[k + m].word != words[m]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Is the table the one that objects of these sizes have? All sections follow each other. Regions
+ * and a selected inverse come after the factor, and what a later version adds comes last. Finds
+ * the sections of regions and selected inverse; 0: none. */
+static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected,
+                                 uint32_t *first_region, uint32_t *first_selected) {
+    uint32_t k, known = expected->header.sections;
     uint64_t at = sli_saved_prefix(f);
-    uint32_t k;
-    if (f->header.sections < known ||
-        (f->header.sections > known && f->header.write_version <= SLI_WRITE_VERSION)) {
+    *first_region = *first_selected = 0;
+    if (f->header.sections < known) {
         return 0;
     }
     for (k = 0; k < f->header.sections; k++) {
@@ -84,7 +102,20 @@ static int sli_table_is_expected(const sli_saved *f, const sli_saved *expected) 
             return 0;
         }
     }
-    return at == f->header.bytes;
+    if (f->header.write_version > SLI_WRITE_VERSION_PLAIN) {
+        if (sli_sections_are(f, known, SLI_SECTION_REGIONS, sli_region_words,
+                             SLI_REGION_SECTIONS)) {
+            *first_region = known;
+            known += SLI_REGION_SECTIONS;
+        }
+        if (sli_sections_are(f, known, SLI_SECTION_SELECTED, sli_selected_words,
+                             SLI_SELECTED_SECTIONS)) {
+            *first_selected = known;
+            known += SLI_SELECTED_SECTIONS;
+        }
+    }
+    return at == f->header.bytes &&
+           (f->header.sections == known || f->header.write_version > SLI_WRITE_VERSION);
 }
 
 /* Checks the checksum of section k if `always` or if all are requested, and gives its words the
@@ -136,8 +167,9 @@ static sl_status sli_read_front(sli_reading *r) {
     memset(&expected, 0, sizeof expected);
     expected.analysis = f->analysis;
     expected.factor = f->factor;
-    if (!sli_saved_table(&expected, &r->S, &r->F, r->has_factor) ||
-        !sli_table_is_expected(f, &expected)) {
+    sli_saved_add_base(&expected, &r->S, &r->F, r->has_factor);
+    if (!sli_saved_place(&expected) ||
+        !sli_table_is_expected(f, &expected, &r->first_region, &r->first_selected)) {
         return SL_ERR_IO;
     }
     f->first_array = expected.first_array;
@@ -251,111 +283,6 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     *out = (sl_factor *)(void *)m.block;
     **out = *F;
     return SL_OK;
-}
-
-/* Reads both objects. */
-static sl_status sli_read(sli_reading *r, sl_symbolic **S, sl_factor **F) {
-    sl_symbolic *found = NULL;
-    sl_status status = sli_read_front(r);
-    if (status == SL_OK && r->is_mapped && r->swapped) {
-        return SL_ERR_UNSUPPORTED;
-    }
-    status = status == SL_OK ? sli_read_analysis(r, &found) : status;
-    if (status == SL_OK && F != NULL && r->has_factor) {
-        status = sli_read_factor(r, found, F);
-    }
-    if (status == SL_OK) {
-        *S = found;
-    } else {
-        sl_symbolic_free(found);
-    }
-    return status;
-}
-
-/* Checks the arguments that all calls have, and begins. */
-static sl_status sli_read_begin(sli_reading *r, sl_symbolic **S, sl_factor **F,
-                                sl_load_checks checks, const sl_options *opt) {
-    memset(r, 0, sizeof *r);
-    if (F != NULL) {
-        *F = NULL;
-    }
-    if (S == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    *S = NULL;
-    if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
-        !sli_options_are_valid(opt, SLI_READS_ISA)) {
-        return SL_ERR_ARGUMENT;
-    }
-    r->checks = checks;
-    r->opt = opt;
-    r->allocator = sli_allocator(opt);
-    return SL_OK;
-}
-
-static sl_status sli_read_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
-                                 sl_load_checks checks, const sl_options *opt, int is_mapped) {
-    sli_reading r;
-    const sl_status status = sli_read_begin(&r, S, F, checks, opt);
-    if (status != SL_OK || memory == NULL || (is_mapped && (uintptr_t)memory % SLI_ALIGN != 0)) {
-        return SL_ERR_ARGUMENT;
-    }
-    r.memory = (const unsigned char *)memory;
-    r.size = bytes;
-    r.is_mapped = is_mapped;
-    return sli_read(&r, S, F);
-}
-
-SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
-                                sl_load_checks checks, const sl_options *opt) {
-    return sli_read_memory(S, F, memory, bytes, checks, opt, 0);
-}
-
-SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
-                               sl_load_checks checks, const sl_options *opt) {
-    return sli_read_memory(S, F, memory, bytes, checks, opt, 1);
-}
-
-SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
-                              sl_load_checks checks, const sl_options *opt) {
-    const int saved = errno;
-    sli_reading r;
-    sl_status status = sli_read_begin(&r, S, F, checks, opt);
-    if (status != SL_OK || path == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    r.file = fopen(path, "rb");
-    if (r.file == NULL) {
-        status = SL_ERR_IO;
-    } else {
-        r.size = sli_file_size(r.file);
-        status = sli_read(&r, S, F);
-        fclose(r.file);
-    }
-    errno = saved;
-    return status;
-}
-
-SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
-                             sl_load_checks checks, const sl_options *opt) {
-    const int saved = errno;
-    sli_mapping map;
-    sli_reading r;
-    sl_status status = sli_read_begin(&r, S, F, checks, opt);
-    if (status != SL_OK || path == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_map(path, &map);
-    if (status == SL_OK) {
-        status = sli_read_memory(S, F, map.bytes, map.size, checks, opt, 1);
-        if (status == SL_OK) {
-            (*S)->mapping = map;
-        } else {
-            sli_unmap(&map);
-        }
-    }
-    errno = saved;
-    return status;
 }
 
 #endif

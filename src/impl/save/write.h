@@ -1,4 +1,4 @@
-/* write.h: sl_save_bytes, sl_save_memory, sl_save_file */
+/* write.h: saves objects in memory or in a file */
 #ifndef SLI_SAVE_WRITE_H
 #define SLI_SAVE_WRITE_H
 
@@ -108,28 +108,105 @@ static void sli_put_filled(sli_sink *to, sli_checksum *sum, const void *data, ui
     }
 }
 
-/* Checks the arguments of a save and fills in everything but the checksums. */
-static sl_status sli_save_prepare(sli_saved *f, const sl_symbolic *S, const sl_factor *F) {
-    sl_factor none;
-    memset(f, 0, sizeof *f);
-    memset(&none, 0, sizeof none);
-    if (S == NULL) {
+/* Writes a piece of a section and zeros up to the next multiple of 64 bytes, or adds both to a
+ * checksum. */
+static void sli_put_piece(sli_sink *to, sli_checksum *sum, const void *data, uint64_t bytes) {
+    if (to == NULL) {
+        sli_checksum_add(sum, data, (size_t)bytes);
+    } else {
+        sli_put_filled(to, NULL, data, bytes, sli_round_up(bytes));
+    }
+}
+
+/* The pieces of all regions in one of their sections. */
+static void sli_put_regions(const sli_saved *f, uint32_t id, sli_sink *to, sli_checksum *sum) {
+    sl_int k;
+    for (k = 0; k < f->set->n_regions; k++) {
+        const sl_region *R = f->set->regions[k];
+        const sli_saved_region record = sli_saved_region_of(R);
+        if (id == SLI_SECTION_REGION_LIST) {
+            sli_put_piece(to, sum, &record, sizeof record);
+        } else if (id == SLI_SECTION_REGION_Z) {
+            sli_put_piece(to, sum, R->Z, 8 * (uint64_t)sli_region_entries(R->extent.n_rows));
+        } else {
+            const int is_roots = id == SLI_SECTION_REGION_ROOTS;
+            sli_put_piece(to, sum, is_roots ? R->extent.roots : R->extent.rows,
+                          4 * (uint64_t)(is_roots ? R->extent.n_roots : R->extent.n_rows));
+        }
+    }
+}
+
+/* Writes section k, or adds it to a checksum. */
+static void sli_put_section(const sli_saved *f, uint32_t k, sli_sink *to, sli_checksum *sum) {
+    const uint32_t id = f->table[k].id;
+    if (id > SLI_SECTION_REGIONS && id < SLI_SECTION_SELECTED) {
+        sli_put_regions(f, id, to, sum);
+    } else {
+        sli_put_filled(to, sum, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+    }
+}
+
+/* Do the objects of a set belong together? */
+static sl_status sli_save_check(const sl_saved_set *set) {
+    const sl_symbolic *S = set->symbolic;
+    const sl_factor *F = set->factor;
+    const sl_selected *Z = set->selected;
+    sl_int k;
+    if (S == NULL || set->n_regions < 0 ||
+        (set->n_regions > 0 && (F == NULL || set->regions == NULL))) {
         return SL_ERR_ARGUMENT;
     }
-    if (S->is_partial || (F != NULL && (!F->is_valid || !sli_factor_is_over(F, S, S->identity)))) {
+    for (k = 0; k < set->n_regions; k++) {
+        if (set->regions[k] == NULL) {
+            return SL_ERR_ARGUMENT;
+        }
+    }
+    if (S->is_partial || (F != NULL && (!F->is_valid || !sli_factor_is_over(F, S, S->identity))) ||
+        (Z != NULL && (Z->traversal.S != S || !sli_hash_equals(Z->analysis, S->identity) ||
+                       (F != NULL && !sli_numbers_are_of(&Z->numbers, F))))) {
         return SL_ERR_STATE;
+    }
+    for (k = 0; k < set->n_regions; k++) {
+        const sl_region *R = set->regions[k];
+        if (R->S != S || !sli_hash_equals(R->analysis, S->identity) || !sli_region_fits(R, F)) {
+            return SL_ERR_STATE;
+        }
+    }
+    return SL_OK;
+}
+
+/* Checks the arguments of a save and fills in everything but the checksums. */
+static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
+    const sl_factor *F = set->factor;
+    const sl_status status = sli_save_check(set);
+    sl_factor none;
+    int fits = 1;
+    memset(f, 0, sizeof *f);
+    memset(&none, 0, sizeof none);
+    if (status != SL_OK) {
+        return status;
     }
     memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
     f->header.order_mark = SLI_ORDER_MARK;
     f->header.read_version = SLI_READ_VERSION;
-    f->header.write_version = SLI_WRITE_VERSION;
-    f->analysis = sli_saved_analysis_of(S);
+    f->header.write_version = SLI_WRITE_VERSION_PLAIN;
+    f->analysis = sli_saved_analysis_of(set->symbolic);
     if (F != NULL) {
         f->factor = sli_saved_factor_of(F);
     }
-    return sli_saved_table(f, S, F != NULL ? F : &none, F != NULL) && f->header.bytes <= SIZE_MAX
-               ? SL_OK
-               : SL_ERR_TOO_LARGE;
+    sli_saved_add_base(f, set->symbolic, F != NULL ? F : &none, F != NULL);
+    if (set->n_regions > 0) {
+        f->header.write_version = SLI_WRITE_VERSION;
+        memcpy(f->regions.identity, f->factor.identity, sizeof f->regions.identity);
+        fits = sli_saved_add_regions(f, set);
+    }
+    if (set->selected != NULL) {
+        f->header.write_version = SLI_WRITE_VERSION;
+        f->selected.identity[0] = set->selected->numbers.identity.a;
+        f->selected.identity[1] = set->selected->numbers.identity.b;
+        sli_saved_add_selected(f, set->selected);
+    }
+    return fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX ? SL_OK : SL_ERR_TOO_LARGE;
 }
 
 /* Computes the checksums, then writes everything. */
@@ -139,7 +216,7 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
     uint32_t k;
     for (k = 0; k < f->header.sections; k++) {
         sli_checksum sum = sli_checksum_begin();
-        sli_put_filled(NULL, &sum, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+        sli_put_section(f, k, NULL, &sum);
         f->table[k].checksum = sli_checksum_end(&sum);
     }
     memset(prefix, 0, sizeof prefix);
@@ -149,28 +226,27 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
     memcpy(prefix, &f->header, sizeof f->header);
     sli_put(to, prefix, size);
     for (k = 0; k < f->header.sections; k++) {
-        sli_put_filled(to, NULL, f->data[k], f->used[k], sli_round_up(f->table[k].bytes));
+        sli_put_section(f, k, to, NULL);
     }
 }
 
-SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
+SL_API sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set) {
     sli_saved f;
     sl_status status;
-    if (bytes == NULL) {
+    if (bytes == NULL || set == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_save_prepare(&f, S, F);
+    status = sli_save_prepare(&f, set);
     if (status == SL_OK) {
         *bytes = (size_t)f.header.bytes;
     }
     return status;
 }
 
-SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
-                                const sl_factor *F) {
+SL_API sl_status sl_save_set_memory(void *memory, size_t bytes, const sl_saved_set *set) {
     sli_saved f;
     sli_sink to;
-    sl_status status = sli_save_prepare(&f, S, F);
+    sl_status status = set == NULL ? SL_ERR_ARGUMENT : sli_save_prepare(&f, set);
     if (status == SL_OK && (memory == NULL || bytes < f.header.bytes)) {
         status = SL_ERR_ARGUMENT;
     }
@@ -183,18 +259,18 @@ SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S
     return status;
 }
 
-SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
-                              const sl_options *opt) {
+SL_API sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
+                                  const sl_options *opt) {
     const int saved = errno;
     const sl_allocator a = sli_allocator(opt);
     sli_output output;
     sli_saved f;
     sli_sink to;
     sl_status status;
-    if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+    if (path == NULL || set == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_save_prepare(&f, S, F);
+    status = sli_save_prepare(&f, set);
     status = status == SL_OK ? sli_output_open(&output, path, &a) : status;
     if (status == SL_OK) {
         int complete;
@@ -207,6 +283,34 @@ SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_f
     }
     errno = saved;
     return status;
+}
+
+/* ---- an analysis and a factor ---- */
+
+/* The set of both. It is only read. */
+static sl_saved_set sli_saved_pair(const sl_symbolic *S, const sl_factor *F) {
+    sl_saved_set set;
+    memset(&set, 0, sizeof set);
+    set.symbolic = (sl_symbolic *)(uintptr_t)S;
+    set.factor = (sl_factor *)(uintptr_t)F;
+    return set;
+}
+
+SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
+    const sl_saved_set set = sli_saved_pair(S, F);
+    return sl_save_set_bytes(bytes, &set);
+}
+
+SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
+                                const sl_factor *F) {
+    const sl_saved_set set = sli_saved_pair(S, F);
+    return sl_save_set_memory(memory, bytes, &set);
+}
+
+SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
+                              const sl_options *opt) {
+    const sl_saved_set set = sli_saved_pair(S, F);
+    return sl_save_set_file(path, &set, opt);
 }
 
 #endif

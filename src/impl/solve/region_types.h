@@ -31,6 +31,8 @@ struct sl_region {
     sl_off *begin;        /* chunks + 1: where each panel begins, in doubles */
     double *Z;
     int is_copied; /* Z was copied from a selected inverse */
+    int is_mapped;    /* Z is in mapped memory, and not a part of the object's block */
+    int is_immutable; /* mapped, or of a file that this version reads in part */
     double seconds;
     size_t bytes;
 };
@@ -55,20 +57,25 @@ SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
     return step;
 }
 
-static void sli_region_layout(sl_region *R, sli_block *b) {
-    const sl_int rows = R->extent.n_rows;
+/* Doubles of Z for a boundary of this many rows. */
+static sl_off sli_region_entries(sl_int rows) {
     sl_off size = 0;
     sl_int first;
+    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+    }
+    return size;
+}
+
+static void sli_region_layout(sl_region *R, sli_block *b) {
+    const sl_int rows = R->extent.n_rows;
     (void)sli_take(b, 1, sizeof(sl_region));
     R->roots = SLI_TAKE(b, sl_int, R->extent.n_roots);
     R->rows = SLI_TAKE(b, sl_int, rows);
     R->requested = SLI_TAKE(b, sl_int, rows);
     R->relative = SLI_TAKE(b, sl_int, rows);
     R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
-    for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-        size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
-    }
-    R->Z = SLI_TAKE(b, double, size);
+    R->Z = R->is_mapped ? R->Z : SLI_TAKE(b, double, sli_region_entries(rows));
     R->bytes = b->used;
 }
 

@@ -1,0 +1,211 @@
+/* load_calls.h: loads and maps from memory and files, a factor or a set; sl_saved_set_free */
+#ifndef SLI_SAVE_LOAD_CALLS_H
+#define SLI_SAVE_LOAD_CALLS_H
+
+#include "load_inverse.h"
+
+/* What a call creates; each includes what is before it. */
+typedef enum sli_wanted { SLI_WANTS_ANALYSIS, SLI_WANTS_FACTOR, SLI_WANTS_ALL } sli_wanted;
+
+SL_API void sl_saved_set_free(sl_saved_set *set) {
+    sl_int k;
+    if (set == NULL) {
+        return;
+    }
+    for (k = 0; k < set->n_regions && set->regions != NULL; k++) {
+        sl_region_free(set->regions[k]);
+    }
+    if (set->regions != NULL) {
+        sli_free(&set->allocator, set->regions);
+    }
+    sl_selected_free(set->selected);
+    sl_factor_free(set->factor);
+    sl_symbolic_free(set->symbolic);
+    memset(set, 0, sizeof *set);
+}
+
+/* Reads the objects in their order in the file. */
+static sl_status sli_read(sli_reading *r, sl_saved_set *set, sli_wanted wanted) {
+    sl_status status = sli_read_front(r);
+    if (status == SL_OK && r->is_mapped && r->swapped) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
+    if (status == SL_OK && wanted >= SLI_WANTS_FACTOR && r->has_factor) {
+        status = sli_read_factor(r, set->symbolic, &set->factor);
+    }
+    if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_region > 0) {
+        status = sli_read_regions(r, set->factor, set);
+    }
+    if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_selected > 0) {
+        status = sli_read_selected(r, set->symbolic, set->factor, &set->selected);
+    }
+    if (status != SL_OK) {
+        sl_saved_set_free(set);
+    }
+    return status;
+}
+
+/* Where the bytes are: in memory, which may be used in place, or in a file. */
+typedef struct sli_origin {
+    const void *memory;
+    size_t bytes;
+    const char *path; /* NULL: in memory */
+    int is_mapped;
+} sli_origin;
+
+static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set,
+                               sli_wanted wanted) {
+    sl_status status = SL_ERR_IO;
+    r->file = fopen(path, "rb");
+    if (r->file != NULL) {
+        r->size = sli_file_size(r->file);
+        status = sli_read(r, set, wanted);
+        fclose(r->file);
+    }
+    return status;
+}
+
+static sl_status sli_read_memory(sli_reading *r, const void *memory, size_t bytes,
+                                 sl_saved_set *set, sli_wanted wanted) {
+    r->memory = (const unsigned char *)memory;
+    r->size = bytes;
+    return sli_read(r, set, wanted);
+}
+
+static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *set,
+                              sli_wanted wanted) {
+    sli_mapping map;
+    sl_status status = sli_map(path, &map);
+    if (status == SL_OK) {
+        status = sli_read_memory(r, map.bytes, map.size, set, wanted);
+        if (status == SL_OK) {
+            set->symbolic->mapping = map;
+        } else {
+            sli_unmap(&map);
+        }
+    }
+    return status;
+}
+
+/* Checks the arguments and reads. The set is all zero, also on error. */
+static sl_status sli_read_from(const sli_origin *from, sl_saved_set *set, sli_wanted wanted,
+                               sl_load_checks checks, const sl_options *opt) {
+    const int saved = errno;
+    const int is_file = from->path != NULL;
+    sli_reading r;
+    sl_status status;
+    if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
+        !sli_options_are_valid(opt, SLI_READS_ISA) || (!is_file && from->memory == NULL) ||
+        (!is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(&r, 0, sizeof r);
+    r.checks = checks;
+    r.opt = opt;
+    r.allocator = sli_allocator(opt);
+    r.is_mapped = from->is_mapped;
+    if (!is_file) {
+        status = sli_read_memory(&r, from->memory, from->bytes, set, wanted);
+    } else if (from->is_mapped) {
+        status = sli_map_path(&r, from->path, set, wanted);
+    } else {
+        status = sli_read_path(&r, from->path, set, wanted);
+    }
+    errno = saved;
+    return status;
+}
+
+static sli_origin sli_origin_in_memory(const void *memory, size_t bytes, int is_mapped) {
+    sli_origin from;
+    from.memory = memory;
+    from.bytes = bytes;
+    from.path = NULL;
+    from.is_mapped = is_mapped;
+    return from;
+}
+
+static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
+    sli_origin from = sli_origin_in_memory(NULL, 0, is_mapped);
+    from.path = path; /* NULL is refused, as memory without an address */
+    return from;
+}
+
+/* ---- an analysis and a factor ---- */
+
+static sl_status sli_read_pair(const sli_origin *from, sl_symbolic **S, sl_factor **F,
+                               sl_load_checks checks, const sl_options *opt) {
+    const sli_wanted wanted = F != NULL ? SLI_WANTS_FACTOR : SLI_WANTS_ANALYSIS;
+    sl_saved_set set;
+    sl_status status = SL_ERR_ARGUMENT;
+    memset(&set, 0, sizeof set);
+    if (S != NULL) {
+        status = sli_read_from(from, &set, wanted, checks, opt);
+        *S = set.symbolic;
+    }
+    if (F != NULL) {
+        *F = set.factor;
+    }
+    return status;
+}
+
+SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                                sl_load_checks checks, const sl_options *opt) {
+    const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
+    return sli_read_pair(&from, S, F, checks, opt);
+}
+
+SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+                               sl_load_checks checks, const sl_options *opt) {
+    const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
+    return sli_read_pair(&from, S, F, checks, opt);
+}
+
+SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+                              sl_load_checks checks, const sl_options *opt) {
+    const sli_origin from = sli_origin_in_file(path, 0);
+    return sli_read_pair(&from, S, F, checks, opt);
+}
+
+SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+                             sl_load_checks checks, const sl_options *opt) {
+    const sli_origin from = sli_origin_in_file(path, 1);
+    return sli_read_pair(&from, S, F, checks, opt);
+}
+
+/* ---- sets ---- */
+
+static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
+                              const sl_options *opt) {
+    if (set == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(set, 0, sizeof *set);
+    return sli_read_from(from, set, SLI_WANTS_ALL, checks, opt);
+}
+
+SL_API sl_status sl_load_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                                    sl_load_checks checks, const sl_options *opt) {
+    const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
+    return sli_read_set(&from, set, checks, opt);
+}
+
+SL_API sl_status sl_map_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                                   sl_load_checks checks, const sl_options *opt) {
+    const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
+    return sli_read_set(&from, set, checks, opt);
+}
+
+SL_API sl_status sl_load_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
+                                  const sl_options *opt) {
+    const sli_origin from = sli_origin_in_file(path, 0);
+    return sli_read_set(&from, set, checks, opt);
+}
+
+SL_API sl_status sl_map_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
+                                 const sl_options *opt) {
+    const sli_origin from = sli_origin_in_file(path, 1);
+    return sli_read_set(&from, set, checks, opt);
+}
+
+#endif

@@ -1,0 +1,394 @@
+/* test_saved_set.c: selected inverses and regions, saved with their factor, loaded and mapped */
+#define _XOPEN_SOURCE 700
+#include "tests/lib/temporary_files.h"
+
+#include "tests/lib/saved_format.h"
+#include "tests/lib/saved_set.h"
+
+static const set_call_t calls[2] = {sl_load_set_memory, sl_map_set_memory};
+
+/* ---- the same answers ---- */
+
+/* The objects of a set follow refactorizations if they are copies, and refuse them if mapped. */
+static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t *m,
+                     int is_mapped) {
+    const sl_status expected = is_mapped ? SL_ERR_STATE : SL_OK;
+    sl_factor *F = got->factor;
+    SL_EXPECT(expected, sl_factor_refactor(F, &q->c.y.M.view, NULL));
+    if (got->selected != NULL) {
+        sl_work *W = NULL;
+        SL_CHECK(sl_work_create(&W, NULL));
+        SL_CHECK(sl_work_reserve_selected(W, got->selected));
+        SL_EXPECT(expected, sl_selected_refactor(got->selected, F, W));
+        sl_work_free(W);
+    }
+    for (sl_int k = 0; k < got->n_regions; k++) {
+        const sl_selected *Z = k == 2 ? got->selected : NULL; /* as it was made */
+        if (!is_mapped) { /* the factor has other numbers now, if the same ones */
+            size_t bytes = 0;
+            SL_EXPECT(SL_ERR_STATE, sl_save_set_bytes(&bytes, got));
+        }
+        SL_EXPECT(expected, sl_region_refactor(got->regions[k], F, Z, NULL));
+    }
+    saved_t again = set_save(got);
+    assert_int_equal(again.size, m->size);
+    assert_memory_equal(again.bytes, m->bytes, m->size);
+    saved_free(&again);
+}
+
+static void round_trip(set_case_t *q, const saved_t *m, int call, sl_load_checks checks,
+                       const sl_options *opt) {
+    sl_saved_set got;
+    memset(&got, 0xA5, sizeof got);
+    SL_CHECK(calls[call](&got, m->bytes, m->size, checks, opt));
+    assert_ptr_equal(sl_factor_view(got.factor).symbolic, got.symbolic);
+    assert_same_set(set_of(q), &got);
+    saved_t again = set_save(&got);
+    assert_int_equal(again.size, m->size);
+    assert_memory_equal(again.bytes, m->bytes, m->size);
+    saved_free(&again);
+    refactor(q, &got, m, call == 1);
+    assert_same_set(set_of(q), &got);
+    sl_saved_set_free(&got);
+    assert_true(got.symbolic == NULL && got.factor == NULL && got.n_regions == 0);
+}
+
+/* The calls for an analysis and a factor read the file, and what they save is their own file. */
+static void read_as_pair(const set_case_t *q, const saved_t *m) {
+    saved_t plain = saved_make(q->c.y.S, q->c.y.F);
+    saved_call_t pair[2] = {sl_load_memory, sl_map_memory};
+    for (int k = 0; k < 2; k++) {
+        sl_saved_set got;
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        SL_CHECK(pair[k](&S, &F, m->bytes, m->size, SL_LOAD_VERIFIED, NULL));
+        saved_t again = saved_make(S, F);
+        assert_int_equal(again.size, plain.size);
+        assert_memory_equal(again.bytes, plain.bytes, plain.size);
+        saved_free(&again);
+        SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE, sl_factor_refactor(F, &q->c.y.M.view, NULL));
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        SL_CHECK(calls[k](&got, plain.bytes, plain.size, SL_LOAD_CHECKED, NULL));
+        assert_true(got.selected == NULL && got.regions == NULL && got.n_regions == 0);
+        again = set_save(&got);
+        assert_memory_equal(again.bytes, plain.bytes, plain.size);
+        saved_free(&again);
+        sl_saved_set_free(&got);
+    }
+    saved_free(&plain);
+}
+
+static void a_set_answers_with_the_same_bits(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    sl_int with_subtrees = 0, copied = 0;
+    for (int v = 0; v < variants.count; v++) {
+        for (int way = 0; way < SAVED_WAYS; way++) {
+            for (gen_kind_t kind = GEN_NONE; kind < GEN_REGULAR; kind = (gen_kind_t)(kind + 1)) {
+                sl_options from = options_none(), opt = options_none();
+                options_set_variant(&from, &variants, v);
+                opt.isa = from.isa;
+                opt.threads.count = (int)kind % 3;
+                set_case_t q = set_case_make(way, kind, 90, 0, (int)kind % 2, &from);
+                saved_t m = set_save(set_of(&q));
+                for (sl_int k = 0; k < q.set.n_regions; k++) {
+                    sl_stats stats;
+                    sl_region_stats(q.regions[k], &stats);
+                    with_subtrees += stats.region.subtrees > 0 && stats.region.boundary > 0;
+                    copied += stats.region.is_copied && stats.region.boundary > 0;
+                }
+                for (int checks = SL_LOAD_CHECKED; checks <= SL_LOAD_VERIFIED; checks++) {
+                    round_trip(&q, &m, 0, (sl_load_checks)checks, &opt);
+                    round_trip(&q, &m, 1, (sl_load_checks)checks, &opt);
+                }
+                read_as_pair(&q, &m);
+                saved_free(&m);
+                set_case_free(&q);
+            }
+        }
+    }
+    print_message("%d regions with subtrees and a boundary, %d copied\n", (int)with_subtrees,
+                  (int)copied);
+    assert_true(with_subtrees > 10 && copied > 10);
+}
+
+static void a_selected_inverse_is_saved_without_its_factor(void **state) {
+    (void)state;
+    for (int is_whole = 0; is_whole < 2; is_whole++) {
+        sl_options from = options_none();
+        set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 144, 0, is_whole, &from);
+        sl_saved_set alone = q.set;
+        alone.factor = NULL;
+        alone.regions = NULL;
+        alone.n_regions = 0;
+        saved_t m = set_save(&alone);
+        for (int k = 0; k < 2; k++) {
+            sl_saved_set got;
+            sl_factor *F = NULL;
+            sl_region *R = NULL;
+            const sl_int row = 3;
+            SL_CHECK(calls[k](&got, m.bytes, m.size, SL_LOAD_VERIFIED, NULL));
+            assert_same_set(&alone, &got);
+            saved_t again = set_save(&got);
+            assert_memory_equal(again.bytes, m.bytes, m.size);
+            saved_free(&again);
+            SL_CHECK(sl_factor_create(&F, got.symbolic, &q.c.y.M.view, &q.c.opt, NULL));
+            SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
+            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE,
+                      sl_selected_refactor(got.selected, F, NULL));
+            assert_same_selected(q.set.selected, got.selected);
+            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE,
+                      sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
+            sl_region_free(R);
+            sl_factor_free(F);
+            sl_saved_set_free(&got);
+        }
+        saved_free(&m);
+        set_case_free(&q);
+    }
+}
+
+/* Neither addresses nor what was in the memory before show in the bytes. */
+static void the_same_objects_give_the_same_bytes(void **state) {
+    (void)state;
+    for (int way = 0; way < SAVED_PIVOTED; way++) {
+        for (int is_whole = 0; is_whole < 2; is_whole++) {
+            counter_t counter = counter_make();
+            sl_options none = options_none(), counted = options_counted(&counter);
+            set_case_t a = set_case_make(way, GEN_GRID2, 196, 0, is_whole, &none),
+                       b = set_case_make(way, GEN_GRID2, 196, 0, is_whole, &counted);
+            saved_t m = set_save(set_of(&a)), k = set_save(set_of(&b));
+            assert_int_equal(m.size, k.size);
+            assert_memory_equal(m.bytes, k.bytes, m.size);
+            saved_free(&m);
+            saved_free(&k);
+            set_case_free(&a);
+            set_case_free(&b);
+            COUNTER_CLEAN(&counter);
+        }
+    }
+}
+
+static void the_other_byte_order_is_loaded(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    set_case_t q = set_case_make(SAVED_SKIPPED, GEN_GRID2, 144, 0, 0, &from);
+    saved_t m = set_save(set_of(&q));
+    saved_change_order(m.bytes);
+    for (int checks = 0; checks < 3; checks++) {
+        sl_saved_set got;
+        SL_CHECK(sl_load_set_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
+        assert_same_set(set_of(&q), &got);
+        sl_saved_set_free(&got);
+        SL_EXPECT(SL_ERR_UNSUPPORTED,
+                  sl_map_set_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
+    }
+    saved_free(&m);
+    set_case_free(&q);
+}
+
+/* ---- files ---- */
+
+static void a_set_is_saved_in_a_file(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 400, 1, 1, &from);
+    const char *path = files_path("set.slf");
+    saved_t m = set_save(set_of(&q));
+    sl_saved_set got;
+    size_t length = 0;
+    errno = 77;
+    SL_CHECK(sl_save_set_file(path, set_of(&q), NULL));
+    char *bytes = files_get(path, &length);
+    assert_int_equal(length, m.size);
+    assert_memory_equal(bytes, m.bytes, m.size);
+    free(bytes);
+    for (int checks = 0; checks < 3; checks++) {
+        SL_CHECK(sl_load_set_file(&got, path, (sl_load_checks)checks, NULL));
+        assert_same_set(set_of(&q), &got);
+        refactor(&q, &got, &m, 0);
+        sl_saved_set_free(&got);
+        SL_CHECK(sl_map_set_file(&got, path, (sl_load_checks)checks, NULL));
+        assert_same_set(set_of(&q), &got);
+        refactor(&q, &got, &m, 1);
+        SL_CHECK(sl_save_set_file(path, &got, NULL)); /* over the file that is mapped */
+        assert_same_set(set_of(&q), &got);
+        sl_saved_set_free(&got);
+    }
+    assert_int_equal(errno, 77);
+    (void)files_put("set.slf", m.bytes, m.size - 64);
+    SL_EXPECT(SL_ERR_IO, sl_load_set_file(&got, path, SL_LOAD_TRUSTED, NULL));
+    assert_null(got.symbolic);
+    SL_EXPECT(SL_ERR_IO, sl_map_set_file(&got, path, SL_LOAD_TRUSTED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_load_set_file(&got, files_path("none"), SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_save_set_file(files_path("no/such/folder"), set_of(&q), NULL));
+    saved_free(&m);
+    set_case_free(&q);
+}
+
+/* ---- arguments ---- */
+
+static void what_does_not_belong_together_is_refused(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 1, &from),
+               z = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 1, &from);
+    sl_saved_set set = *set_of(&q), got;
+    saved_t m = set_save(&set);
+    sl_region *mixed[2] = {q.regions[0], NULL};
+    size_t size = 7;
+#define REFUSED(status, what) \
+    SL_EXPECT(status, sl_save_set_bytes(&size, what)); \
+    SL_EXPECT(status, sl_save_set_memory(m.bytes, m.size, what)); \
+    SL_EXPECT(status, sl_save_set_file(NOWHERE, what, NULL))
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_bytes(NULL, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_memory(NULL, m.size, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_memory(m.bytes, m.size - 1, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_file(NULL, &set, NULL));
+    REFUSED(SL_ERR_ARGUMENT, NULL);
+    set.symbolic = NULL;
+    REFUSED(SL_ERR_ARGUMENT, &set);
+    set = q.set;
+    set.factor = NULL; /* with regions */
+    REFUSED(SL_ERR_ARGUMENT, &set);
+    set = q.set;
+    set.n_regions = -1;
+    REFUSED(SL_ERR_ARGUMENT, &set);
+    set = q.set;
+    set.regions = NULL;
+    REFUSED(SL_ERR_ARGUMENT, &set);
+    set.regions = mixed;
+    set.n_regions = 2;
+    REFUSED(SL_ERR_ARGUMENT, &set); /* a region that is NULL */
+    mixed[1] = z.regions[0];        /* and one of the same numbers, but of another analysis */
+    REFUSED(SL_ERR_STATE, &set);
+    set = q.set;
+    set.selected = z.set.selected;
+    REFUSED(SL_ERR_STATE, &set);
+    set.factor = NULL;
+    set.n_regions = 0;
+    REFUSED(SL_ERR_STATE, &set);
+    set = q.set;
+    set.factor = z.set.factor;
+    REFUSED(SL_ERR_STATE, &set);
+    assert_int_equal(size, 7);
+    /* the numbers of the factor change, those of the others do not */
+    SL_CHECK(sl_factor_refactor(q.c.y.F, &q.c.y.M.view, NULL));
+    REFUSED(SL_ERR_STATE, set_of(&q));
+    for (int k = 0; k < 2; k++) {
+        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](NULL, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        memset(&got, 0xA5, sizeof got);
+        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&got, NULL, m.size, SL_LOAD_CHECKED, NULL));
+        assert_true(got.symbolic == NULL && got.regions == NULL && got.n_regions == 0);
+        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&got, m.bytes, m.size, (sl_load_checks)3, NULL));
+    }
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_set_memory(&got, m.bytes + 8, m.size, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_set_file(&got, NULL, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_set_file(NULL, "x", SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_set_file(&got, NULL, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_set_file(NULL, "x", SL_LOAD_CHECKED, NULL));
+    sl_saved_set_free(NULL);
+    saved_free(&m);
+    set_case_free(&q);
+    set_case_free(&z);
+}
+
+/* A file whose regions or selected inverse name another factor than the one that is in it. */
+static void parts_of_another_factor_are_refused(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 1, &from);
+    saved_t m = set_save(set_of(&q));
+    int found = 0;
+    for (uint32_t s = 0; s < saved_u32(m.bytes + SAVED_SECTIONS); s++) {
+        const uint32_t id = saved_u32(saved_entry(m.bytes, s) + SAVED_ID);
+        if (id != SAVED_REGIONS && id != SAVED_SELECTED) {
+            continue;
+        }
+        unsigned char *identity =
+            m.bytes + saved_u64(saved_entry(m.bytes, s) + SAVED_OFFSET) + 8;
+        identity[found] ^= 1;
+        saved_repair(m.bytes, m.size);
+        for (int k = 0; k < 2; k++) {
+            sl_saved_set got;
+            SL_EXPECT(SL_ERR_IO, calls[k](&got, m.bytes, m.size, SL_LOAD_TRUSTED, NULL));
+        }
+        identity[found++] ^= 1;
+    }
+    assert_int_equal(found, 2);
+    saved_free(&m);
+    set_case_free(&q);
+}
+
+static void every_allocation_of_a_load_may_fail(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    for (int is_whole = 0; is_whole < 2; is_whole++) {
+        set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 144, 0, is_whole, &from);
+        saved_t m = set_save(set_of(&q));
+        for (int call = 0; call < 2; call++) {
+            int done = 0;
+            for (int64_t at = 0; !done; at++) {
+                counter_t counter = counter_make();
+                sl_options opt = options_counted(&counter);
+                sl_saved_set got;
+                counter.fail_at = at;
+                opt.threads.count = 2;
+                const sl_status status =
+                    calls[call](&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
+                done = status == SL_OK;
+                assert_true(done || (status == SL_ERR_MEMORY && got.symbolic == NULL &&
+                                     got.regions == NULL));
+                counter.fail_at = -1;
+                if (done) {
+                    assert_true(at >= 3 + SETS_REGIONS); /* every object, and the array */
+                    assert_same_set(set_of(&q), &got);
+                }
+                sl_saved_set_free(&got);
+                COUNTER_CLEAN(&counter);
+            }
+        }
+        saved_free(&m);
+        set_case_free(&q);
+    }
+}
+
+/* What a mapped set keeps does not grow with the matrix. */
+static void a_mapped_set_keeps_little(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    for (sl_int n = 400; n <= 10000; n *= 5) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, n, 0, 1, &from);
+        saved_t m = set_save(set_of(&q));
+        sl_saved_set got;
+        size_t rows = 0;
+        SL_CHECK(sl_map_set_memory(&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
+        for (sl_int k = 0; k < got.n_regions; k++) {
+            const sl_region_arrays r = sl_region_view(got.regions[k]);
+            rows += (size_t)(r.n_roots + r.n_boundary);
+        }
+        assert_true(counter.live_bytes < 4096 + 500 * SETS_REGIONS + 16 * rows);
+        sl_saved_set_free(&got);
+        COUNTER_CLEAN(&counter);
+        saved_free(&m);
+        set_case_free(&q);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_set_answers_with_the_same_bits),
+        cmocka_unit_test(a_selected_inverse_is_saved_without_its_factor),
+        cmocka_unit_test(the_same_objects_give_the_same_bytes),
+        cmocka_unit_test(the_other_byte_order_is_loaded),
+        cmocka_unit_test(a_set_is_saved_in_a_file),
+        cmocka_unit_test(what_does_not_belong_together_is_refused),
+        cmocka_unit_test(parts_of_another_factor_are_refused),
+        cmocka_unit_test(every_allocation_of_a_load_may_fail),
+        cmocka_unit_test(a_mapped_set_keeps_little),
+    };
+    return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
+}
